@@ -11,9 +11,11 @@
 #include "calibrate/comparison.h"
 #include "calibrate/conditional.h"
 #include "calibrate/cross_validation.h"
+#include "calibrate/determined.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/fit_law.h"
 #include "calibrate/folds.h"
+#include "calibrate/influence.h"
 #include "calibrate/input_columns.h"
 #include "calibrate/metrics.h"
 #include "calibrate/noise_floor.h"
@@ -170,6 +172,7 @@ ModelFit calibrated(const models::Law& law, const models::Conventions& conventio
   const Predicted trained = predict_with_columns(assembled, assembled.inputs, input.training);
   check_stress(law.name, trained, input.training);
   fit.data_range = trained.columns.ranges();
+  add_determination(fit, trained.columns, input.training.experiments.size());
   if (!input.training.condensed) judge_fit(fit, assembled, trained, input);
   fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return fit;
@@ -278,6 +281,7 @@ Calibration calibrate(const CalibrationInput& input) {
                      return a.validation.mae_MPa < b.validation.mae_MPa;
                    });
   add_comparisons(calibration, input);
+  add_influence(calibration, conventions, input);
   add_other_splits(calibration, conventions, input);
   add_noise_floors(calibration, input, scatter);
   add_conditional(calibration, input);

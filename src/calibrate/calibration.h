@@ -19,6 +19,9 @@
 //     fit_law           any law, by its own way
 //   how well it is known, and how well it does
 //     sandwich          standard errors by experiment
+//     stress_error      the standard error of a law's stress at any state
+//     determined        which parameters the tests leave open
+//     influence         which test, left out, moves them or changes the ranking
 //     resampling        errors per experiment, whole experiments resampled
 //     metrics           MAE, RMSE, bias with intervals
 //     experiment_errors the same for single experiments
@@ -51,6 +54,8 @@
 
 namespace frictab::calibrate {
 
+struct Uncertainty; // sandwich.h
+
 struct ModelFit {
   models::Model model;
   std::vector<double> std_error; // per parameter; NaN where the data do not determine it
@@ -59,6 +64,8 @@ struct ModelFit {
   std::size_t evaluations = 0;
   double seconds = 0;               // wall time; kept out of files that must be reproducible
   std::vector<std::string> remarks; // a bound that was hit, a parameter the data do not determine
+  std::shared_ptr<const Uncertainty> uncertainty; // of a law of few parameters; kept out of files
+  Determination determination;
   Metrics training;
   Metrics validation;
   BandCheck band; // of model.experiment_gains, on the validation experiments
@@ -104,6 +111,7 @@ struct Calibration {
   std::string data_hash;                           // 16 hex digits, training and validation
   std::vector<std::string> validation_experiments; // by name, as filed
   Comparisons comparisons;                         // of all pairs, on the validation experiments
+  std::vector<Influence> influence;                // by law as ranked, then by how far it moves
   Choice choice;                        // what choosing the best of them does to its error
   Recommended recommended;              // which law to take
   std::vector<NoiseFloor> noise_floors; // the most trustworthy first

@@ -334,6 +334,8 @@ Json fit_json(const ModelFit& fit) {
             {"remarks", fit.remarks},
             {"experiment_gains", fit.model.experiment_gains},
             {"band", band_json(fit.band)}};
+  if (!fit.model.covariance.empty()) j["covariance"] = fit.model.covariance;
+  if (fit.determination.condition > 0) j["determination"] = determination_json(fit.determination);
   for (const auto& [name, range] : fit.data_range)
     j["data_range"][name] = {range.first, range.second};
   if (fit.network) j["training_record"] = network_json(*fit.network);
@@ -370,6 +372,9 @@ ModelFit parse_fit(const Json& j, const std::string& file) {
   fit.model.law = parse_law(j, file);
   fit.model.experiment_gains = j.at("experiment_gains").get<std::vector<double>>();
   fit.data_range = parse_data_range(j);
+  if (j.contains("covariance")) // not in files of 0.2
+    for (const Json& one : j.at("covariance"))
+      fit.model.covariance.push_back(number_or_nan(one));
   fit.fitted_to_all = j.value("fitted_to", "training") == "all"; // none: files of 0.1.0
   if (j.contains("training_record")) fit.network = parse_network(j.at("training_record"));
   if (j.contains("polynomial")) fit.polynomial = parse_polynomial(j.at("polynomial"));
@@ -399,6 +404,7 @@ ModelFit parse_whole_fit(const Json& j, const char* judged, const std::string& f
   fit.evaluations = io::count_of(j.at("evaluations"));
   fit.seconds = j.at("wall_time_below_s").get<double>() - 0.5; // is written the same again
   fit.remarks = j.at("remarks").get<std::vector<std::string>>();
+  if (j.contains("determination")) fit.determination = parse_determination(j.at("determination"));
   fit.training = parse_metrics(j.at("training"));
   fit.validation = parse_metrics(j.at(judged));
   fit.band = parse_band(j.at("band"));
@@ -459,6 +465,7 @@ std::string calibration_json(const Calibration& calibration) {
                         {"validation_experiments", calibration.validation_experiments},
                         {"noise_floor", noise_floors_json(calibration.noise_floors)},
                         {"models", models},
+                        {"influence", influence_json(calibration.influence)},
                         {"left_out", left_out_json(calibration.left_out)},
                         {"comparisons", comparisons_json(calibration.comparisons)},
                         {"choice", choice_json(calibration.choice)},
@@ -488,6 +495,7 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
           j.at("deliver").get<std::string>() == "all" ? Deliver::all : Deliver::training;
       calibration.delivery_folds = io::count_of(j.at("delivery_folds"));
     }
+    if (j.contains("influence")) calibration.influence = parse_influence(j.at("influence"));
     calibration.choice = parse_choice(j.at("choice"));
     if (j.contains("recommendation")) // not in files of 0.1
       calibration.recommended = parse_recommended(j.at("recommendation"));
@@ -514,7 +522,7 @@ std::string model_json(const ModelFit& fit, const Calibration& calibration) {
   const Json body = fit_json(fit.delivered());
   for (const char* key :
        {"name", "title", "formula", "inputs", "conventions", "parameters", "experiment_gains",
-        "data_range", "law", "expressions", "revision", "fitted_to"})
+        "data_range", "law", "expressions", "revision", "fitted_to", "covariance"})
     if (body.contains(key)) j[key] = body.at(key);
   return io::json_text(j);
 }

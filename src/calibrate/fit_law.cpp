@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/fit_weights.h"
 #include "calibrate/law_problem.h"
 #include "calibrate/slip_distance.h"
 #include "core/no_value.h"
@@ -18,10 +19,11 @@ using models::Calibrated;
 
 namespace {
 
-// Sum and rows of tau over `per` in an experiment; of condensed data over the rows behind them.
+// Sum and rows of tau over `per` in an experiment, each row by its weight; of condensed data over
+// the rows behind them, or of blocks where these differ in their uncertainty.
 data::RatioSum ratio_in(const Dataset& data, std::size_t e, std::span<const double> per,
-                        bool over_pressure, double factor) {
-  if (data.condensed) {
+                        bool over_pressure, double factor, std::span<const double> weights) {
+  if (data.condensed && !has_uncertainties(data)) {
     const data::RowsOfExperiment& one = data.condensed->experiments[e];
     data::RatioSum ratio = over_pressure ? one.over_pressure : one.over_flow;
     ratio.sum /= factor;
@@ -31,41 +33,95 @@ data::RatioSum ratio_in(const Dataset& data, std::size_t e, std::span<const doub
   data::RatioSum ratio;
   for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
     if (!(per[i] > 0)) continue;
-    ratio.sum += tau[i] / (factor * per[i]);
-    ++ratio.rows;
+    const double weight = weights.empty() ? 1 : weights[i];
+    ratio.sum += weight * tau[i] / (factor * per[i]);
+    ratio.rows += weight;
   }
   return ratio;
+}
+
+void keep(ModelFit& fit, Uncertainty uncertainty) {
+  fit.std_error = uncertainty.std_error;
+  fit.model.covariance = row_by_row(uncertainty.covariance);
+  fit.uncertainty = std::make_shared<const Uncertainty>(std::move(uncertainty));
+}
+
+// A mean over rows of experiments.
+struct Mean {
+  std::vector<data::RatioSum> parts; // per experiment
+  double rows = 0, value = 0;
+
+  double off(std::size_t e) const { return parts[e].sum - value * parts[e].rows; }
+};
+
+// Rows of an experiment in which nothing presses, or nothing resists.
+std::size_t count_unloaded(const Dataset& data, std::size_t e, std::span<const double> per,
+                           const data::RatioSum& ratio) {
+  if (!has_uncertainties(data)) return data.rows_behind(e) - static_cast<std::size_t>(ratio.rows);
+  const auto of_test = per.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e]);
+  return static_cast<std::size_t>(
+      std::count_if(of_test.begin(), of_test.end(), [](double x) { return !(x > 0); }));
+}
+
+// Covariance of means of experiments, and where they are without each.
+Uncertainty uncertainty_of(const std::vector<Mean>& means) {
+  const auto size = static_cast<Eigen::Index>(means.size());
+  const std::size_t experiments = means.front().parts.size();
+  const auto count = static_cast<double>(experiments);
+  Uncertainty u;
+  u.correlation.setIdentity(size, size);
+  u.condition = 1;
+  u.covariance.setConstant(size, size, no_value);
+  u.moved_without.setZero(size, static_cast<Eigen::Index>(experiments));
+  u.error_without = u.moved_without;
+  for (Eigen::Index a = 0; a < size; ++a) {
+    const Mean& mean = means[static_cast<std::size_t>(a)];
+    for (Eigen::Index b = 0; b < size && experiments > 1; ++b) {
+      const Mean& other = means[static_cast<std::size_t>(b)];
+      double sum = 0;
+      for (std::size_t e = 0; e < experiments; ++e)
+        sum += mean.off(e) * other.off(e);
+      u.covariance(a, b) = sum * count / (count - 1) / (mean.rows * other.rows);
+    }
+    for (std::size_t e = 0; e < experiments; ++e) {
+      const auto at = static_cast<Eigen::Index>(e);
+      const double part = mean.off(e) / mean.rows;
+      u.moved_without(a, at) = -mean.off(e) / std::max(mean.rows - mean.parts[e].rows, 1.0);
+      u.error_without(a, at) =
+          std::sqrt(std::max(0.0, u.covariance(a, a) - part * part * count / (count - 1)));
+    }
+    u.std_error.push_back(std::sqrt(u.covariance(a, a)));
+    u.why_none.emplace_back(experiments > 1 ? "" : "one experiment only");
+  }
+  return u;
 }
 
 // The paper's calibration: the mean over all rows of mu_meas = tau/sigma_N or m_meas = tau/k, with
 // the standard error of a mean of experiments.
 void fit_means(ModelFit& fit, const Dataset& data) {
+  std::vector<Mean> means;
+  const std::vector<double> weights = fit_weights(data);
   for (const models::Parameter& parameter : fit.model.law->parameters) {
     const bool is_mu = parameter.name == "mu";
     const auto per = data.values(is_mu ? "sigma_n_MPa" : "sigma_f_MPa");
     const double factor = is_mu ? 1 : fit.model.conventions.k_over_sigma_f;
-    double sum = 0, rows = 0;
-    std::vector<std::pair<double, double>> parts; // per experiment: sum, rows
+    Mean mean;
+    double sum = 0;
     std::size_t unloaded = 0;
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-      const data::RatioSum part = ratio_in(data, e, per, is_mu, factor);
-      unloaded += data.rows_behind(e) - static_cast<std::size_t>(part.rows);
-      parts.emplace_back(part.sum, part.rows);
-      sum += part.sum;
-      rows += part.rows;
+      mean.parts.push_back(ratio_in(data, e, per, is_mu, factor, weights));
+      unloaded += count_unloaded(data, e, per, mean.parts.back());
+      sum += mean.parts.back().sum;
+      mean.rows += mean.parts.back().rows;
     }
-    const double mean = sum / rows;
-    double variance = 0;
-    for (const auto& [part, count] : parts)
-      variance += std::pow(part - mean * count, 2);
-    const double experiments = static_cast<double>(parts.size());
-    fit.model.parameters.push_back(mean);
-    fit.std_error.push_back(
-        experiments > 1 ? std::sqrt(variance * experiments / (experiments - 1)) / rows : no_value);
+    mean.value = sum / mean.rows;
+    fit.model.parameters.push_back(mean.value);
+    means.push_back(std::move(mean));
     if (unloaded > 0)
       fit.remarks.push_back(fmt::format("{} rows without load are not in the mean of {}",
                                         thousands(unloaded), parameter.name));
   }
+  keep(fit, uncertainty_of(means));
   fit.termination = "closed form";
   fit.std_error_method = "cluster by experiment";
   fit.evaluations = 1;
@@ -136,11 +192,17 @@ void fit_parameters(ModelFit& fit, const Dataset& data, const CalibrationOptions
   fit.model.parameters = std::move(found.result.parameters);
   fit.termination = std::move(found.result.termination);
   fit.evaluations = found.result.evaluations;
-  fit.std_error = std::move(found.uncertainty.std_error);
-  for (std::string& remark : found.uncertainty.remarks)
-    fit.remarks.push_back(std::move(remark));
+  for (const std::string& remark : found.uncertainty.remarks)
+    fit.remarks.push_back(remark);
+  keep(fit, std::move(found.uncertainty));
   fit.std_error_method = "cluster sandwich by experiment";
   remark_constant_inputs(fit, problem.columns());
+}
+
+// Its bins of rows are weighted by what it finds of their scatter.
+void remark_uncertainties(ModelFit& fit, const Dataset& data) {
+  if (has_uncertainties(data))
+    fit.remarks.push_back("does not use tau_R_error_MPa: it estimates the scatter itself");
 }
 
 void fit_ensemble(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
@@ -158,11 +220,20 @@ void fit_ensemble(ModelFit& fit, const Dataset& data, const CalibrationOptions& 
                                 record.decays.size());
   if (options.loss != Loss::l2)
     fit.remarks.push_back("trained on squared residuals, whatever calibration.loss says");
+  remark_uncertainties(fit, data);
   if (record.dropped > 0)
     fit.remarks.push_back(fmt::format("{} of {} nets failed and are not in the ensemble",
                                       record.dropped, record.dropped + record.members));
   fit.model.experiment_gains = gains_of_new_experiments(std::move(trained.held_out_gains), 0);
   fit.network = record;
+}
+
+// Without one row and its column.
+Eigen::MatrixXd without_row(const Eigen::MatrixXd& m, std::size_t which) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < m.rows(); ++i)
+    if (i != static_cast<Eigen::Index>(which)) kept.push_back(i);
+  return m(kept, kept);
 }
 
 // The distance of its states first; the law that is delivered has it as a number.
@@ -183,6 +254,7 @@ ModelFit fit_at_slip_distance(const models::Law& law, std::size_t parameter,
   joint.std_error.erase(joint.std_error.begin() + at);
   if (std::isfinite(error)) {
     fit.std_error = std::move(joint.std_error);
+    fit.model.covariance = row_by_row(without_row(joint.covariance, parameter));
     fit.std_error_method += ", " + distance.name + " among the parameters";
   } else
     fit.std_error_method += ", at the " + distance.name + " found";
@@ -207,6 +279,7 @@ void fit_terms(ModelFit& fit, const Dataset& data, const CalibrationOptions& opt
   fit.remarks = std::move(fitted.remarks);
   if (options.loss != Loss::l2)
     fit.remarks.push_back("by generalised least squares, whatever calibration.loss says");
+  remark_uncertainties(fit, data);
   fit.model.experiment_gains = gains_of_new_experiments(std::move(fitted.held_out_gains), 0);
   fit.polynomial = std::move(fitted.record);
 }
@@ -225,6 +298,7 @@ ModelFit fit_law(const models::Law& law, const models::Conventions& conventions,
     for (const models::Parameter& parameter : law.parameters)
       fit.model.parameters.push_back(parameter.start);
     fit.std_error.assign(law.parameters.size(), 0.0);
+    fit.model.covariance.assign(law.parameters.size() * law.parameters.size(), 0.0);
     fit.std_error_method = "fixed";
     fit.termination = "not calibrated";
     break;

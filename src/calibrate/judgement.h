@@ -97,6 +97,33 @@ struct Recommended {
   double std_error_MPa = 0; // of that difference, paired by experiment
 };
 
+// What the design of the tests leaves open of a law's parameters (determined.h).
+struct Determination {
+  double condition = 0; // Uncertainty::condition
+  struct Pair {
+    std::string one, other;
+    double correlation = 0;
+  };
+  std::vector<Pair> pairs; // the two that are correlated most
+  struct Open {
+    std::vector<std::string> parameters;
+    std::string text; // "a = -0.16 +- 0.43: these tests do not determine it; ..."
+  };
+  std::vector<Open> not_determined;
+};
+
+// What one test, left out, does to a law (influence.h).
+struct Influence {
+  std::string law;
+  std::string experiment;
+  struct Moved {
+    std::string parameter;
+    double value = 0, without = 0, std_error = 0;
+  };
+  std::vector<Moved> moved; // by more than their standard error, the furthest first
+  std::string first;        // the law that leads the ranking without it; empty: the same
+};
+
 // How much error is left where a law of the state is exact.
 struct NoiseFloor {
   std::string method; // oracle | replicates | within_experiments

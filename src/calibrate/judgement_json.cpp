@@ -1,6 +1,8 @@
 // What validation says, to JSON and back.
 #include "calibrate/judgement_json.h"
 
+#include <limits>
+
 #include <nlohmann/json.hpp>
 
 #include "core/no_value.h"
@@ -151,6 +153,65 @@ std::vector<ExperimentError> parse_unseen(const Json& j,
                       number_or_nan(j.at("mae_MPa").at(e)), number_or_nan(j.at("rmse_MPa").at(e)),
                       number_or_nan(j.at("bias_MPa").at(e)), number_or_nan(j.at("gain").at(e))});
   return errors;
+}
+
+Json determination_json(const Determination& d) {
+  Json pairs = Json::array(), open = Json::array();
+  for (const Determination::Pair& pair : d.pairs)
+    pairs.push_back({{"parameters", {pair.one, pair.other}}, {"correlation", pair.correlation}});
+  for (const Determination::Open& one : d.not_determined)
+    open.push_back({{"parameters", one.parameters}, {"why", one.text}});
+  return {{"meaning", "condition_number: of the curvature, its diagonal scaled to 1; null: "
+                      "determined only in combination; worst_pairs: correlations by the design, "
+                      "where all rows scatter alike"},
+          {"condition_number", d.condition},
+          {"worst_pairs", pairs},
+          {"not_determined", open}};
+}
+
+Determination parse_determination(const Json& j) {
+  Determination d;
+  const Json& condition = j.at("condition_number");
+  d.condition =
+      condition.is_null() ? std::numeric_limits<double>::infinity() : condition.get<double>();
+  for (const Json& pair : j.at("worst_pairs"))
+    d.pairs.push_back({pair.at("parameters").at(0), pair.at("parameters").at(1),
+                       number_or_nan(pair.at("correlation"))});
+  for (const Json& one : j.at("not_determined"))
+    d.not_determined.push_back(
+        {one.at("parameters").get<std::vector<std::string>>(), one.at("why")});
+  return d;
+}
+
+Json influence_json(const std::vector<Influence>& influence) {
+  Json list = Json::array();
+  for (const Influence& one : influence) {
+    Json moved = Json::array();
+    for (const Influence::Moved& m : one.moved)
+      moved.push_back({{"parameter", m.parameter},
+                       {"value", m.value},
+                       {"without", m.without},
+                       {"std_error", m.std_error}});
+    list.push_back({{"law", one.law},
+                    {"experiment", one.experiment},
+                    {"moved", moved},
+                    {"first_without", one.first.empty() ? Json() : Json(one.first)}});
+  }
+  return list;
+}
+
+std::vector<Influence> parse_influence(const Json& j) {
+  std::vector<Influence> influence;
+  for (const Json& one : j) {
+    Influence& i = influence.emplace_back();
+    i.law = one.at("law");
+    i.experiment = one.at("experiment");
+    for (const Json& m : one.at("moved"))
+      i.moved.push_back({m.at("parameter"), number_or_nan(m.at("value")),
+                         number_or_nan(m.at("without")), number_or_nan(m.at("std_error"))});
+    if (!one.at("first_without").is_null()) i.first = one.at("first_without");
+  }
+  return influence;
 }
 
 Json choice_json(const Choice& c) {

@@ -20,6 +20,11 @@ nlohmann::ordered_json unseen_json(const std::vector<ExperimentError>& errors);
 std::vector<ExperimentError> parse_unseen(const nlohmann::ordered_json& j,
                                           const std::vector<std::string>& experiments);
 
+nlohmann::ordered_json determination_json(const Determination& determination);
+Determination parse_determination(const nlohmann::ordered_json& j);
+nlohmann::ordered_json influence_json(const std::vector<Influence>& influence);
+std::vector<Influence> parse_influence(const nlohmann::ordered_json& j);
+
 // null where nothing was drawn.
 nlohmann::ordered_json choice_json(const Choice& choice);
 Choice parse_choice(const nlohmann::ordered_json& j);

@@ -7,6 +7,7 @@
 
 #include <nlopt.hpp>
 
+#include "calibrate/fit_weights.h"
 #include "calibrate/median.h"
 #include "calibrate/normal_equations.h"
 #include "core/random.h"
@@ -142,7 +143,7 @@ void polish(FitResult& fit, const FitProblem& all, const LossFunction& loss) {
 LawProblem::LawProblem(const models::Law& law, const models::Conventions& conventions,
                        const data::Dataset& data, std::span<const double> own_tau_MPa)
     : law_(law), conventions_(conventions), data_(data),
-      columns_(law, models::inputs(law, conventions), data),
+      columns_(law, models::inputs(law, conventions), data), weights_(fit_weights(data)),
       program_(models::tau_formula(law, conventions), columns_.names(),
                models::parameter_names(law)) {
   if (!own_tau_MPa.empty()) columns_.derive_from_tau(own_tau_MPa);
@@ -151,7 +152,7 @@ LawProblem::LawProblem(const models::Law& law, const models::Conventions& conven
   Level all;
   all.columns = columns_.pointers();
   all.measured = data.values("tau_R_MPa");
-  all.weights = data.row_weights();
+  all.weights = weights_;
   all.formula.emplace(program_, data.rows(), all.columns);
   levels_.push_back(std::move(all));
 }
@@ -159,7 +160,7 @@ LawProblem::LawProblem(const models::Law& law, const models::Conventions& conven
 LawProblem::Starts LawProblem::law_starts() const {
   if (!law_.starts) return {};
   models::TrainingRows rows{{"tau_R_MPa", data_.values("tau_R_MPa")}};
-  if (data_.condensed) rows[models::row_weights] = data_.row_weights();
+  if (!weights_.empty()) rows[models::row_weights] = weights_;
   for (std::size_t i = 0; i < columns_.names().size(); ++i)
     rows[columns_.names()[i]] = columns_[i];
   return law_.starts(conventions_, rows);
@@ -180,8 +181,8 @@ void LawProblem::add_thinned(std::size_t rows) {
   for (std::size_t c = 0; c < columns_.names().size(); ++c)
     level.columns.push_back(level.kept[c].data());
   level.measured = level.kept.back();
-  if (data_.condensed) {
-    keep(data_.row_weights());
+  if (!weights_.empty()) {
+    keep(weights_);
     level.weights = level.kept.back();
   }
   level.formula.emplace(program_, rows, level.columns);

@@ -58,6 +58,7 @@ private:
   models::Conventions conventions_;
   const data::Dataset& data_;
   InputColumns columns_;
+  std::vector<double> weights_; // of all rows; empty: all alike
   expr::Program program_;
   std::deque<Level> levels_; // coarse to fine; the last has all rows
 };

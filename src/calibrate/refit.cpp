@@ -11,6 +11,7 @@
 
 #include "calibrate/beyond_ends.h"
 #include "calibrate/cross_validation.h"
+#include "calibrate/determined.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/fit_law.h"
 #include "calibrate/folds.h"
@@ -40,6 +41,7 @@ ModelFit fitted_to(const Dataset& all, const models::Law& law,
   const models::AssembledLaw assembled(fit.model);
   const auto [columns, tau] = predict_with_columns(assembled, assembled.inputs, all);
   fit.data_range = columns.ranges();
+  add_determination(fit, columns, all.experiments.size());
   RowsBeyond beyond;
   beyond.add(*fit.model.law, assembled.inputs, columns, all);
   for (std::string& remark : beyond.told(*fit.model.law, "training and validation"))

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -74,22 +75,40 @@ Scaled scale_by(const MatrixXd& hessian, std::vector<Index> used) {
 // The sandwich (scaled), each experiment's score corrected for its leverage: CR2 of Bell and
 // McCaffrey 2002, which for equal curvature in all rows needs the p x p sums of an experiment only.
 // `alone` are the directions that a single experiment determines: no scatter can be seen there.
+// `without` (scaled, a column per experiment): where the fit of the others is, and its own part of
+// the standard errors.
+struct Without {
+  MatrixXd moved, part;
+};
 MatrixXd covariance(const Scaled& s, std::span<const ExperimentSums> sums,
-                    std::vector<VectorXd>& alone) {
+                    std::vector<VectorXd>& alone, Without& without) {
   MatrixXd meat = MatrixXd::Zero(s.root.rows(), s.root.cols());
-  for (const ExperimentSums& experiment : sums) {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> leverage(s.root * s.matrix(experiment.hessian) *
+  without.moved.resize(s.root.rows(), static_cast<Index>(sums.size()));
+  without.part = without.moved;
+  for (std::size_t e = 0; e < sums.size(); ++e) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> leverage(s.root * s.matrix(sums[e].hessian) *
                                                            s.root);
-    VectorXd score = leverage.eigenvectors().transpose() * (s.root * s.vector(experiment.score));
+    VectorXd score = leverage.eigenvectors().transpose() * (s.root * s.vector(sums[e].score));
+    VectorXd deleted = score;
     for (Index d = 0; d < score.size(); ++d) {
       const double rest = 1 - leverage.eigenvalues()(d);
       if (rest < 1e-6) alone.push_back(s.root * leverage.eigenvectors().col(d));
       score(d) /= std::sqrt(std::max(rest, 1e-6));
+      deleted(d) /= std::max(rest, 1e-6);
     }
     const VectorXd corrected = leverage.eigenvectors() * score;
+    without.moved.col(static_cast<Index>(e)) = -(s.root * (leverage.eigenvectors() * deleted));
+    without.part.col(static_cast<Index>(e)) = s.root * corrected;
     meat += corrected * corrected.transpose();
   }
   return s.root * meat * s.root;
+}
+
+// Of the largest to the smallest curvature of a scaled law.
+double condition_of(const Scaled& s) {
+  const VectorXd& values = s.eigen.eigenvalues(); // ascending
+  const double least = values(0), most = values(values.size() - 1);
+  return least > undetermined ? most / least : std::numeric_limits<double>::infinity();
 }
 
 std::vector<const Parameter*> named(Parameters parameters, const Scaled& s,
@@ -142,7 +161,11 @@ public:
                std::vector<std::string>(values.size()),
                {},
                {values.begin(), values.end()},
-               MatrixXd::Zero(size, size)};
+               MatrixXd::Zero(size, size),
+               MatrixXd::Identity(size, size),
+               0,
+               {},
+               {}};
   }
 
   Uncertainty of(std::span<const ExperimentSums> sums, const MatrixXd& penalty) {
@@ -157,7 +180,9 @@ public:
     const Scaled s = scale_by(hessian, std::move(used));
     const std::vector<char> flat = settle(parameters_, s, result_.settled);
     std::vector<VectorXd> alone;
-    const MatrixXd variance = covariance(s, sums, alone);
+    Without without;
+    const MatrixXd variance = covariance(s, sums, alone, without);
+    fill_design(s, variance, without);
     const std::vector<char> single = along(alone, flat);
     fill_covariance(s, variance, single);
     remark(named(parameters_, s, flat), "determined only in combination", " by these data", true);
@@ -207,6 +232,24 @@ private:
     return single;
   }
 
+  void fill_design(const Scaled& s, const MatrixXd& variance, const Without& without) {
+    result_.condition = condition_of(s);
+    result_.moved_without = MatrixXd::Zero(result_.covariance.rows(), without.moved.cols());
+    result_.error_without = result_.moved_without;
+    const MatrixXd inverse = s.root * s.root;
+    for (Index a = 0; a < s.scale.size(); ++a) {
+      const Index at = s.used[static_cast<std::size_t>(a)];
+      result_.moved_without.row(at) = s.scale(a) * without.moved.row(a);
+      result_.error_without.row(at) =
+          s.scale(a) *
+          (variance(a, a) - without.part.row(a).array().square()).max(0.0).sqrt().matrix();
+      for (Index b = 0; b < s.scale.size(); ++b)
+        result_.correlation(s.used[static_cast<std::size_t>(a)],
+                            s.used[static_cast<std::size_t>(b)]) =
+            inverse(a, b) / std::sqrt(inverse(a, a) * inverse(b, b));
+    }
+  }
+
   void fill_covariance(const Scaled& s, const MatrixXd& variance, const std::vector<char>& single) {
     for (std::size_t a = 0; a < single.size(); ++a)
       for (std::size_t b = 0; b < single.size(); ++b) {
@@ -247,6 +290,11 @@ private:
 };
 
 } // namespace
+
+std::vector<double> row_by_row(const MatrixXd& matrix) {
+  const MatrixXd turned = matrix.transpose();
+  return {turned.data(), turned.data() + turned.size()};
+}
 
 Uncertainty cluster_sandwich(Parameters parameters, std::span<const double> values,
                              std::span<const ExperimentSums> sums, const MatrixXd& penalty) {

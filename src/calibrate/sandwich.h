@@ -41,7 +41,20 @@ struct Uncertainty {
   // for those that one experiment alone determines. Directions that the data leave open are not in
   // it.
   Eigen::MatrixXd covariance;
+  // What the design alone says, whatever the scatter: correlations of the parameters where all rows
+  // scatter alike (from the inverse curvature; 0 beside one that is held), and the condition number
+  // of the curvature, its diagonal scaled to 1 (infinite: determined only in combination; 0: not
+  // known).
+  Eigen::MatrixXd correlation;
+  double condition = 0;
+  // How far the parameters would move without one experiment (columns), to first order: the step
+  // -(H - H_e)^-1 s_e of Gauss and Newton from the optimum of all; and their standard errors then,
+  // from which its own scatter is taken out, or an outlier would hide itself.
+  Eigen::MatrixXd moved_without, error_without;
 };
+
+// As models::Model::covariance has it.
+std::vector<double> row_by_row(const Eigen::MatrixXd& matrix);
 
 // The covariance described above. The 95 % interval of a parameter is +- the t-quantile with E-1
 // degrees of freedom, for E experiments. `parameters` say the bounds of the fit, `values` where it

@@ -46,6 +46,11 @@ void check_values(Part& part) {
                    {part.place(i), "sigma_f_MPa is 0: no metal flows without stress",
                     "was it not measured there? leave such rows out: data.drop = { sigma_f_MPa = { "
                     "below = 1 } }"});
+      if (column.name == "tau_R_error_MPa" && column.values[i] == 0)
+        causes.add("no uncertainty",
+                   {part.place(i), "tau_R_error_MPa is 0: no stress is measured exactly",
+                    "the standard uncertainty of tau_R in MPa, above 0; leave the column out where "
+                    "it is not known"});
       if (std::isfinite(column.values[i]) && std::abs(column.values[i]) > more_than_anything)
         causes.add(
             "high " + column.name,

@@ -13,6 +13,7 @@
 #include "core/text.h"
 #include "data/condense.h"
 #include "data/equal_tests.h"
+#include "data/tests_apart.h"
 
 namespace frictab::data {
 
@@ -37,9 +38,6 @@ constexpr std::size_t stuck_rows = 20, clipped_rows = 10;
 // Of the load of a test: below, nothing is pressed; of its friction: an offset that matters.
 constexpr double no_load = 0.05, half_load = 0.5, offset_share = 0.1;
 constexpr std::size_t rows_without_contact = 10;
-// Tests of a campaign differ, by what it varies; not by this much more than all others.
-constexpr double apart = 3;
-constexpr std::size_t tests_to_compare = 5;
 
 // 0 for none.
 double quantile(std::vector<double> values, double share) {
@@ -487,26 +485,18 @@ Implausible force_offset(const Dataset& data) {
 }
 
 Implausible test_apart(const Dataset& data) {
-  std::vector<std::pair<double, std::size_t>> tests;
-  for (std::size_t e = 0; e < data.experiments.size(); ++e)
-    tests.emplace_back(median(coefficients(data, data.first_row[e], data.first_row[e + 1])), e);
-  if (tests.size() < tests_to_compare) return {};
-  std::sort(tests.begin(), tests.end());
-  const auto told = [&](const auto& test, const char* than, double other) {
-    const std::size_t e = test.second;
-    return Implausible{
-        "", data.rows_behind(e), data.rows_behind(),
-        fmt::format("test '{}' stands apart: coefficient {:.3g} in its middle, {} of all others "
-                    "is {:.3g}",
-                    data.experiments[e], test.first, than, other),
-        "look at it before it is fitted: another unit, another lubricant, a failed test?"};
-  };
-  const std::size_t last = tests.size() - 1;
-  if (tests[last].first > apart * tests[last - 1].first)
-    return told(tests[last], "the largest", tests[last - 1].first);
-  if (apart * tests[0].first < tests[1].first)
-    return told(tests[0], "the smallest", tests[1].first);
-  return {};
+  const std::vector<TestApart> apart = find_tests_apart(data);
+  if (apart.empty()) return {};
+  std::size_t rows = 0;
+  for (const TestApart& one : apart)
+    rows += data.rows_behind(one.test);
+  return {
+      "", rows, data.rows_behind(),
+      fmt::format("test '{}' stands apart: its friction is {:.2g} times what the other {} tests "
+                  "say of its states{}",
+                  data.experiments[apart.front().test], apart.front().factor,
+                  data.experiments.size() - 1, and_more(apart.size() - 1, "test")),
+      "look at it before it is fitted: another unit, another lubricant, a failed test?"};
 }
 
 Implausible copied_test(const Dataset& data) {

@@ -74,6 +74,10 @@ std::span<const Quantity> quantities() {
        .symbol = "tau_R",
        .unit = "MPa",
        .meaning = "measured frictional shear stress"},
+      {.name = "tau_R_error_MPa",
+       .symbol = "u_tau",
+       .unit = "MPa",
+       .meaning = "standard uncertainty of the measured frictional shear stress"},
       {.name = "F_R_N", .symbol = "F_R", .unit = "N", .meaning = "friction force"},
       {.name = "F_N_N", .symbol = "F_N", .unit = "N", .meaning = "normal force"},
   };
@@ -87,7 +91,7 @@ const Quantity* find_quantity(std::string_view name) {
 }
 
 bool is_measured(std::string_view name) {
-  return name == "tau_R_MPa" || name == "F_R_N" || name == "F_N_N";
+  return name == "tau_R_MPa" || name == "tau_R_error_MPa" || name == "F_R_N" || name == "F_N_N";
 }
 
 } // namespace frictab::data

@@ -38,7 +38,7 @@ struct Parameter {
 
 // Columns by canonical name, with tau_R_MPa.
 using TrainingRows = std::map<std::string, std::span<const double>>;
-// Among them, where they are means over blocks: how many rows each stands for.
+// Among them, where rows do not count alike in the fit: what each counts.
 inline constexpr const char* row_weights = "row_weights";
 
 // tau_R = combine(value, state, parameters), value = value(state, parameters).
@@ -115,6 +115,9 @@ struct Model {
   std::shared_ptr<const Law> law;
   Conventions conventions;
   std::vector<double> parameters; // in the law's order
+  // Of the parameters, row by row, with the experiment as the unit: 0 for one that is held, NaN for
+  // one that a single experiment determines. Empty: not known, as of a law that was trained.
+  std::vector<double> covariance = {};
   // One end of the band in which experiments lie (calibrate/band.h): tau_R of the law times `gain`.
   double quantile = 0.5; // of experiments; 0.5: the law itself
   double gain = 1;

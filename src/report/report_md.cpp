@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/influence.h"
 #include "core/text.h"
 #include "report/benchmark_parts.h"
 #include "report/judged.h"
@@ -63,6 +64,11 @@ void add_md_reach(std::string& out, const std::vector<table::Table>& tables) {
   for (const table::Table& table : tables)
     if (const std::string far = table::distance_text(table); !far.empty())
       lines += fmt::format("- {}: {}.\n", markdown_cell(table.model), far);
+  for (const table::Table& table : tables)
+    for (const auto& [name, input] : table.record.inputs)
+      if (input.held_why)
+        lines += fmt::format("- {}: {} {}.\n", markdown_cell(table.model), markdown_cell(name),
+                             markdown_cell(*input.held_why));
   if (!lines.empty()) out += "\n## Tables and tests\n" + lines;
 }
 
@@ -72,6 +78,8 @@ void add_md_traces(std::string& out, const ReportInput& input) {
   out += "\n## What the law lacks\n";
   for (const trace::Trace& t : input.traces) {
     out += fmt::format("- {}: {}.\n", markdown_cell(t.model), markdown_cell(t.remaining.note));
+    for (const trace::Alias& alias : t.cannot_tell)
+      out += fmt::format("- {}: {}.\n", markdown_cell(t.model), markdown_cell(alias.text));
     for (const trace::TracedEffect& effect : t.effects)
       out += fmt::format("- {}: {} ({}), p {}, {} MPa on unseen tests.\n", markdown_cell(t.model),
                          markdown_cell(trace::cause_text(effect)), effect.placed.form->title,
@@ -92,6 +100,8 @@ void add_md_wiring(std::string& out, const std::vector<Recipe>& recipes) {
 
 void add_md_remarks(std::string& out, const calibrate::Calibration& calibration) {
   std::string remarks;
+  if (const std::string one = calibrate::influence_sentence(calibration); !one.empty())
+    remarks += "- influence: " + markdown_cell(one) + "\n";
   for (const calibrate::ModelFit& fit : calibration.fits)
     for (const std::string& remark : fit.remarks)
       remarks +=

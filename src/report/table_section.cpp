@@ -62,6 +62,8 @@ TemplateValues axis_row(const ReportInput& input, const table::Table& table,
   std::string why = table.record.input(axis.name).range_from.value_or("");
   if (const std::string beyond = table::beyond_data_text(axis); !beyond.empty())
     why += (why.empty() ? "" : "; ") + beyond;
+  if (const auto held = table.record.input(axis.name).held_why)
+    why += (why.empty() ? "" : "; ") + *held;
   const bool any = !axis.nodes.empty();
   return {{{"name", svg::escape(axis.name)},
            {"unit", shown_unit(axis.unit)},

@@ -218,6 +218,8 @@ TemplateValues effect_values(const ReportInput& input, const trace::Trace& trace
 
 std::string sentence_of(const trace::Trace& t) {
   std::string text = svg::escape(t.remaining.note) + ". ";
+  for (const trace::Alias& alias : t.cannot_tell)
+    text += svg::escape(alias.text) + ". ";
   for (const std::string& rejected : t.rejected)
     text += "Not added: " + svg::escape(rejected) + ". ";
   return text +

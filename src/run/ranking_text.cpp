@@ -10,6 +10,7 @@
 
 #include "calibrate/choice.h"
 #include "calibrate/comparison.h"
+#include "calibrate/influence.h"
 #include "calibrate/noise_floor.h"
 #include "calibrate/recommended.h"
 #include "calibrate/refit.h"
@@ -131,6 +132,8 @@ void add_ranking(std::string& out, const calibrate::Calibration& calibration) {
     out += fmt::format("  {}\n", which);
   const std::string delivery = calibrate::delivery_sentence(calibration, decimals);
   if (!delivery.empty()) out += fmt::format("  {}\n", delivery);
+  if (const std::string one = calibrate::influence_sentence(calibration); !one.empty())
+    out += fmt::format("  influence: {}\n", one);
   for (const calibrate::ModelFit& fit : calibration.fits)
     for (const std::string& remark : fit.remarks)
       out += fmt::format("  {}: {}\n", fit.model.law->name, remark);

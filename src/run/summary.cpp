@@ -75,6 +75,8 @@ std::string tables_text(const Pipeline& p) {
     for (const table::TableAxis& axis : table.axes)
       if (const std::string beyond = table::beyond_data_text(axis); !beyond.empty())
         out += fmt::format("  {:<{}} {}: {}\n", "", width, axis.name, beyond);
+    for (const auto& [name, input] : table.record.inputs)
+      if (input.held_why) out += fmt::format("  {:<{}} {}: {}\n", "", width, name, *input.held_why);
     if (const std::string far = table::distance_text(table); !far.empty())
       out += fmt::format("  {:<{}} {}\n", "", width, far);
     if (table.interpolation == table::Interpolation::linear && table.nodes() > many_nodes)

@@ -51,7 +51,7 @@ AxisPlan plan_axis(const models::Law& law, const StateRange& range, const TableO
                                    range.name, range.low),
                        "spacing = \"linear\", or a range that starts above 0");
   }
-  plan.axis.below = usual_below(range.name);
+  plan.axis.below = range.below.value_or(usual_below(range.name));
   if (asked != options.axes.end() && !asked->second.outside.empty()) {
     plan.axis.below = *find_outside(asked->second.outside.front());
     plan.axis.above = *find_outside(asked->second.outside.back());

@@ -17,12 +17,17 @@ struct StateRange {
   double high = 0;
   std::string why; // "job file", "Table 1 and training data", "training data", ...
   std::optional<std::pair<double, double>> data = {}; // what the training data reach, where known
+  // What holds below, where the job does not say it, and why not what usually does.
+  std::optional<Outside> below = {};
+  std::string why_held = {};
 };
 
 // Ranges of all inputs of the model, canonical order: the job's; else, where options.range is
 // table1, Table 1 joined with the training data where they cover at least half of it; else the
 // training data's own (a single value is widened by 1 %). Flow stress: half the smallest to twice
-// the largest. Throws InputError for a job range in which the quantity has no meaning.
+// the largest. Where the law is known too badly a tenth below the end at which it would go on
+// (calibrate/stress_error.h), it is held there. Throws InputError for a job range in which the
+// quantity has no meaning.
 std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data::Dataset& training,
                                      const TableOptions& options);
 

@@ -63,6 +63,7 @@ void add_axes(std::string& out, const Table& table) {
       out += fmt::format("; outside: {} below, {} above", outside_name(axis.below),
                          outside_name(axis.above));
     if (const std::string beyond = beyond_data_text(axis); !beyond.empty()) out += "; " + beyond;
+    if (const auto held = table.record.input(axis.name).held_why) out += "; " + *held;
     out += "\n";
   }
   for (const std::string& name : table.inputs())

@@ -4,12 +4,15 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/determined.h"
 #include "calibrate/input_columns.h"
+#include "calibrate/stress_error.h"
 #include "core/error.h"
 #include "data/condense.h"
 #include "data/meaning.h"
 #include "data/quantity.h"
 #include "table/build.h"
+#include "table/outside.h"
 
 namespace frictab::table {
 
@@ -97,6 +100,43 @@ void check_outside(const models::AssembledLaw& law, const std::string& name,
                   name));
 }
 
+// How far below the tests contact points of a forming process still bear: a tenth of the pressure,
+// and so about a tenth of the friction.
+constexpr double far_below = 0.1;
+
+std::string percent(double share) {
+  return fmt::format("{:.2g} %", 100 * share);
+}
+
+// Whether a table may go on by the law below the low end of an axis, where it usually does: its own
+// standard error has to be small there. Not asked where the law holds the state itself, or where
+// the job says what holds. A shear stress that is held would stay where nothing presses, which is
+// further off than any law.
+void judge_end(StateRange& range, std::size_t input, const models::AssembledLaw& law,
+               const calibrate::InputColumns& columns) {
+  if (usual_below(range.name) != Outside::law || law.model.law->held.count(range.name) ||
+      law.model.law->quantity != models::PieceQuantity::mu || !law.piece_inputs.count(range.name))
+    return;
+  const calibrate::StressError error(law.model, columns.names());
+  std::vector<double> state = calibrate::middle_of(columns);
+  const auto at = [&](double value) {
+    state[input] = value;
+    return error.at(state);
+  };
+  const auto there = at(far_below * range.low), here = at(range.low);
+  if (there && *there < calibrate::allowed_error) return;
+  range.below = Outside::clamp;
+  range.why_held =
+      there && here
+          ? fmt::format("held below {:.4g}: at {:.3g} the law's own standard error is {} of the "
+                        "stress, {} are allowed ({} at the end itself)",
+                        range.low, far_below * range.low, percent(*there),
+                        percent(calibrate::allowed_error), percent(*here))
+          : fmt::format("held below {:.4g}: the law's own standard error there is not known",
+                        range.low);
+  range.why_held += fmt::format("; the law there: [table.axes.{}] outside = \"law\"", range.name);
+}
+
 } // namespace
 
 std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data::Dataset& training,
@@ -114,6 +154,8 @@ std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data
       ranges.push_back(default_range(*quantity, columns.range(i), options));
     else
       ranges.push_back(further_range(*law.model.law, name, columns.range(i)));
+    if (found == options.axes.end() || found->second.outside.empty())
+      judge_end(ranges.back(), i, law, columns);
   }
   return ranges;
 }

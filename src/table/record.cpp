@@ -22,6 +22,7 @@ const Names<std::string> text_names = {{{"tool_version", &TableRecord::tool_vers
                                         {"refinement", &TableRecord::refinement},
                                         {"tolerance_from", &TableRecord::tolerance_from}},
                                        {{"range_from_", &InputRecord::range_from},
+                                        {"held_why_", &InputRecord::held_why},
                                         {"units_", &InputRecord::unit},
                                         {"long_name_", &InputRecord::long_name},
                                         {"levels_", &InputRecord::levels}},

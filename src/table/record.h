@@ -22,6 +22,7 @@ struct InputRecord {
   std::optional<double> high = {};
   std::optional<double> worst_case_at = {};   // the state where worst_case_MPa was found
   std::optional<std::string> range_from = {}; // why this range: "job file", "training data", ...
+  std::optional<std::string> held_why = {};   // below its low end, where the law usually goes on
   // Of inputs that are no canonical state (recorded columns, histories):
   std::optional<std::string> unit = {};
   std::optional<std::string> long_name = {}; // meaning

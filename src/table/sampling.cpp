@@ -96,6 +96,7 @@ Table describe_table(const models::AssembledLaw& law, const std::vector<StateRan
     input.low = range.low;
     input.high = range.high;
     input.range_from = range.why;
+    if (!range.why_held.empty()) input.held_why = range.why_held;
     describe_further_input(input, *model.law, range.name);
   }
   table.record.quantile = model.quantile;

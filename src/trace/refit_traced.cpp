@@ -53,12 +53,14 @@ public:
     Rival fit = fit_rival(part.campaign(), rival_.effects, *causes, rival_.parameters, rival_.noise,
                           NoiseSearch::again);
     if (!(rival_.weights.gain > 0)) fit = with_weights(part.campaign(), fit, rows_alike(fit.noise));
+    models::Model model = part.model_of(fit);
     if (uncertain) {
       calibrate::Uncertainty found = uncertainty_of(part.campaign(), fit);
       uncertain->std_error = std::move(found.std_error);
       uncertain->remarks = std::move(found.remarks);
+      model.covariance = calibrate::row_by_row(found.covariance);
     }
-    return part.model_of(fit);
+    return model;
   }
 
 private:

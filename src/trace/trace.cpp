@@ -14,6 +14,7 @@
 #include "core/no_value.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "trace/aliases.h"
 #include "trace/delivery.h"
 #include "trace/design.h"
 #include "trace/detectable.h"
@@ -50,6 +51,7 @@ public:
     add_scatter(trace, search_, delivery_.rival);
     add_detectable(trace, search_, in_.seed);
     add_leads(trace, search_, delivery_.rival);
+    trace.cannot_tell = find_aliases(in_.training, in_.fit.model, in_.options);
     add_verdict(trace, search_, delivery_.contradicted);
     return trace;
   }
@@ -105,6 +107,7 @@ private:
     calibrate::ModelFit& fit = trace.extended;
     fit.model = search_.model_of(rival);
     fit.std_error = uncertainty_.std_error;
+    fit.model.covariance = calibrate::row_by_row(uncertainty_.covariance);
     fit.remarks = uncertainty_.remarks;
     fit.std_error_method = "cluster sandwich by experiment";
     fit.termination = rival.weights.gain > 0

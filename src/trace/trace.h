@@ -32,6 +32,7 @@
 //     scatter          what stays unexplained
 //     detectable       what would have been found
 //     effect_curve     curves for plots
+//     aliases          what the design ties to a state: neither found nor missing
 //     verdict          one word and a few sentences
 //   trace_file, trace_text   results as JSON and in words
 #pragma once
@@ -135,6 +136,14 @@ struct Lead {
   Design design;    // of the strongest, where there is a point in it
 };
 
+// What the tests cannot tell from a state of the law (aliases.h).
+struct Alias {
+  std::string column;
+  std::string state;
+  double share = 0; // of the state's variance between tests that the column explains
+  std::string text; // "batch cannot be told from sigma_n_MPa: A only at 800, B only at 1500; ..."
+};
+
 // Whether the validation tests as a whole lie higher or lower than the training tests.
 struct ValidationShift {
   bool found = false;
@@ -185,6 +194,7 @@ struct Trace {
   NestedCheck nested;
   ValidationShift validation_shift;
   std::vector<Lead> leads;              // strongest first
+  std::vector<Alias> cannot_tell;       // by column
   calibrate::NoiseFloor noise_floor;    // from the noise model: if nothing else is missing
   double scatter_between = 0;           // relative scatter between experiments, standard deviation
   calibrate::Interval scatter_interval; // 95 %

@@ -325,6 +325,14 @@ Verdict parse_verdict(const std::string& text) {
                    std::string("known: ") + verdicts);
 }
 
+Json aliases_json(const std::vector<Alias>& aliases) {
+  Json list = Json::array();
+  for (const Alias& one : aliases)
+    list.push_back(
+        {{"column", one.column}, {"state", one.state}, {"share", one.share}, {"text", one.text}});
+  return list;
+}
+
 Json one_json(const Trace& t) {
   Json effects = Json::array();
   for (const TracedEffect& effect : t.effects)
@@ -365,9 +373,18 @@ Json one_json(const Trace& t) {
             {"directions", t.n_candidates},
             {"sign_flips", t.n_flips},
             {"least_p_value", t.least_p_value}}},
+          {"cannot_tell", aliases_json(t.cannot_tell)},
           {"not_identifiable", t.not_identifiable},
           {"rejected", t.rejected},
           {"notes", t.notes}};
+}
+
+std::vector<Alias> parse_aliases(const Json& j) {
+  std::vector<Alias> aliases;
+  for (const Json& one : j)
+    aliases.push_back(
+        {one.at("column"), one.at("state"), number_or_nan(one.at("share")), one.at("text")});
+  return aliases;
 }
 
 OrderStructure parse_order(const Json& j) {
@@ -426,6 +443,7 @@ Trace parse_one(const Json& j) {
   t.n_candidates = io::count_of(j.at("tried").at("directions"));
   t.n_flips = io::count_of(j.at("tried").at("sign_flips"));
   t.least_p_value = j.at("tried").at("least_p_value");
+  if (j.contains("cannot_tell")) t.cannot_tell = parse_aliases(j.at("cannot_tell"));
   t.not_identifiable = j.at("not_identifiable").get<std::vector<std::string>>();
   t.rejected = j.at("rejected").get<std::vector<std::string>>();
   t.notes = j.at("notes").get<std::vector<std::string>>();

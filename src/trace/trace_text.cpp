@@ -229,6 +229,8 @@ namespace {
 // Verdict, effects, errors before and after.
 std::string found_text(const Trace& t) {
   std::string out = fmt::format("What {} lacks, by its residual: {}\n", t.model, headline(t));
+  for (const Alias& alias : t.cannot_tell)
+    out += "  " + alias.text + "\n";
   for (const TracedEffect& effect : t.effects)
     add_effect(out, effect);
   if (t.extended_model.empty()) return out;
@@ -278,16 +280,29 @@ std::string trace_brief(const Trace& t) {
   return out + not_searched_text(t.notes);
 }
 
+namespace {
+
+// "; batch cannot be told from sigma_n_MPa"
+std::string aliases_in_short(const Trace& t) {
+  std::string text;
+  for (const Alias& alias : t.cannot_tell)
+    text += fmt::format("; {} cannot be told from {}", alias.column, alias.state);
+  return text;
+}
+
+} // namespace
+
 std::string trace_in_short(const Trace& t) {
   std::vector<std::string> causes;
   for (const TracedEffect& effect : t.effects)
     causes.push_back(cause_text(effect));
   if (causes.empty())
-    return fmt::format("{} in the residual of {}; noise floor by the noise model {} MPa",
-                       headline(t), t.model, digits(t.noise_floor.mae_MPa));
-  return fmt::format("{} in {}: {} -> {} MPa on unseen tests, noise floor by the noise model {}",
+    return fmt::format("{} in the residual of {}{}; noise floor by the noise model {} MPa",
+                       headline(t), t.model, aliases_in_short(t), digits(t.noise_floor.mae_MPa));
+  return fmt::format("{} in {}: {} -> {} MPa on unseen tests, noise floor by the noise model {}{}",
                      join(causes, ", "), t.model, digits(t.before.validation.mae_MPa),
-                     digits(t.after.validation.mae_MPa), digits(t.noise_floor.mae_MPa));
+                     digits(t.after.validation.mae_MPa), digits(t.noise_floor.mae_MPa),
+                     aliases_in_short(t));
 }
 
 std::string detectable_text(const Trace& t) {

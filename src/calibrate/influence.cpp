@@ -1,0 +1,175 @@
+// Tests left out, one at a time.
+#include "calibrate/influence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "calibrate/comparison.h"
+#include "calibrate/cross_validation.h"
+#include "calibrate/experiment_errors.h"
+#include "calibrate/fit_law.h"
+#include "calibrate/sandwich.h"
+#include "core/parallel.h"
+#include "core/text.h"
+
+namespace frictab::calibrate {
+
+using Eigen::Index;
+
+namespace {
+
+// Of one law: so many tests are fitted without, where one step says that they matter.
+constexpr std::size_t most_refits = 3;
+// One step is a little off where a law is not linear.
+constexpr double nearly = 0.8;
+
+double size_of(const Influence::Moved& m) {
+  return std::abs(m.without - m.value) / m.std_error;
+}
+
+double size_of(const Influence& one) {
+  return one.moved.empty() ? 0 : size_of(one.moved.front());
+}
+
+// What the law without a test says.
+Influence moved_by(const ModelFit& fit, const std::string& experiment,
+                   const models::Model& without) {
+  Influence found{fit.model.law->name, experiment, {}, ""};
+  const std::size_t size = fit.model.parameters.size();
+  if (without.parameters.size() != size || without.covariance.size() != size * size) return found;
+  for (std::size_t p = 0; p < size; ++p) {
+    const Influence::Moved moved{fit.model.law->parameters[p].name, fit.model.parameters[p],
+                                 without.parameters[p],
+                                 std::sqrt(without.covariance[p * size + p])};
+    if (moved.std_error > 0 && size_of(moved) > 1) found.moved.push_back(moved);
+  }
+  std::stable_sort(found.moved.begin(), found.moved.end(),
+                   [](const auto& a, const auto& b) { return size_of(a) > size_of(b); });
+  return found;
+}
+
+// Tests that may move it, by one step each; the furthest first.
+std::vector<std::size_t> suspects(const Uncertainty& u) {
+  std::vector<std::pair<double, std::size_t>> found;
+  for (Index e = 0; e < u.moved_without.cols(); ++e) {
+    double most = 0;
+    for (Index p = 0; p < u.moved_without.rows(); ++p)
+      if (const double error = u.error_without(p, e); error > 0)
+        most = std::max(most, std::abs(u.moved_without(p, e)) / error);
+    if (most > nearly) found.emplace_back(-most, static_cast<std::size_t>(e));
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<std::size_t> tests;
+  for (const auto& [size, e] : found)
+    if (tests.size() < most_refits) tests.push_back(e);
+  return tests;
+}
+
+// Of one law; the furthest first.
+std::vector<Influence> of_law(const ModelFit& fit, const models::Conventions& conventions,
+                              const CalibrationInput& input) {
+  const std::vector<std::string>& tests = input.training.experiments;
+  std::vector<Influence> found;
+  const auto add = [&](std::size_t e, const models::Model& without) {
+    Influence one = moved_by(fit, tests[e], without);
+    if (!one.moved.empty()) found.push_back(std::move(one));
+  };
+  if (!fit.uncertainty || tests.size() < 3) return found;
+  if (fit.without.size() == tests.size())
+    for (std::size_t e = 0; e < tests.size(); ++e)
+      add(e, fit.without[e]);
+  else
+    for (const std::size_t e : suspects(*fit.uncertainty))
+      add(e,
+          fit_law(*fit.model.law, conventions, without_experiment(input.training, e), input.options)
+              .model);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Influence& a, const Influence& b) { return size_of(a) > size_of(b); });
+  return found;
+}
+
+// The law with the least error where one test (or none: as many as there are) does not judge; of
+// equal ones the first.
+std::size_t first_without(const std::vector<std::vector<ErrorSums>>& laws, std::size_t test) {
+  std::vector<double> mae;
+  for (const std::vector<ErrorSums>& sums : laws) {
+    double absolute = 0, rows = 0;
+    for (std::size_t e = 0; e < sums.size(); ++e)
+      if (e != test) {
+        absolute += sums[e].absolute;
+        rows += sums[e].rows;
+      }
+    mae.push_back(rows > 0 ? absolute / rows : 0);
+  }
+  const double least = *std::min_element(mae.begin(), mae.end());
+  return static_cast<std::size_t>(
+      std::find_if(mae.begin(), mae.end(),
+                   [&](double one) { return one <= least * (1 + same_error); }) -
+      mae.begin());
+}
+
+void add_first_places(Calibration& calibration, const CalibrationInput& input) {
+  const std::vector<std::string>& judges = input.validation.experiments;
+  if (calibration.fits.size() < 2 || judges.size() < 3) return;
+  std::vector<std::vector<ErrorSums>> laws;
+  for (const ModelFit& fit : calibration.fits)
+    laws.push_back(unseen_sums(fit, input.validation));
+  if (first_without(laws, judges.size()) != 0) return; // ranked on rows that are not held
+  const std::string& leader = calibration.fits.front().model.law->name;
+  for (std::size_t e = 0; e < judges.size(); ++e) {
+    const std::size_t first = first_without(laws, e);
+    if (first == 0) continue;
+    const auto known = std::find_if(
+        calibration.influence.begin(), calibration.influence.end(),
+        [&](const Influence& one) { return one.law == leader && one.experiment == judges[e]; });
+    Influence& one = known != calibration.influence.end()
+                         ? *known
+                         : *calibration.influence.insert(calibration.influence.begin(),
+                                                         {leader, judges[e], {}, ""});
+    one.first = calibration.fits[first].model.law->name;
+  }
+}
+
+} // namespace
+
+void add_influence(Calibration& calibration, const models::Conventions& conventions,
+                   const CalibrationInput& input) {
+  std::vector<std::vector<Influence>> of_laws(calibration.fits.size());
+  parallel_for(of_laws.size(), [&](std::size_t i) {
+    of_laws[i] = of_law(calibration.fits[i], conventions, input);
+  });
+  calibration.influence.clear();
+  for (std::vector<Influence>& found : of_laws)
+    calibration.influence.insert(calibration.influence.end(), found.begin(), found.end());
+  add_first_places(calibration, input);
+}
+
+std::string influence_sentence(const Calibration& calibration) {
+  const auto& all = calibration.influence;
+  if (all.empty()) return "";
+  // A first place before a parameter, the better law before the others.
+  const auto most = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return a.first.empty() && !b.first.empty();
+  });
+  std::string text = fmt::format("test '{}'", most->experiment);
+  if (!most->moved.empty()) {
+    const Influence::Moved& m = most->moved.front();
+    text += fmt::format(" moves {}: {} = {:.3g} without it, not {:.3g} ({:.1f} standard errors)",
+                        most->law, m.parameter, m.without, m.value, size_of(m));
+  }
+  if (!most->first.empty())
+    text += fmt::format("{} without it {} would be first, not {}", most->moved.empty() ? ":" : ";",
+                        most->first, most->law);
+  std::vector<std::string> tests;
+  for (const Influence& one : all)
+    if (one.experiment != most->experiment &&
+        std::find(tests.begin(), tests.end(), one.experiment) == tests.end())
+      tests.push_back(one.experiment);
+  if (tests.empty()) return text;
+  return fmt::format("{} ({} more in calibration.json)", text,
+                     tests.size() == 1 ? "1 test" : fmt::format("{} tests", tests.size()));
+}
+
+} // namespace frictab::calibrate

@@ -1,0 +1,53 @@
+// Derivatives of the law's formula, and its covariance.
+#include "calibrate/stress_error.h"
+
+#include <cmath>
+
+namespace frictab::calibrate {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+expr::Program program_of(const models::Model& model, std::vector<std::string> columns) {
+  models::Conventions unlimited = model.conventions;
+  unlimited.shear_limit = false;
+  for (const std::string& name : models::parameter_names(*model.law))
+    columns.push_back(name);
+  return {models::tau_formula(*model.law, unlimited), std::move(columns), {}};
+}
+
+} // namespace
+
+StressError::StressError(const models::Model& model, const std::vector<std::string>& inputs)
+    : parameters_(model.parameters), program_(program_of(model, inputs)) {
+  const auto size = static_cast<Index>(parameters_.size());
+  if (model.covariance.size() != parameters_.size() * parameters_.size()) return;
+  covariance_ = Eigen::Map<const Eigen::MatrixXd>(model.covariance.data(), size, size); // symmetric
+  known_ = covariance_.allFinite();
+}
+
+std::optional<VectorXd> StressError::slope(std::span<const double> state) const {
+  std::vector<double> row(state.begin(), state.end());
+  row.insert(row.end(), parameters_.begin(), parameters_.end());
+  std::vector<double> by(row.size());
+  const double tau = program_.gradient(row, {}, by);
+  const VectorXd slope =
+      Eigen::Map<const VectorXd>(by.data() + state.size(), static_cast<Index>(parameters_.size())) /
+      tau;
+  if (!(tau > 0) || !std::isfinite(tau) || !slope.allFinite()) return std::nullopt;
+  return slope;
+}
+
+double StressError::of(const VectorXd& slope) const {
+  return std::sqrt(std::max(0.0, slope.dot(covariance_ * slope)));
+}
+
+std::optional<double> StressError::at(std::span<const double> state) const {
+  const auto g = known_ ? slope(state) : std::nullopt;
+  if (!g) return std::nullopt;
+  return of(*g);
+}
+
+} // namespace frictab::calibrate

@@ -1,0 +1,47 @@
+// The standard error of a law's stress at any state, by the covariance of its parameters: the delta
+// method, u^2 = g' V g with g = d tau/d p. What the shear limit cuts off is as uncertain as if it
+// did not: where the limit begins depends on the law.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "expr/program.h"
+#include "models/law.h"
+
+namespace frictab::calibrate {
+
+// Beyond the tests a law is followed where its own standard error stays below this share of the
+// stress. It is what friction tests of one campaign scatter by at most (5 to 20 % between repeats
+// of one rig): a law that is known worse says less than the nearest test does.
+inline constexpr double allowed_error = 0.2;
+
+class StressError {
+public:
+  // `inputs`: those of the model's law, and any others.
+  StressError(const models::Model& model, const std::vector<std::string>& inputs);
+
+  // Whether the model has a covariance, without a parameter that one experiment determines.
+  bool known() const { return known_; }
+  // Derivatives of ln tau_R by the parameters at a state in the order of `inputs`; nothing where
+  // the law has no stress there.
+  std::optional<Eigen::VectorXd> slope(std::span<const double> state) const;
+  // Standard error of what changes with `slope`.
+  double of(const Eigen::VectorXd& slope) const;
+  // Relative to the stress. Nothing where it is not known.
+  std::optional<double> at(std::span<const double> state) const;
+
+  const Eigen::MatrixXd& covariance() const { return covariance_; }
+
+private:
+  std::vector<double> parameters_;
+  Eigen::MatrixXd covariance_;
+  bool known_ = false;
+  expr::Program program_; // of inputs and parameters
+};
+
+} // namespace frictab::calibrate

@@ -1,0 +1,28 @@
+// Tests that lie apart from all others, whatever the law.
+//
+// ln of a test's median coefficient is regressed on the medians of its states (ln sigma_N, ln v, T,
+// ln psi: a product of powers comes near every law of the field between tests). A test is apart
+// where the residual from the fit of the others, over its standard error (studentised and deleted:
+// Beckman and Trussell 1974), is one of 20 such campaigns' largest at most (Bonferroni, 5 %), and
+// the test is off by a factor of 1.5 and more. Then again without it, up to a tenth of the tests.
+//
+// That a test is not named does not say that it is like the others: of tests off by 1.5 half are
+// found, and of two alike half.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "data/dataset.h"
+
+namespace frictab::data {
+
+struct TestApart {
+  std::size_t test; // index
+  double factor;    // of its friction, over what the others say
+};
+
+// The furthest first. With fewer than 6 tests nothing can be said.
+std::vector<TestApart> find_tests_apart(const Dataset& data);
+
+} // namespace frictab::data

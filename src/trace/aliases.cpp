@@ -1,0 +1,203 @@
+// Settings of tests against the means of their states.
+#include "trace/aliases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "data/options.h"
+#include "data/quantity.h"
+
+namespace frictab::trace {
+
+using data::Column;
+using data::Dataset;
+using data::Role;
+
+namespace {
+
+constexpr double tied = 0.9;        // share of a state's variance between tests
+constexpr double held = 1e-3;       // of its range: a number varies less within tests
+constexpr double same_value = 0.05; // of a level's tests: told as one value
+constexpr std::size_t least_tests = 4;
+
+// Per test: of a column that tests hold. Empty where they do not.
+std::vector<double> setting_of(const Column& column, const Dataset& data) {
+  const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
+  const double allowed = column.levels.empty() ? held * (*high - *low) : 0;
+  std::vector<double> values;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const double first = column.values[data.first_row[e]];
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
+      if (!(std::abs(column.values[i] - first) <= allowed)) return {}; // or it is not recorded
+    values.push_back(first);
+  }
+  return values;
+}
+
+bool may_act(const Column& column, const TraceOptions& options) {
+  const bool no_cause = column.role == Role::response || column.role == Role::channel ||
+                        column.role == Role::outcome || column.role == Role::ignore ||
+                        column.role == Role::test || column.role == Role::clock;
+  return !no_cause && !data::find_quantity(column.name) && column.name != data::origin_column &&
+         std::find(options.ignore.begin(), options.ignore.end(), column.name) ==
+             options.ignore.end();
+}
+
+// A state of the law, as tests differ in it.
+struct State {
+  std::string name;
+  std::vector<double> means; // per test
+  std::vector<double> at;    // the same, or their logarithms
+};
+
+std::vector<State> states_of(const Dataset& data, const models::Model& model) {
+  models::Conventions unlimited = model.conventions;
+  unlimited.shear_limit = false;
+  std::vector<State> states;
+  for (const std::string& name : models::inputs(*model.law, unlimited)) {
+    const data::Quantity* quantity = data::find_quantity(name);
+    if (!quantity || !quantity->state || name == "s_mm" || !data.has(name)) continue;
+    State state{name, {}, {}};
+    const auto values = data.values(name);
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+      double sum = 0, rows = 0;
+      for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+        sum += data.row_weight(i) * values[i];
+        rows += data.row_weight(i);
+      }
+      state.means.push_back(sum / rows);
+    }
+    const bool log =
+        quantity->log_axis && *std::min_element(state.means.begin(), state.means.end()) > 0;
+    for (const double mean : state.means)
+      state.at.push_back(log ? std::log(mean) : mean);
+    states.push_back(std::move(state));
+  }
+  return states;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values)
+    sum += v;
+  return sum / static_cast<double>(values.size());
+}
+
+double squares_about(const std::vector<double>& values, double middle) {
+  double sum = 0;
+  for (const double v : values)
+    sum += (v - middle) * (v - middle);
+  return sum;
+}
+
+using Levels = std::map<double, std::vector<double>>; // level: what its tests have
+
+Levels by_level(const std::vector<double>& setting, const std::vector<double>& values) {
+  Levels levels;
+  for (std::size_t e = 0; e < setting.size(); ++e)
+    levels[setting[e]].push_back(values[e]);
+  return levels;
+}
+
+// R^2 corrected for `used` means or lines.
+double corrected(double left, double all, std::size_t tests, std::size_t used) {
+  if (!(all > 0) || tests <= used) return 0;
+  return 1 - left / all * static_cast<double>(tests - 1) / static_cast<double>(tests - used);
+}
+
+double explained_by_levels(const std::vector<double>& setting, const std::vector<double>& at) {
+  const Levels levels = by_level(setting, at);
+  double left = 0;
+  for (const auto& [level, values] : levels)
+    left += squares_about(values, mean_of(values));
+  return corrected(left, squares_about(at, mean_of(at)), at.size(), levels.size());
+}
+
+double explained_by_line(const std::vector<double>& setting, const std::vector<double>& at) {
+  const double x0 = mean_of(setting), y0 = mean_of(at);
+  double xy = 0;
+  for (std::size_t e = 0; e < at.size(); ++e)
+    xy += (setting[e] - x0) * (at[e] - y0);
+  const double xx = squares_about(setting, x0), yy = squares_about(at, y0);
+  return xx > 0 ? corrected(yy - xy * xy / xx, yy, at.size(), 2) : 0;
+}
+
+// Three digits: "800" of 799.6.
+std::string figure(double value) {
+  if (value == 0) return "0";
+  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
+  return fmt::format("{:g}", step * std::round(value / step));
+}
+
+std::string values_text(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double middle = mean_of(values);
+  if (*high - *low <= same_value * std::abs(middle)) return figure(middle);
+  return figure(*low) + " to " + figure(*high);
+}
+
+// "A only at 800, B only at 1500; one test of A at 1500 would"
+std::string levels_text(const Column& column, const std::vector<double>& setting,
+                        const State& state) {
+  constexpr std::size_t shown = 4;
+  const Levels levels = by_level(setting, state.means);
+  const auto called = [&](double level) {
+    if (column.levels.empty()) return fmt::format("{:g}", level);
+    const std::string& name = column.levels[static_cast<std::size_t>(level)];
+    return name.empty() ? std::string("an empty cell") : name;
+  };
+  std::vector<std::string> texts;
+  auto lowest = levels.begin(), highest = levels.begin();
+  for (auto at = levels.begin(); at != levels.end(); ++at) {
+    if (texts.size() < shown)
+      texts.push_back(called(at->first) + " only at " + values_text(at->second));
+    if (mean_of(at->second) < mean_of(lowest->second)) lowest = at;
+    if (mean_of(at->second) > mean_of(highest->second)) highest = at;
+  }
+  if (levels.size() > shown) texts.push_back(fmt::format("{} more", levels.size() - shown));
+  return fmt::format("{}; one test of {} at {} would", join(texts, ", "), called(lowest->first),
+                     figure(mean_of(highest->second)));
+}
+
+std::string line_text(const std::string& column, const std::vector<double>& setting,
+                      const State& state) {
+  const auto least = std::min_element(setting.begin(), setting.end());
+  const auto most = std::max_element(setting.begin(), setting.end());
+  const double there = state.means[static_cast<std::size_t>(most - setting.begin())];
+  return fmt::format("they change together; one test with {} {:g} at {} {} would", column, *least,
+                     state.name, figure(there));
+}
+
+} // namespace
+
+std::vector<Alias> find_aliases(const Dataset& training, const models::Model& model,
+                                const TraceOptions& options) {
+  std::vector<Alias> aliases;
+  const std::size_t tests = training.experiments.size();
+  if (tests < least_tests) return aliases;
+  const std::vector<State> states = states_of(training, model);
+  for (const Column& column : training.columns) {
+    if (!may_act(column, options)) continue;
+    const std::vector<double> setting = setting_of(column, training);
+    if (setting.empty()) continue;
+    const std::size_t levels = by_level(setting, setting).size();
+    const bool few = 2 * levels <= tests;
+    if (levels < 2 || (!few && (!column.levels.empty() || levels == tests))) continue;
+    for (const State& state : states) {
+      const double by_levels = few ? explained_by_levels(setting, state.at) : 0;
+      const double by_line = column.levels.empty() ? explained_by_line(setting, state.at) : 0;
+      if (std::max(by_levels, by_line) <= tied) continue;
+      aliases.push_back({column.name, state.name, std::max(by_levels, by_line),
+                         fmt::format("{} cannot be told from {}: {}", column.name, state.name,
+                                     by_levels > tied ? levels_text(column, setting, state)
+                                                      : line_text(column.name, setting, state))});
+    }
+  }
+  return aliases;
+}
+
+} // namespace frictab::trace

@@ -1,0 +1,130 @@
+// What the design ties to a state, and what it crosses.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calibrate/fit_law.h"
+#include "support/gain_campaign.h"
+#include "trace/aliases.h"
+#include "trace/trace_file.h"
+#include "trace/trace_text.h"
+
+namespace frictab::aliases_test {
+
+using data::Dataset;
+using test::add_setting;
+using test::GainCampaign;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+namespace {
+
+// 16 tests, 8 at 800 and 8 at 1500 MPa.
+Dataset two_pressures(std::uint64_t seed = 1) {
+  GainCampaign c = GainCampaign::spread(16, seed);
+  for (std::size_t e = 0; e < 16; ++e)
+    c.pressure[e] = e % 2 ? 1500 : 800;
+  return c.data();
+}
+
+std::vector<double> per_test(const std::function<double(std::size_t)>& value) {
+  std::vector<double> values;
+  for (std::size_t e = 0; e < 16; ++e)
+    values.push_back(value(e));
+  return values;
+}
+
+models::Model law(const Dataset& data, const char* name = "wzl") {
+  return calibrate::fit_law(*models::find_law(name), {.shear_limit = data.has("sigma_f_MPa")}, data,
+                            {})
+      .model;
+}
+
+std::vector<trace::Alias> aliases(const Dataset& data, const trace::TraceOptions& options = {}) {
+  return trace::find_aliases(data, law(data), options);
+}
+
+TEST(Aliases, ALabelAtOnePressureEachCannotBeToldFromIt) {
+  Dataset data = two_pressures();
+  add_setting(data, "batch", per_test([](std::size_t e) { return double(e % 2); }), {"A", "B"});
+  const auto found = aliases(data);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(found[0].column, "batch");
+  EXPECT_EQ(found[0].state, "sigma_n_MPa");
+  EXPECT_GT(found[0].share, 0.99);
+  EXPECT_EQ(found[0].text, "batch cannot be told from sigma_n_MPa: A only at 800, B only at 1500; "
+                           "one test of A at 1500 would");
+  trace::TraceOptions ignored;
+  ignored.ignore = {"batch"};
+  EXPECT_THAT(aliases(data, ignored), IsEmpty());
+  data.columns.back().role = data::Role::channel;
+  EXPECT_THAT(aliases(data), IsEmpty()) << "no setting";
+}
+
+TEST(Aliases, NumbersAreToldAsLevelsOrAsALine) {
+  Dataset data = two_pressures();
+  add_setting(data, "coat_um", per_test([](std::size_t e) { return e % 2 ? 7.5 : 5.0; }));
+  EXPECT_THAT(aliases(data)[0].text, HasSubstr("5 only at 800, 7.5 only at 1500; one test of 5"));
+  GainCampaign c = GainCampaign::spread(16, 2);
+  Dataset line = c.data();
+  add_setting(line, "stroke_speed", per_test([&](std::size_t e) { return 3 * c.speed[e] + 0.1; }));
+  const auto found = aliases(line);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_THAT(found[0].text, HasSubstr("stroke_speed cannot be told from v_rel_mm_s: they change "
+                                       "together; one test with stroke_speed "));
+}
+
+TEST(Aliases, AreNoneOfWhatIsCrossedOrNamesTestsOrVariesWithin) {
+  Dataset data = two_pressures();
+  add_setting(data, "crossed", per_test([](std::size_t e) { return double(e / 2 % 2); }),
+              {"A", "B"});
+  add_setting(data, "specimen", per_test([](std::size_t e) { return double(e); }),
+              {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l", "m", "n", "o", "p"});
+  data.columns.push_back(data.columns[0]);
+  data.columns.back().name = "load_cell_2"; // follows the pressure, row by row
+  EXPECT_THAT(aliases(data), IsEmpty());
+}
+
+TEST(Aliases, AreNoneByChance) {
+  std::size_t found = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Dataset data = GainCampaign::spread(16, seed).data();
+    Random random(seed, 99);
+    add_setting(data, "coating",
+                per_test([&](std::size_t) { return double(random.uniform() < 0.5); }), {"A", "B"});
+    add_setting(data, "rig",
+                per_test([&](std::size_t) { return std::floor(4 * random.uniform()); }));
+    add_setting(data, "roughness", per_test([&](std::size_t) { return random.uniform(); }));
+    found += aliases(data).size();
+  }
+  EXPECT_EQ(found, 0U);
+}
+
+// Materials differ in their flow stress: that is no alias where the law takes it for its limit.
+TEST(Aliases, AreNotAskedOfAStateThatOnlyLimits) {
+  Dataset data = two_pressures();
+  add_setting(data, "sigma_f_MPa",
+              per_test([](std::size_t e) { return e / 2 % 2 ? 480.0 : 620.0; }));
+  add_setting(data, "material", per_test([](std::size_t e) { return double(e / 2 % 2); }),
+              {"A", "B"});
+  EXPECT_THAT(trace::find_aliases(data, law(data, "wzl"), {}), IsEmpty());
+  const auto shear = trace::find_aliases(data, law(data, "shear"), {});
+  ASSERT_THAT(shear, SizeIs(1));
+  EXPECT_EQ(shear[0].state, "sigma_f_MPa");
+}
+
+TEST(Aliases, StandBesideNothingWasFound) {
+  Dataset data = two_pressures();
+  add_setting(data, "batch", per_test([](std::size_t e) { return double(e % 2); }), {"A", "B"});
+  const calibrate::ModelFit fit =
+      calibrate::fit_law(*models::find_law("wzl"), {.shear_limit = false}, data, {});
+  trace::Trace t;
+  t.model = "wzl";
+  t.cannot_tell = trace::find_aliases(data, fit.model, {});
+  EXPECT_THAT(trace::trace_brief(t), HasSubstr("\n  batch cannot be told from sigma_n_MPa: A"));
+  EXPECT_THAT(trace::trace_in_short(t),
+              HasSubstr("in the residual of wzl; batch cannot be told from sigma_n_MPa;"));
+}
+
+} // namespace
+} // namespace frictab::aliases_test
