@@ -1,7 +1,7 @@
 // The calibration stage: which laws the columns allow, their parameters, their errors, the ranking.
 #include <algorithm>
 #include <chrono>
-#include <numeric>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -26,6 +26,7 @@
 #include "core/text.h"
 #include "data/options.h"
 #include "data/quantity.h"
+#include "data/recordings.h"
 #include "effects/extended_law.h"
 
 namespace frictab::calibrate {
@@ -35,11 +36,20 @@ using models::Calibrated;
 
 namespace {
 
+// How many experiments are left out together, at most.
+std::size_t most_kin(const CalibrationInput& input) {
+  const data::Units units = data::units_of(input.training);
+  std::vector<std::size_t> size(units.count, 0);
+  for (const std::size_t unit : units.of)
+    ++size[unit];
+  return *std::max_element(size.begin(), size.end());
+}
+
 // A state may vary by one experiment alone: without it a trained law has no input.
 bool varies_without_each(const models::Law& law, const CalibrationInput& input) {
   if (input.judged_by != JudgedBy::leave_one_out) return true;
   for (std::size_t e = 0; e < input.training.experiments.size(); ++e)
-    if (network_inputs(law, without_experiment(input.training, e)).empty()) return false;
+    if (network_inputs(law, without_kin(input.training, e)).empty()) return false;
   return true;
 }
 
@@ -51,7 +61,7 @@ std::vector<std::string> missing_for(const models::Law& law, const models::Conve
     const auto states = network_inputs(law, input.training);
     needed.insert(needed.end(), states.begin(), states.end());
     const std::size_t least =
-        network_experiments + (input.judged_by == JudgedBy::leave_one_out ? 1 : 0);
+        network_experiments + (input.judged_by == JudgedBy::leave_one_out ? most_kin(input) : 0);
     if (input.training.experiments.size() < least)
       missing.push_back(fmt::format("{} experiments to train", least));
     else if (states.empty() || !varies_without_each(law, input))
@@ -180,14 +190,15 @@ ModelFit calibrated(const models::Law& law, const models::Conventions& conventio
 
 void judge_by_leaving_out(std::vector<ModelFit>& fits, const std::vector<const models::Law*>& laws,
                           const models::Conventions& conventions, const CalibrationInput& input) {
-  std::vector<std::size_t> alone(input.training.experiments.size());
-  std::iota(alone.begin(), alone.end(), 0);
-  CrossValidation cross = cross_validate(laws, conventions, input.training, input.options, alone);
+  const data::Units units = data::units_of(input.training);
+  CrossValidation cross =
+      cross_validate(laws, conventions, input.training, input.options, units.of);
   for (std::size_t i = 0; i < fits.size(); ++i) {
     fits[i].validation =
         metrics(sums_of(cross.errors[i]), input.options.bootstrap, input.options.seed);
     fits[i].unseen = std::move(cross.errors[i]);
-    fits[i].without = std::move(cross.without[i]);
+    for (const std::size_t unit : units.of)
+      fits[i].without.push_back(cross.without[i][unit]);
     fits[i].band = check_band(fits[i].model, {}, input.training.subset({}));
     fits[i].band.inside = cross.bands[i].inside;
     fits[i].band.experiments = cross.bands[i].experiments;
@@ -202,22 +213,30 @@ void judge_by_the_fit(std::vector<ModelFit>& fits, const CalibrationInput& input
   }
 }
 
+// Of the undivided data: recordings that validation has, or tests.
+std::size_t units_held_out(const CalibrationInput& input) {
+  const bool whole = data::units_of(*input.undivided).count < input.undivided->experiments.size();
+  if (!whole) return input.validation.experiments.size();
+  const std::vector<std::size_t>& held = input.validation.recording;
+  return std::set(held.begin(), held.end()).size();
+}
+
 // The split drawn again and again: each experiment predicted by laws fitted without its fold.
 void add_other_splits(Calibration& calibration, const models::Conventions& conventions,
                       const CalibrationInput& input) {
   if (!input.undivided || calibration.choice.draws == 0) return;
-  const std::size_t tests = input.undivided->experiments.size();
-  const std::size_t held = input.validation.experiments.size();
-  const std::size_t folds = std::max<std::size_t>(2, tests / held);
+  const data::Units units = data::units_of(*input.undivided);
+  const std::size_t held = units_held_out(input);
+  const std::size_t folds = std::max<std::size_t>(2, units.count / held);
   std::vector<const models::Law*> laws;
   for (const ModelFit& fit : calibration.fits)
     if (!fit.reference) laws.push_back(input.models.laws.find(fit.model.law->name));
   const CrossValidation cross =
       cross_validate(laws, conventions, *input.undivided, input.options,
-                     experiment_folds(tests, folds, input.options.seed, 0));
+                     experiment_folds(units, folds, input.options.seed, 0));
   std::vector<LawErrors> errors;
   for (std::size_t i = 0; i < laws.size(); ++i)
-    errors.push_back({laws[i]->name, sums_of(cross.errors[i])});
+    errors.push_back({laws[i]->name, by_recording(sums_of(cross.errors[i]))});
   add_split_shares(calibration.choice, errors, held, input.options.seed);
 }
 
@@ -260,6 +279,9 @@ Calibration calibrate(const CalibrationInput& input) {
   calibration.judged_by = input.judged_by;
   calibration.deliver = input.options.deliver;
   calibration.synthetic = is_synthetic(input.training) || is_synthetic(input.validation);
+  if (const data::Units units = data::units_of(input.training);
+      units.count < input.training.experiments.size())
+    calibration.recordings = units.count;
   calibration.data_hash = data::fingerprint(input.training, input.validation);
   calibration.validation_experiments = input.validation.experiments;
   calibration.fits.resize(selection.laws.size());

@@ -117,6 +117,7 @@ struct Calibration {
   std::vector<NoiseFloor> noise_floors; // the most trustworthy first
   Conditional conditional;
   Deliver deliver = Deliver::training;
+  std::size_t recordings = 0;     // that training experiments are intervals of; 0: each is one
   std::size_t delivery_folds = 0; // of experiments, that cross-validated ModelFit::on_all
 };
 

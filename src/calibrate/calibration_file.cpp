@@ -462,6 +462,7 @@ std::string calibration_json(const Calibration& calibration) {
                         {"judged_by", judged_by_name(calibration.judged_by)},
                         {"deliver", deliver_name(calibration.deliver)},
                         {"delivery_folds", calibration.delivery_folds},
+                        {"recordings", calibration.recordings},
                         {"validation_experiments", calibration.validation_experiments},
                         {"noise_floor", noise_floors_json(calibration.noise_floors)},
                         {"models", models},
@@ -496,6 +497,7 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
       calibration.delivery_folds = io::count_of(j.at("delivery_folds"));
     }
     if (j.contains("influence")) calibration.influence = parse_influence(j.at("influence"));
+    if (j.contains("recordings")) calibration.recordings = io::count_of(j.at("recordings"));
     calibration.choice = parse_choice(j.at("choice"));
     if (j.contains("recommendation")) // not in files of 0.1
       calibration.recommended = parse_recommended(j.at("recommendation"));

@@ -10,6 +10,7 @@
 #include "calibrate/calibration.h"
 #include "calibrate/choice.h"
 #include "calibrate/experiment_errors.h"
+#include "calibrate/noise_floor.h"
 #include "calibrate/recommended.h"
 #include "core/no_value.h"
 #include "core/parallel.h"
@@ -283,8 +284,10 @@ void add_comparisons(Calibration& calibration, const CalibrationInput& input) {
   std::vector<LawErrors> laws(calibration.fits.size());
   parallel_for(laws.size(), [&](std::size_t i) {
     const ModelFit& fit = calibration.fits[i];
-    laws[i] = {fit.model.law->name, unseen_sums(fit, input.validation), !fit.reference};
+    laws[i] = {fit.model.law->name, by_recording(unseen_sums(fit, input.validation)),
+               !fit.reference};
   });
+  lower_noise_floors(calibration); // traced laws may err less
   calibration.comparisons = compare(laws, input.options.bootstrap, input.options.seed);
   const Choice before = std::move(calibration.choice);
   std::erase_if(laws, [](const LawErrors& law) { return !law.candidate; });

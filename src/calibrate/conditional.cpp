@@ -105,7 +105,7 @@ void add_rests(std::vector<LawErrors>& both, const models::Model& model, const G
 void add_left_out_rests(std::vector<LawErrors>& both, const ModelFit& fit, const Dataset& data,
                         double x_mm) {
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-    const GainPrior prior = prior_of(fit.without[e], without_experiment(data, e), x_mm);
+    const GainPrior prior = prior_of(fit.without[e], without_kin(data, e), x_mm);
     add_rests(both, fit.without[e], prior, data.subset(std::array{e}), x_mm);
   }
 }

@@ -7,6 +7,7 @@
 #include "calibrate/fit_law.h"
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "data/recordings.h"
 
 namespace frictab::calibrate {
 
@@ -42,10 +43,9 @@ BandCheck pooled(const std::vector<BandCheck>& folds) {
 
 } // namespace
 
-Dataset without_experiment(const Dataset& data, std::size_t experiment) {
-  std::vector<std::size_t> fold_of(data.experiments.size(), 0);
-  fold_of[experiment] = 1;
-  return data.subset(parts_of(fold_of, 1).in);
+Dataset without_kin(const Dataset& data, std::size_t experiment) {
+  const data::Units units = data::units_of(data);
+  return data.subset(parts_of(units.of, units.of[experiment]).in);
 }
 
 CrossValidation cross_validate(std::span<const models::Law* const> laws,

@@ -8,7 +8,8 @@
 
 namespace frictab::calibrate {
 
-data::Dataset without_experiment(const data::Dataset& data, std::size_t experiment);
+// Without an experiment and those of its recording (data/recordings.h).
+data::Dataset without_kin(const data::Dataset& data, std::size_t experiment);
 
 // Per law, in the order given.
 struct CrossValidation {

@@ -33,21 +33,28 @@ ExperimentError error_of(const std::string& experiment, bool held_out, const Err
           sums.absolute / sums.rows,
           std::sqrt(sums.square / sums.rows),
           sums.residual / sums.rows,
-          gain};
+          gain,
+          sums.recording};
 }
 
 std::vector<ErrorSums> sums_of(const std::vector<ExperimentError>& errors) {
   std::vector<ErrorSums> sums;
   for (const ExperimentError& one : errors) {
     const auto rows = static_cast<double>(one.n_rows);
-    sums.push_back(
-        {rows * one.mae_MPa, rows * one.rmse_MPa * one.rmse_MPa, rows * one.bias_MPa, rows});
+    sums.push_back({rows * one.mae_MPa, rows * one.rmse_MPa * one.rmse_MPa, rows * one.bias_MPa,
+                    rows, one.recording});
   }
   return sums;
 }
 
 std::vector<ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& validation) {
-  if (!fit.unseen.empty()) return sums_of(fit.unseen);
+  if (!fit.unseen.empty()) {
+    std::vector<ErrorSums> sums = sums_of(fit.unseen);
+    if (validation.recording.size() == sums.size()) // files do not say them
+      for (std::size_t e = 0; e < sums.size(); ++e)
+        sums[e].recording = validation.recording[e];
+    return sums;
+  }
   if (!fit.on_rows.empty()) {
     const auto end = fit.on_rows.end();
     return sums_of({end - static_cast<std::ptrdiff_t>(validation.experiments.size()), end});

@@ -188,7 +188,7 @@ void fit_parameters(ModelFit& fit, const Dataset& data, const CalibrationOptions
     own_tau = settled_tau(fit, data, options);
   const LawProblem problem(law, conventions, data, own_tau);
   LawFit found = problem.fit(options.loss, options.huber_delta_MPa);
-  problem.add_uncertainty(found, options.loss, options.huber_delta_MPa, data.first_row);
+  problem.add_uncertainty(found, options.loss, options.huber_delta_MPa, data);
   fit.model.parameters = std::move(found.result.parameters);
   fit.termination = std::move(found.result.termination);
   fit.evaluations = found.result.evaluations;

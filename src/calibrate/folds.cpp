@@ -27,6 +27,15 @@ std::vector<std::size_t> experiment_folds(std::size_t experiments, std::size_t f
   return fold;
 }
 
+std::vector<std::size_t> experiment_folds(const data::Units& units, std::size_t folds,
+                                          std::uint64_t seed, std::uint64_t repeat) {
+  const std::vector<std::size_t> of_unit = experiment_folds(units.count, folds, seed, repeat);
+  std::vector<std::size_t> fold;
+  for (const std::size_t unit : units.of)
+    fold.push_back(of_unit[unit]);
+  return fold;
+}
+
 std::string leak_note(const data::Dataset& training, const data::Dataset& validation) {
   const auto same = data::tests_of_equal_rows(validation, training);
   const auto shared = std::count_if(same.begin(), same.end(), [](const auto& s) { return !!s; });

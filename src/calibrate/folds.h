@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "data/dataset.h"
+#include "data/recordings.h"
 
 namespace frictab::calibrate {
 
@@ -14,6 +15,9 @@ namespace frictab::calibrate {
 // experiment at most, and no fold is empty. Throws InputError where there are fewer than 2 folds or
 // fewer experiments than folds.
 std::vector<std::size_t> experiment_folds(std::size_t experiments, std::size_t folds,
+                                          std::uint64_t seed, std::uint64_t repeat);
+// The same of units that are never parted: fold sizes then differ by one unit at most.
+std::vector<std::size_t> experiment_folds(const data::Units& units, std::size_t folds,
                                           std::uint64_t seed, std::uint64_t repeat);
 
 // For two files, where equal names prove nothing: says how many validation experiments have the

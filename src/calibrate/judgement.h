@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/resampling.h"
+
 namespace frictab::calibrate {
 
 struct Interval {
@@ -44,6 +46,7 @@ struct ExperimentError {
   double rmse_MPa = 0;
   double bias_MPa = 0; // mean of measured minus predicted
   double gain = 0;     // factor of the law that fits this test best; NaN: it predicts no stress
+  std::size_t recording = no_recording; // kept out of files
 };
 
 // How far two errors on the same experiments are apart.
@@ -136,6 +139,7 @@ struct NoiseFloor {
   std::size_t n_experiments = 0;
   std::size_t n_groups = 0; // replicates: groups of experiments with the same set levels
   bool lower_bound = false; // the scatter between experiments is not in it
+  double measured_MPa = 0;  // MAE where it is more than the best law errs, to which it is lowered
 };
 
 // A law with one gain per experiment, predicted from that experiment's own first millimetres.

@@ -44,6 +44,7 @@ Json floor_json(const NoiseFloor& f) {
           {"n_experiments", f.n_experiments},
           {"n_groups", f.n_groups},
           {"lower_bound", f.lower_bound},
+          {"lowered_from_MPa", f.measured_MPa > 0 ? Json(f.measured_MPa) : Json()},
           {"synthetic_only", f.method == "oracle"}};
 }
 
@@ -57,7 +58,10 @@ NoiseFloor parse_floor(const Json& j) {
           io::count_of(j.at("n_rows")),
           io::count_of(j.at("n_experiments")),
           io::count_of(j.at("n_groups")),
-          j.at("lower_bound")};
+          j.at("lower_bound"),
+          j.contains("lowered_from_MPa") && !j.at("lowered_from_MPa").is_null()
+              ? j.at("lowered_from_MPa").get<double>()
+              : 0};
 }
 
 Json conditional_fit_json(const ConditionalFit& fit) {

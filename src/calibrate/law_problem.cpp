@@ -11,6 +11,7 @@
 #include "calibrate/median.h"
 #include "calibrate/normal_equations.h"
 #include "core/random.h"
+#include "data/recordings.h"
 
 namespace frictab::calibrate {
 
@@ -262,16 +263,37 @@ LawFit LawProblem::fit(Loss kind, double huber_delta_MPa) const {
   return {fits.front(), {}};
 }
 
+namespace {
+
+std::vector<ExperimentSums> by_unit(std::vector<ExperimentSums> sums, const data::Units& units) {
+  if (units.count == sums.size()) return sums;
+  std::vector<ExperimentSums> added(units.count);
+  for (std::size_t e = 0; e < sums.size(); ++e) {
+    ExperimentSums& one = added[units.of[e]];
+    if (one.score.size() == 0) {
+      one = std::move(sums[e]);
+      continue;
+    }
+    one.score += sums[e].score;
+    one.hessian += sums[e].hessian;
+  }
+  return added;
+}
+
+} // namespace
+
 void LawProblem::add_uncertainty(LawFit& fit, Loss kind, double huber_delta_MPa,
-                                 std::span<const std::size_t> first_row) const {
+                                 const data::Dataset& data) const {
   const FitProblem all = problem(levels_.back());
   FitResult& result = fit.result;
   // For L1 the cost is the mean residual: the score is its sign, but for a thousandth of that.
   const LossFunction loss = kind == Loss::l1 ? LossFunction{kind, 1e-3 * result.cost, result.cost}
                                              : LossFunction{kind, huber_delta_MPa};
   const auto uncertainty = [&] {
-    return cluster_sandwich(law_.parameters, result.parameters,
-                            sums_by_experiment(all, loss, result.parameters, first_row));
+    return cluster_sandwich(
+        law_.parameters, result.parameters,
+        by_unit(sums_by_experiment(all, loss, result.parameters, data.first_row),
+                data::units_of(data)));
   };
   fit.uncertainty = uncertainty();
   if (fit.uncertainty.settled == result.parameters) return;

@@ -31,10 +31,10 @@ public:
   // is exact (weighted median).
   LawFit fit(Loss loss, double huber_delta_MPa) const;
 
-  // Standard errors and remarks; moves the parameters to Uncertainty::settled where that costs
-  // nothing.
+  // Standard errors, with recordings as clusters (data/recordings.h), and remarks; moves the
+  // parameters to Uncertainty::settled where that costs nothing.
   void add_uncertainty(LawFit& fit, Loss loss, double huber_delta_MPa,
-                       std::span<const std::size_t> first_row) const;
+                       const data::Dataset& data) const;
 
   const InputColumns& columns() const { return columns_; }
 

@@ -81,7 +81,8 @@ Interval not_negative(Interval interval) {
 
 } // namespace
 
-Metrics metrics(std::span<const ErrorSums> sums, std::size_t resamples, std::uint64_t seed) {
+Metrics metrics(std::span<const ErrorSums> of_tests, std::size_t resamples, std::uint64_t seed) {
+  const std::vector<ErrorSums> sums = by_recording(of_tests);
   const Draws draws{resamples, seed};
   const auto rows = column_of(sums, &ErrorSums::rows);
   const Estimate mae = estimate(column_of(sums, &ErrorSums::absolute), rows, Measure::mean, draws);
@@ -97,7 +98,7 @@ Metrics metrics(std::span<const ErrorSums> sums, std::size_t resamples, std::uin
   m.bias_interval = bias.interval;
   for (const ErrorSums& one : sums)
     m.n_rows += static_cast<std::size_t>(one.rows);
-  m.n_experiments = sums.size();
+  m.n_experiments = of_tests.size();
   return m;
 }
 

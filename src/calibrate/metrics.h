@@ -24,6 +24,7 @@ Metrics metrics(std::span<const double> measured, std::span<const double> predic
                 std::span<const std::size_t> first_row, std::size_t resamples, std::uint64_t seed);
 Metrics metrics(const data::Dataset& data, std::span<const double> predicted, std::size_t resamples,
                 std::uint64_t seed);
-Metrics metrics(std::span<const ErrorSums> sums, std::size_t resamples, std::uint64_t seed);
+// Intervals of one recording are drawn together, as one experiment.
+Metrics metrics(std::span<const ErrorSums> of_tests, std::size_t resamples, std::uint64_t seed);
 
 } // namespace frictab::calibrate

@@ -91,6 +91,7 @@ models::NetworkInput scaling(const std::string& name, double smallest, const Vec
 }
 
 struct TrainingSet {
+  data::Units units; // that folds do not part
   std::vector<models::NetworkInput> inputs;
   NetworkBins bins;
   NetworkShape shape;
@@ -101,6 +102,7 @@ TrainingSet prepare(const models::Law& law, const data::Dataset& data,
                     const models::Conventions& conventions) {
   const Binning binning(data);
   TrainingSet set;
+  set.units = data::units_of(data);
   NetworkBins& bins = set.bins;
   bins.first = binning.first_bin;
   bins.weight = binning.weights();
@@ -156,14 +158,14 @@ Fold make_fold(const NetworkBins& bins, const std::vector<std::size_t>& fold_of,
 class Training {
 public:
   Training(const TrainingSet& set, std::uint64_t seed)
-      : set_(set), seed_(seed), folds_(std::min(most_folds, set.bins.experiments())) {}
+      : set_(set), seed_(seed), folds_(std::min(most_folds, set.units.count)) {}
 
   std::size_t folds() const { return folds_; }
 
   // One fit per decay of the path, each started from the one before.
   std::vector<NetworkFit> path(std::size_t repeat, std::size_t fold, NetworkScatter scatter,
                                const std::vector<double>& path_decays) const {
-    const auto fold_of = experiment_folds(set_.bins.experiments(), folds_, seed_, repeat);
+    const auto fold_of = experiment_folds(set_.units, folds_, seed_, repeat);
     const Fold part = make_fold(set_.bins, fold_of, fold);
     VectorXd start = random_weights(set_.shape, Random(seed_, (repeat << 8) + fold + 0x6e6574));
     std::vector<NetworkFit> fits;
@@ -194,7 +196,7 @@ public:
     const double rms = std::sqrt(coulomb.squaredNorm() / static_cast<double>(coulomb.size()));
     if (!(rms > 0)) return {1, 0};
     const auto paths = all_paths(1, {rms / 2, 0}, {3});
-    const auto fold_of = experiment_folds(set_.bins.experiments(), folds_, seed_, 0);
+    const auto fold_of = experiment_folds(set_.units, folds_, seed_, 0);
     double within = 0, gain_square = 0, freedom = 0;
     std::vector<std::pair<double, double>> gains; // along the gain: residual, reach
     for (std::size_t f = 0; f < folds_; ++f) {
@@ -225,7 +227,7 @@ public:
     const NetworkBins& bins = set_.bins;
     VectorXd tau = VectorXd::Zero(bins.stress.size());
     for (std::size_t r = 0; r < paths.size() / folds_; ++r) {
-      const auto fold_of = experiment_folds(bins.experiments(), folds_, seed_, r);
+      const auto fold_of = experiment_folds(set_.units, folds_, seed_, r);
       for (std::size_t e = 0; e < bins.experiments(); ++e) {
         const NetworkBins one = bins.of(std::array{e});
         tau.segment(bins.first[e], one.stress.size()) +=

@@ -214,17 +214,44 @@ void add_noise_floors(Calibration& calibration, const CalibrationInput& input,
     });
     calibration.noise_floors.insert(calibration.noise_floors.end(), both.begin(), both.end());
   }
+  lower_noise_floors(calibration);
+}
+
+void lower_noise_floors(Calibration& calibration) {
+  if (calibration.judged_by == JudgedBy::fit) return; // no law has met an unseen test
+  const auto lower = [](Interval& interval, double most) {
+    interval = {std::min(interval.low, most), std::min(interval.high, most)};
+  };
+  for (const ModelFit& fit : calibration.fits)
+    for (NoiseFloor& floor : calibration.noise_floors) {
+      if (floor.method == "oracle" || !(fit.validation.mae_MPa < floor.mae_MPa)) continue;
+      if (floor.measured_MPa == 0) floor.measured_MPa = floor.mae_MPa;
+      floor.mae_MPa = fit.validation.mae_MPa;
+      floor.rmse_MPa = std::min(floor.rmse_MPa, fit.validation.rmse_MPa);
+      lower(floor.mae_interval, floor.mae_MPa);
+      lower(floor.rmse_interval, floor.rmse_MPa);
+    }
+}
+
+const char* noise_floor_sign(const NoiseFloor& floor) {
+  if (floor.measured_MPa > 0) return "< ";
+  return floor.lower_bound ? "> " : "";
 }
 
 std::string noise_floor_name(const NoiseFloor& floor) {
   if (floor.method == "oracle") return "the twin's own truth, synthetic data only";
+  const std::string lowered =
+      floor.measured_MPa > 0
+          ? fmt::format(" ({:.3g} MPa, more than the best law errs)", floor.measured_MPa)
+          : "";
   if (floor.method == "replicates")
-    return fmt::format("{} repeated tests in {} group{}", floor.n_experiments, floor.n_groups,
-                       floor.n_groups == 1 ? "" : "s");
-  return "scatter within experiments only";
+    return fmt::format("{} repeated tests in {} group{}{}", floor.n_experiments, floor.n_groups,
+                       floor.n_groups == 1 ? "" : "s", lowered);
+  return "scatter within experiments only" + lowered;
 }
 
 std::string noise_floor_limits(const NoiseFloor& floor) {
+  if (floor.measured_MPa > 0) return ""; // of repeats it says too much, of rows too little
   if (floor.lower_bound) return ", scatter between experiments not included";
   return floor.part == "training" ? ", of the training data" : "";
 }
@@ -233,13 +260,18 @@ std::string noise_floor_sentence(const Calibration& calibration, int decimals) {
   if (calibration.noise_floors.empty())
     return "noise floor unknown: no repeated tests, and experiments too short to see their scatter";
   const NoiseFloor& floor = calibration.noise_floors.front();
-  return fmt::format("noise floor {}{:.{}f} MPa: {}{}", floor.lower_bound ? "above " : "",
+  return fmt::format("noise floor {}{:.{}f} MPa: {}{}",
+                     floor.measured_MPa > 0 ? "below "
+                     : floor.lower_bound    ? "above "
+                                            : "",
                      floor.mae_MPa, decimals, noise_floor_name(floor), noise_floor_limits(floor));
 }
 
 std::string noise_floor_advice(const Calibration& calibration) {
-  const bool known =
-      !calibration.noise_floors.empty() && !calibration.noise_floors.front().lower_bound;
+  const auto& floors = calibration.noise_floors;
+  if (!floors.empty() && floors.front().measured_MPa > 0 && !floors.front().lower_bound)
+    return "the repeated tests differ in something that no column tells";
+  const bool known = !floors.empty() && !floors.front().lower_bound;
   return known ? "" : "repeat some tests at the same set levels to know it";
 }
 

@@ -46,6 +46,14 @@ struct ScatterWithin {
 void add_noise_floors(Calibration& calibration, const CalibrationInput& input,
                       const ScatterWithin& known = {});
 
+// Lowers what repeats and neighbouring rows say to the error of the best law on unseen tests, where
+// that is less: nothing can err less than the noise, so the repeats differ in something that no
+// column tells. What is known of synthetic data stays. (Again where laws are added.)
+void lower_noise_floors(Calibration& calibration);
+
+// "> " of a lower bound, "< " of one that was lowered.
+const char* noise_floor_sign(const NoiseFloor& floor);
+
 // "noise floor 8.34 MPa: ...", in one sentence without a full stop: what it is and what it is not.
 // `decimals` of the MPa.
 std::string noise_floor_sentence(const Calibration& calibration, int decimals);

@@ -86,7 +86,7 @@ void add_recommended(Calibration& calibration, const CalibrationInput& input,
   }
   std::vector<LawErrors> laws(fits.size());
   parallel_for(laws.size(), [&](std::size_t i) {
-    laws[i] = {fits[i]->model.law->name, unseen_sums(*fits[i], input.validation)};
+    laws[i] = {fits[i]->model.law->name, by_recording(unseen_sums(*fits[i], input.validation))};
   });
   calibration.recommended = recommend(laws, numbers);
 }

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -87,9 +86,10 @@ void judge_on_rows(std::vector<ModelFit>& fits, const CrossValidation& cross,
   }
 }
 
-std::string folds_text(std::size_t folds, std::size_t experiments) {
+std::string folds_text(std::size_t folds, std::size_t experiments, std::size_t recordings) {
   if (folds == experiments) return "each experiment left out in turn";
-  return fmt::format("cross-validated by experiment in {} folds", folds);
+  return fmt::format("cross-validated by {} in {} folds",
+                     recordings > 0 ? "recording" : "experiment", folds);
 }
 
 std::string interval_words(const Interval& interval, int decimals) {
@@ -124,11 +124,9 @@ std::string traced_words(const Calibration& c) {
 
 } // namespace
 
-std::vector<std::size_t> delivery_folds(std::size_t experiments, std::uint64_t seed) {
-  if (experiments >= many_experiments) return experiment_folds(experiments, usual_folds, seed, 0);
-  std::vector<std::size_t> alone(experiments);
-  std::iota(alone.begin(), alone.end(), 0);
-  return alone;
+std::vector<std::size_t> delivery_folds(const Dataset& all, std::uint64_t seed) {
+  const data::Units units = data::units_of(all);
+  return units.count >= many_experiments ? experiment_folds(units, usual_folds, seed, 0) : units.of;
 }
 
 void refit_on_all(Calibration& calibration, const models::Conventions& conventions,
@@ -145,7 +143,7 @@ void refit_on_all(Calibration& calibration, const models::Conventions& conventio
     fits[i] = fitted_to(all, *laws[i], conventions, input.options);
     progress.tick();
   });
-  const auto fold_of = delivery_folds(all.experiments.size(), input.options.seed);
+  const auto fold_of = delivery_folds(all, input.options.seed);
   const CrossValidation cross = cross_validate(laws, conventions, all, input.options, fold_of);
   cross_validate_fits(fits, cross, input.options);
   judge_on_rows(fits, cross, fold_of, all, input.options);
@@ -169,7 +167,8 @@ std::string delivery_sentence(const Calibration& c, int decimals) {
       "{}; the errors above are of the fits to the {} of the training alone{}",
       experiments_words(fit.training.n_experiments), fit.validation.mae_MPa, decimals,
       interval_words(fit.validation.mae_interval, decimals), fit.model.law->name,
-      folds_text(c.delivery_folds, fit.training.n_experiments), trained, traced_words(c));
+      folds_text(c.delivery_folds, fit.training.n_experiments, c.recordings), trained,
+      traced_words(c));
 }
 
 } // namespace frictab::calibrate

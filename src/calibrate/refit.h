@@ -18,7 +18,7 @@ void refit_on_all(Calibration& calibration, const models::Conventions& conventio
                   const CalibrationInput& input);
 
 // The fold of each experiment in which errors of delivered laws are cross-validated.
-std::vector<std::size_t> delivery_folds(std::size_t experiments, std::uint64_t seed);
+std::vector<std::size_t> delivery_folds(const data::Dataset& all, std::uint64_t seed);
 
 // What is delivered, and what to expect of it on new experiments; without a full stop at the end.
 // Empty where there is nothing to tell: deliver = training, and all experiments are in it anyway.

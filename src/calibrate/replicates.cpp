@@ -2,8 +2,10 @@
 #include "calibrate/replicates.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
+#include <string>
 
 #include "data/options.h"
 #include "data/quantity.h"
@@ -42,21 +44,123 @@ void append_means(Profile& profile, std::span<const double> x) {
   }
 }
 
-// The values of a column per experiment, where it was set for each: levels that several share.
-std::vector<double> set_values(const data::Column& column, const data::Dataset& data) {
-  if (data::find_quantity(column.name) || column.name == data::origin_column) return {};
+// ---- recorded columns ----
+
+// A column of few levels that changes within tests (a direction) is told by the share of rows at
+// each of them; more levels are a reading.
+constexpr std::size_t few_levels = 12;
+constexpr double same_share = 0.1;
+
+// What a column says of each test: alike where no two numbers at one place are further apart than
+// `tolerance`. Nothing where it tells no tests apart.
+struct Setting {
+  std::vector<Profile> of_tests;
+  double tolerance = 0;
+};
+
+bool may_be_set(const data::Column& column) {
+  if (data::find_quantity(column.name) || column.name == data::origin_column) return false;
+  switch (column.role) {
+  case data::Role::response:
+  case data::Role::channel:
+  case data::Role::outcome:
+  case data::Role::ignore:
+  case data::Role::test:
+  case data::Role::order:
+  case data::Role::clock:
+    return false;
+  default:
+    return true;
+  }
+}
+
+// The step in which a column is written: 1, 0.1, ... 1e-6; 0 for finer ones.
+double written_step(std::span<const double> values) {
+  for (double step = 1; step > 5e-7; step /= 10)
+    if (std::all_of(values.begin(), values.end(), [&](double v) {
+          return std::abs(v / step - std::round(v / step)) <
+                 1e-6 * std::max(1.0, std::abs(v / step));
+        }))
+      return step;
+  return 0;
+}
+
+std::string without_digits(const std::string& text) {
+  std::string stem;
+  for (const char c : text)
+    if (!std::isdigit(static_cast<unsigned char>(c)))
+      stem += c;
+    else if (stem.empty() || stem.back() != '#')
+      stem += '#';
+  return stem;
+}
+
+// Numbers and names that no two tests share: 1, 2, 3 ...; S01, S02 ...; dates.
+bool counts_tests(const data::Column& column, const std::vector<double>& values,
+                  const std::set<double>& levels) {
+  if (levels.size() < values.size() || column.role == data::Role::setting ||
+      column.role == data::Role::label)
+    return false;
+  if (column.levels.empty())
+    return std::all_of(values.begin(), values.end(),
+                       [](double v) { return v >= 1 && v == std::round(v); }) &&
+           *levels.rbegin() - *levels.begin() < 2 * static_cast<double>(levels.size());
+  const std::string stem = without_digits(column.levels[static_cast<std::size_t>(values.front())]);
+  return stem.find('#') != stem.npos && std::all_of(values.begin(), values.end(), [&](double v) {
+           return without_digits(column.levels[static_cast<std::size_t>(v)]) == stem;
+         });
+}
+
+// One value in each test. Levels that tests share are set: they agree or do not. A reading of its
+// own in each test (a humidity) agrees within the step it is written in, or 1 % of its span.
+Setting set_by_test(const data::Column& column, const std::vector<double>& values) {
+  const std::set<double> levels(values.begin(), values.end());
+  if (levels.size() < 2 || counts_tests(column, values, levels)) return {};
+  Setting setting;
+  for (const double value : values)
+    setting.of_tests.push_back({value});
+  const double span = *levels.rbegin() - *levels.begin();
+  const double share = replicate_tolerance * span;
+  if (column.levels.empty()) // a hair to either side for rounding
+    setting.tolerance = 2 * levels.size() <= values.size()
+                            ? (1 - 1e-9) * share
+                            : (1 + 1e-9) * std::max(share, written_step(values));
+  return setting;
+}
+
+Setting set_within_tests(const data::Column& column, const data::Dataset& data) {
+  const std::set<double> levels(column.values.begin(), column.values.end());
+  if (levels.size() > few_levels) return {};
+  Setting setting;
+  setting.tolerance = same_share;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    Profile shares;
+    for (const double level : levels) {
+      double rows = 0, all = 0;
+      for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+        all += data.row_weight(i);
+        if (column.values[i] == level) rows += data.row_weight(i);
+      }
+      shares.push_back(rows / all);
+    }
+    setting.of_tests.push_back(std::move(shares));
+  }
+  return setting;
+}
+
+Setting setting_of(const data::Column& column, const data::Dataset& data) {
+  if (!may_be_set(column) || std::any_of(column.values.begin(), column.values.end(),
+                                         [](double v) { return std::isnan(v); }))
+    return {};
   std::vector<double> values;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const auto first = column.values.begin() + static_cast<long>(data.first_row[e]);
     const auto last = column.values.begin() + static_cast<long>(data.first_row[e + 1]);
-    if (std::any_of(first, last, [&](double v) { return v != *first; })) return {};
+    if (std::any_of(first, last, [&](double v) { return v != *first; }))
+      return set_within_tests(column, data);
     values.push_back(*first);
   }
-  const std::set<double> levels(values.begin(), values.end());
-  if (levels.size() < 2 || levels.size() > values.size() / 2) return {};
-  for (double& value : values) // as numbers of levels: 1 apart, whatever the column's unit
-    value = static_cast<double>(std::distance(levels.begin(), levels.find(value)));
-  return values;
+  return set_by_test(column, values);
 }
 
 bool alike(const Profile& a, const Profile& b) {
@@ -80,17 +184,23 @@ std::vector<std::vector<std::size_t>> replicate_groups(const data::Dataset& data
                    {x.data() + data.first_row[e], data.first_row[e + 1] - data.first_row[e]});
   }
   for (const data::Column& column : data.columns) {
-    const std::vector<double> values = set_values(column, data);
-    if (values.empty()) continue;
+    const Setting setting = setting_of(column, data);
+    if (setting.of_tests.empty()) continue;
     ++inputs;
-    for (std::size_t e = 0; e < values.size(); ++e)
-      profiles[e].push_back(values[e]);
+    // A tolerance of 0 parts whatever differs.
+    const double scale = replicate_tolerance / std::max(setting.tolerance, 1e-12);
+    for (std::size_t e = 0; e < profiles.size(); ++e)
+      for (const double value : setting.of_tests[e])
+        profiles[e].push_back(value * scale);
   }
   if (inputs < 2) return {};
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t e = 0; e < profiles.size(); ++e) {
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& members) {
-      return alike(profiles[members.front()], profiles[e]);
+      const bool kin = std::any_of(members.begin(), members.end(), [&](std::size_t other) {
+        return !data.recording.empty() && data.recording[other] == data.recording[e];
+      });
+      return !kin && alike(profiles[members.front()], profiles[e]);
     });
     if (group == groups.end())
       groups.push_back({e});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "core/random.h"
@@ -39,13 +40,35 @@ void add_block(ErrorSums& sums, double r, double rows, double within_MPa2) {
 
 std::vector<ErrorSums> error_sums(const data::Dataset& data, std::span<const double> predicted) {
   const auto measured = data.values("tau_R_MPa");
-  if (!data.condensed) return error_sums(measured, predicted, data.first_row);
   std::vector<ErrorSums> sums(data.experiments.size());
-  for (std::size_t e = 0; e < sums.size(); ++e)
+  if (!data.condensed) sums = error_sums(measured, predicted, data.first_row);
+  for (std::size_t e = 0; e < data.recording.size(); ++e)
+    sums[e].recording = data.recording[e];
+  for (std::size_t e = 0; data.condensed && e < sums.size(); ++e)
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
       add_block(sums[e], measured[i] - predicted[i], data.condensed->rows[i],
                 data.condensed->within_MPa2[i]);
   return sums;
+}
+
+std::vector<ErrorSums> by_recording(std::span<const ErrorSums> sums) {
+  std::vector<ErrorSums> added;
+  std::map<std::size_t, std::size_t> place;
+  for (const ErrorSums& one : sums) {
+    const auto known = place.find(one.recording);
+    if (one.recording == no_recording || known == place.end()) {
+      place.emplace(one.recording, added.size());
+      added.push_back(one);
+      continue;
+    }
+    ErrorSums& all = added[known->second];
+    all.absolute += one.absolute;
+    all.square += one.square;
+    all.residual += one.residual;
+    all.rows += one.rows;
+  }
+  if (added.size() < 2) return {sums.begin(), sums.end()};
+  return added;
 }
 
 void resample(std::uint64_t seed, std::size_t index, std::span<double> times) {

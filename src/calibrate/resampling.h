@@ -9,12 +9,15 @@
 
 namespace frictab::calibrate {
 
+inline constexpr std::size_t no_recording = static_cast<std::size_t>(-1);
+
 // Sums over the rows of one experiment; residual r = measured - predicted in MPa.
 struct ErrorSums {
   double absolute = 0; // |r|
   double square = 0;   // r^2
   double residual = 0; // r
   double rows = 0;
+  std::size_t recording = no_recording; // of data::Dataset
 };
 
 // One entry per experiment; first_row has experiments + 1 entries.
@@ -25,6 +28,10 @@ std::vector<ErrorSums> error_sums(std::span<const double> measured,
 // Of the data's tau_R_MPa. A block of condensed rows counts as its rows: their squares and sums are
 // those of the rows to second order; |r| is taken for normal scatter about the block's residual.
 std::vector<ErrorSums> error_sums(const data::Dataset& data, std::span<const double> predicted);
+
+// Those of one recording added up, as they are drawn again together; as they are where fewer than
+// two recordings are left.
+std::vector<ErrorSums> by_recording(std::span<const ErrorSums> sums);
 
 // Adds `rows` rows that scatter with the sum of squares `within` about the residual r.
 void add_block(ErrorSums& sums, double r, double rows, double within_MPa2);

@@ -55,6 +55,8 @@ std::vector<RowFindings> look_at_rows(std::span<const RowsToJudge> all, std::siz
     for (std::size_t l = 0; l < laws; ++l) {
       Judged one = judged(all[d].law(l, e), rows, all[d].data->experiments[e], all[d].held_out);
       found[d].errors[l][e] = std::move(one.error);
+      if (!all[d].data->recording.empty())
+        found[d].errors[l][e].recording = all[d].data->recording[e];
       beyond[d][e][l] = std::move(one.beyond);
     }
   });

@@ -186,7 +186,7 @@ Uncertainty slip_distance_uncertainty(const Law& law, std::size_t parameter, dou
         std::abs(data.values("tau_R_MPa")[i] - tau[i]) / static_cast<double>(tau.size());
   const Law along = along_distance(law, name, rounded);
   LawProblem(along, fitted.conventions, with_states, tau)
-      .add_uncertainty(fit, options.loss, options.huber_delta_MPa, data.first_row);
+      .add_uncertainty(fit, options.loss, options.huber_delta_MPa, data);
   return std::move(fit.uncertainty);
 }
 

@@ -54,6 +54,33 @@ std::string suggest(std::string_view name, std::span<const std::string> candidat
   return "known: " + join(candidates, ", ");
 }
 
+bool natural_less(std::string_view a, std::string_view b) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto digits = [&](std::string_view text, std::size_t at) { // without leading zeros
+    std::size_t end = at;
+    while (end < text.size() && is_digit(text[end]))
+      ++end;
+    while (at + 1 < end && text[at] == '0')
+      ++at;
+    return text.substr(at, end - at);
+  };
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (!is_digit(a[i]) || !is_digit(b[j])) {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i, ++j;
+      continue;
+    }
+    const std::string_view m = digits(a, i), n = digits(b, j);
+    if (m.size() != n.size()) return m.size() < n.size();
+    if (m != n) return m < n;
+    i = static_cast<std::size_t>(m.end() - a.begin());
+    j = static_cast<std::size_t>(n.end() - b.begin());
+  }
+  if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
+  return a < b;
+}
+
 std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& c : lower)

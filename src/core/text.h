@@ -19,6 +19,9 @@ std::string suggest(std::string_view name, std::span<const std::string> candidat
 // ASCII letters only.
 std::string lower_case(std::string_view text);
 
+// Digits count as numbers: step 2 before step 10. Texts of the same numbers as bytes.
+bool natural_less(std::string_view a, std::string_view b);
+
 std::string join(std::span<const std::string> parts, std::string_view separator);
 
 // Bytes of the well-formed UTF-8 sequence at the front (RFC 3629); 0 where there is none.

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "data/recordings.h"
+
 namespace frictab::data {
 
 namespace {
@@ -104,6 +106,7 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
   if (all.condensed && more.condensed) append_condensed(*all.condensed, *more.condensed);
   const std::size_t offset = all.first_row.back();
   all.experiments.insert(all.experiments.end(), more.experiments.begin(), more.experiments.end());
+  all.filed.insert(all.filed.end(), more.filed.begin(), more.filed.end());
   for (std::size_t e = 1; e < more.first_row.size(); ++e)
     all.first_row.push_back(offset + more.first_row[e]);
   add_dropped(all, more.dropped);
@@ -146,6 +149,7 @@ Dataset together(const Dataset& first, const Dataset& second) {
   append(all, std::move(more), "", faults);
   faults.throw_if_any();
   all.oracle_MPa.clear();
+  group_recordings(all);
   fingerprint(all);
   return all;
 }

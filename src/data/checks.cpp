@@ -1,6 +1,7 @@
 // Faults of cells, values and experiments.
 #include "data/checks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -85,7 +86,50 @@ void check_computed(Part& part, const DataOptions& options) {
   causes.tell(part.faults, "row");
 }
 
+bool rows_look_like_tests(std::span<const std::vector<double>> settings, std::size_t rows) {
+  if (rows < 8 || rows > 1000) return false;
+  std::vector<const std::vector<double>*> few;
+  for (const std::vector<double>& column : settings)
+    if (std::any_of(column.begin(), column.end(), [](double v) { return std::isnan(v); }))
+      continue;
+    else if (const std::set<double> levels(column.begin(), column.end());
+             levels.size() > 1 && 3 * levels.size() <= rows)
+      few.push_back(&column);
+  if (few.size() < 2) return false;
+  const auto levels_of = [&](std::size_t row) {
+    std::vector<double> levels;
+    for (const std::vector<double>* column : few)
+      levels.push_back((*column)[row]);
+    return levels;
+  };
+  std::set<std::vector<double>> combinations{levels_of(0)};
+  std::size_t changes = 0;
+  for (std::size_t i = 1; i < rows; ++i) {
+    changes += levels_of(i) != levels_of(i - 1);
+    combinations.insert(levels_of(i));
+  }
+  return 3 * combinations.size() >= rows && 5 * changes >= 4 * (rows - 1);
+}
+
 namespace {
+
+// Nobody has said what a test is, and the file is taken for one.
+void check_rows(Part& part, const DataOptions& options) {
+  const Dataset& data = part.data;
+  if (!options.experiment.empty() || !options.wide.empty() || !part.whole_file ||
+      data.experiments.size() != 1 || data.has("time_s"))
+    return;
+  std::vector<std::vector<double>> settings;
+  for (const Column& column : data.columns)
+    if (!is_measured(column.name)) settings.push_back(column.values);
+  if (rows_look_like_tests(settings, data.rows()))
+    part.faults.add(part.header(),
+                    fmt::format("is each of these {} rows a test? They differ in settings from "
+                                "row to row, and no column names the tests",
+                                data.rows()),
+                    "data.experiment = \"row\" where they are; \"file\" where they are the course "
+                    "of one test");
+}
 
 // A column that numbers the rows makes every row a test.
 void check_names(Part& part) {
@@ -119,8 +163,9 @@ void check_single_rows(Part& part) {
 
 void check_experiments(Part& part, const DataOptions& options) {
   if (options.measured) {
-    check_names(part);
+    if (options.experiment != "row") check_names(part);
     check_single_rows(part);
+    check_rows(part, options);
   }
   const Dataset& data = part.data;
   const Column* time = part.find("time_s");

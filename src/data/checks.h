@@ -1,6 +1,9 @@
 // What cannot be in a file, told once per cause with its count.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "data/options.h"
 #include "data/part.h"
 
@@ -20,7 +23,14 @@ void check_values(Part& part);
 // where rows need none apart.
 void check_computed(Part& part, const DataOptions& options);
 
-// Time that goes back; tests of one row among others, where they are measured.
+// Whether rows stand for tests, not for a course: at least 8 and at most 1000 of them, with two
+// columns or more that come back to few levels (a third of the rows at most), whose combinations
+// change from row to row and come back in three rows at most. `settings`: columns that are no
+// response, text as levels.
+bool rows_look_like_tests(std::span<const std::vector<double>> settings, std::size_t rows);
+
+// Time that goes back; rows that look like tests, where nobody says what a test is; tests of one
+// row among others, where they are measured.
 void check_experiments(Part& part, const DataOptions& options);
 
 } // namespace frictab::data

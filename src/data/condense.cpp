@@ -12,6 +12,7 @@
 #include "core/no_value.h"
 #include "core/text.h"
 #include "data/derived.h"
+#include "data/recordings.h"
 
 namespace frictab::data {
 
@@ -116,6 +117,7 @@ public:
 
   Dataset held(const std::shared_ptr<const RowSource>& source) {
     out_.experiments = rows_.experiments;
+    out_.filed = rows_.filed;
     out_.first_row = first_block_;
     out_.sources = rows_.sources;
     out_.dropped = rows_.dropped;
@@ -215,6 +217,17 @@ void check_same(const Dataset& data, std::size_t experiment, std::size_t rows) {
                    "the files were changed while they were read: run again when they are complete");
 }
 
+// The columns that only all tests together give (data/recordings.h).
+Dataset with_recording(const Dataset& one, const Dataset& data, std::size_t experiment) {
+  Dataset more = one;
+  for (const char* name : {interval_column, recording_column})
+    if (const Column* column = data.find(name); column && !one.has(name)) {
+      more.columns.push_back(*column);
+      more.columns.back().values.assign(one.rows(), column->values[data.first_row[experiment]]);
+    }
+  return more;
+}
+
 } // namespace
 
 void read_again(std::span<const Dataset* const> all, const TakeRows& take) {
@@ -239,7 +252,10 @@ void read_again(std::span<const Dataset* const> all, const TakeRows& take) {
       for (auto place = begin; place != end; ++place) {
         const auto [d, e] = place->second;
         check_same(*all[d], e, one.rows());
-        take(d, e, one);
+        if (all[d]->recording.empty())
+          take(d, e, one);
+        else
+          take(d, e, with_recording(one, *all[d], e));
         seen[d][e] = 1;
       }
     });

@@ -11,8 +11,9 @@
 #include <xxhash.h>
 
 #include "core/error.h"
-#include "core/random.h"
 #include "core/text.h"
+#include "data/quantity.h"
+#include "data/recordings.h"
 
 namespace frictab::data {
 
@@ -78,6 +79,7 @@ Dataset Dataset::subset(std::span<const std::size_t> keep) const {
   }
   for (const std::size_t e : keep) {
     part.experiments.push_back(experiments[e]);
+    if (!recording.empty()) part.recording.push_back(recording[e]);
     std::copy_if(clocks.begin(), clocks.end(), std::back_inserter(part.clocks),
                  [&](const ClockOffset& clock) { return clock.experiment == experiments[e]; });
     if (condensed) append_experiment(*part.condensed, *this, e);
@@ -120,29 +122,63 @@ std::string fingerprint(const Dataset& training, const Dataset& validation) {
   return fmt::format("{:016x}", training.hash ^ (validation.hash * 0x9e3779b97f4a7c15ULL));
 }
 
+namespace {
+
+constexpr XXH64_hash_t hold_out_stream = 0x686f6c646f7574; // "holdout"
+
+// The place of each unit in an order drawn by seed from what its tests hold.
+std::vector<std::size_t> drawn_by_content(const Dataset& data, const Units& units,
+                                          std::uint64_t seed) {
+  std::vector<std::vector<XXH64_hash_t>> tests(units.count);
+  for (std::size_t e = 0; e < units.of.size(); ++e) {
+    const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
+    XXH64_hash_t hash = seed;
+    for (const Quantity& quantity : quantities()) // in their own order, not the file's
+      if (const Column* column = data.find(quantity.name))
+        hash = XXH64(column->values.data() + first, rows * sizeof(double), hash);
+    tests[units.of[e]].push_back(hash);
+  }
+  std::vector<std::pair<XXH64_hash_t, std::size_t>> order;
+  for (std::size_t u = 0; u < units.count; ++u) {
+    std::sort(tests[u].begin(), tests[u].end());
+    order.emplace_back(
+        XXH64(tests[u].data(), tests[u].size() * sizeof(XXH64_hash_t), hold_out_stream), u);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> place(units.count);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    place[order[i].second] = i;
+  return place;
+}
+
+// ", 3 of 12 recordings whole"
+std::string in_words(const Units& units, std::size_t held) {
+  if (units.count == units.of.size()) return "";
+  return fmt::format(", {} of {} recordings whole", held, units.count);
+}
+
+} // namespace
+
 Split hold_out(const Dataset& data, double share, std::uint64_t seed) {
   if (data.experiments.size() < 2)
     throw InputError({join(data.sources, ", "), 0, 0},
                      "there is only one experiment: none can be held out to validate",
                      "give data.validation, or an experiment column that tells the tests apart; "
                      "without data.holdout laws are fitted to it and judged by nothing");
-  const std::size_t count = data.experiments.size();
-  const auto wanted = static_cast<std::size_t>(std::llround(share * static_cast<double>(count)));
-  const std::size_t held = std::clamp<std::size_t>(wanted, 1, count - 1);
-  std::vector<std::size_t> order(count);
-  for (std::size_t i = 0; i < count; ++i)
-    order[i] = i;
-  Random random(seed, 0x686f6c646f7574);
-  random.shuffle(std::span<std::size_t>(order));
-  const auto middle = order.begin() + static_cast<long>(held);
-  std::sort(order.begin(), middle);
-  std::sort(middle, order.end());
-  Split split{data.subset({middle, order.end()}), data.subset({order.begin(), middle})};
+  const Units units = units_of(data);
+  const auto wanted =
+      static_cast<std::size_t>(std::llround(share * static_cast<double>(units.count)));
+  const std::size_t held = std::clamp<std::size_t>(wanted, 1, units.count - 1);
+  const std::vector<std::size_t> drawn = drawn_by_content(data, units, seed);
+  std::vector<std::size_t> in, out;
+  for (std::size_t e = 0; e < units.of.size(); ++e)
+    (drawn[units.of[e]] < held ? out : in).push_back(e);
+  Split split{data.subset(in), data.subset(out)};
   // What was left out at reading is told once, with the training part.
   split.validation.dropped.clear();
-  split.training.notes.push_back(std::to_string(held) + " of " + std::to_string(count) +
-                                 " experiments held out to validate, drawn by seed " +
-                                 std::to_string(seed));
+  split.training.notes.push_back(
+      fmt::format("{} of {} experiments held out to validate{}, drawn by seed {}", out.size(),
+                  units.of.size(), in_words(units, held), seed));
   return split;
 }
 

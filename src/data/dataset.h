@@ -87,8 +87,9 @@ struct RowsOfExperiment {
 struct Implausible {
   std::string check; // its name, for data.allow_implausible
   std::size_t rows = 0, of = 0;
-  std::string what; // "mu_meas is outside 0.001 to 1"
-  std::string hint; // what it may be, and how to mend it
+  std::string what;    // "mu_meas is outside 0.001 to 1"
+  std::string hint;    // what it may be, and how to mend it
+  bool may_be = false; // rare, but real: never an error
   bool most() const { return 2 * rows > of; }
 };
 
@@ -109,6 +110,11 @@ public:
   std::vector<std::size_t> first_row{0}; // experiments.size() + 1 entries
   // Of each experiment the number of the recording it is an interval of; empty: each is one.
   std::vector<std::size_t> recording;
+  struct Filed {
+    std::string file;      // as its tests are called
+    bool interval = false; // one of several between header lines
+  };
+  std::vector<Filed> filed;         // of each experiment, while files are read
   std::vector<std::string> sources; // files read, as named by the user
   std::uint64_t hash = 0;           // of all values and names: the data's fingerprint
   struct Dropped {
@@ -151,8 +157,9 @@ void fingerprint(Dataset& data);
 // Of two datasets together: 16 hex digits.
 std::string fingerprint(const Dataset& training, const Dataset& validation);
 
-// Splits off round(share * experiments) whole experiments (at least 1, leaving at least 1), drawn
-// by seed. Throws InputError where there are fewer than 2 experiments.
+// Splits off round(share * units) of data/recordings.h (at least 1, leaving at least 1), drawn by
+// seed from what their rows hold: the same tests in other files, or in another order, are split
+// alike. Throws InputError where there are fewer than 2 experiments.
 struct Split {
   Dataset training;
   Dataset validation;

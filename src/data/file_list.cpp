@@ -9,6 +9,7 @@
 #include <fnmatch.h>
 #include <glob.h>
 
+#include "core/no_value.h"
 #include "core/pattern.h"
 #include "core/text.h"
 #include "data/quantity.h"
@@ -102,11 +103,27 @@ void apply(const FileRule& rule, DataOptions& options) {
 
 // ---- what names say ----
 
-// A point or a comma is the decimal sign of a name.
-bool is_number(const std::string& text, double& value) {
+// A point, a comma or p is the decimal sign of a name (2p5), and where `dash` a - between digits
+// (0-8).
+bool is_number(const std::string& text, bool dash, double& value) {
   for (const char decimal : {'.', ','})
     if (io::read_number(text, decimal, value)) return true;
-  return false;
+  constexpr const char* digits = "0123456789";
+  const std::size_t sign = text.find_first_not_of(digits);
+  if (sign == 0 || sign == text.npos || sign + 1 == text.size() ||
+      text.find_first_not_of(digits, sign + 1) != text.npos)
+    return false;
+  const char between = text[sign];
+  if (between != 'p' && between != 'P' && !(dash && between == '-')) return false;
+  return io::read_number(text.substr(0, sign) + "." + text.substr(sign + 1), '.', value);
+}
+
+// 1-2 beside 2-3 is a range or a date; 0-5, or 2-5 beside 1 and 10, is a number.
+bool dash_is_decimal(const std::set<std::string>& levels) {
+  double value = 0;
+  return std::any_of(levels.begin(), levels.end(), [&](const std::string& text) {
+    return text.starts_with("0-") || is_number(text, false, value);
+  });
 }
 
 using NamedGroups = std::map<std::string, std::string>;
@@ -118,11 +135,6 @@ NamedGroups groups_of(const FileRule& rule, const Pattern& pattern, const std::s
                      fmt::format("'{}' does not fit '{}'", rule.from_name, file),
                      "a pattern that fits the names of all files of this rule, or a rule of its "
                      "own for those that it does not");
-  for (const auto& [name, text] : *found)
-    if (text.empty())
-      throw InputError(rule.from_name_place,
-                       fmt::format("'{}' finds nothing for {} in '{}'", rule.from_name, name, file),
-                       "a group that is always there");
   return *found;
 }
 
@@ -143,32 +155,55 @@ public:
 private:
   void take_label() {
     for (std::size_t i = 0; i < files_.size(); ++i)
-      files_[i]->label = groups_[i].at("experiment");
+      if (const std::string& label = groups_[i].at("experiment"); !label.empty())
+        files_[i]->label = label;
   }
 
+  // A group that took no part in a name says nothing of that file: a quantity is then a column of
+  // its own or missing, another column empty.
   void take(const std::string& name) {
-    bool numbers = true;
-    double value = 0;
-    for (const NamedGroups& groups : groups_)
-      numbers = numbers && is_number(groups.at(name), value);
-    if (const Quantity* quantity = find_quantity(name)) check(*quantity);
     std::set<std::string> levels;
+    for (const NamedGroups& groups : groups_)
+      levels.insert(groups.at(name));
+    const bool gaps = levels.erase("") > 0;
+    if (levels.empty())
+      throw InputError(rule_.from_name_place,
+                       fmt::format("'{}' finds {} in no name, as in '{}'", rule_.from_name, name,
+                                   files_.front()->file),
+                       "a group that is there in some names at least");
+    const Quantity* quantity = find_quantity(name);
+    const bool dash = quantity || dash_is_decimal(levels);
+    if (quantity) check(*quantity);
+    double value = 0;
+    const bool numbers = std::all_of(levels.begin(), levels.end(), [&](const std::string& text) {
+      return is_number(text, dash, value);
+    });
     for (std::size_t i = 0; i < files_.size(); ++i) {
       const std::string& text = groups_[i].at(name);
       DataOptions& options = files_[i]->options;
-      if (numbers && is_number(text, value))
-        options.constants[name] = value;
+      if (text.empty() && quantity) continue;
+      if (numbers)
+        options.constants[name] = is_number(text, dash, value) ? value : no_value;
       else
         options.labels[name] = text;
       options.columns.erase(name);
-      levels.insert(text);
     }
+    tell(name, levels, numbers && dash, gaps);
+  }
+
+  void tell(const std::string& name, const std::set<std::string>& levels, bool dash, bool gaps) {
     constexpr std::size_t shown = 6;
-    std::vector<std::string> list(levels.begin(), levels.end());
+    std::vector<std::string> list;
+    for (const std::string& text : levels) {
+      double plain = 0, value = 0;
+      const bool read = is_number(text, dash, value) && !io::read_number(text, '.', plain);
+      list.push_back(read ? fmt::format("{} = {}", text, shortest(value)) : text);
+    }
     if (list.size() > shown) {
       list.resize(shown);
       list.emplace_back("...");
     }
+    if (gaps) list.emplace_back("none in some names");
     notes_.push_back(fmt::format("{} ({}: {})", name, levels.size(), join(list, ", ")));
   }
 
@@ -176,7 +211,7 @@ private:
     for (std::size_t i = 0; i < files_.size(); ++i) {
       const std::string& text = groups_[i].at(quantity.name);
       double value = 0;
-      if (!is_number(text, value) || value < quantity.lowest)
+      if (!text.empty() && (!is_number(text, true, value) || value < quantity.lowest))
         throw InputError(
             rule_.from_name_place,
             fmt::format("{} is '{}' in the name of {}", quantity.name, text, files_[i]->file),

@@ -14,6 +14,7 @@
 #include "data/computed.h"
 #include "data/join.h"
 #include "data/leave_out.h"
+#include "data/recordings.h"
 #include "data/wide.h"
 
 namespace frictab::data {
@@ -169,6 +170,7 @@ void complete(Dataset& all, const DataOptions& options, const Beside& beside) {
                       "between those before and behind",
                       thousands(dropped.rows), dropped.rows == 1 ? "row" : "rows", dropped.rule));
   all.unused = unused_tests(all, beside);
+  find_recordings(all, options);
   fingerprint(all);
 }
 

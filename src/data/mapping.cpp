@@ -62,7 +62,7 @@ public:
 
   std::vector<ExperimentRun> runs() {
     std::vector<ExperimentRun> out;
-    const CsvColumn* column = options_.experiment == "interval" ? nullptr : experiment_source();
+    const CsvColumn* column = is_cut_whole(options_) ? nullptr : experiment_source();
     if (!column) return {{0, ""}};
     std::size_t text = 0;
     const std::string* last = nullptr; // of the row before, where it is text
@@ -261,10 +261,10 @@ private:
     if (const auto& numbers = numbers_of(quantity.name); !numbers.empty()) {
       const CsvColumn& own = raw_.columns[numbers.front() - 1];
       used_.insert(&own);
-      note_counted(fmt::format("{} is {} in all ROWS rows, as the job says: the file's own column "
-                               "'{}' is not read",
-                               quantity.name, shortest(value), own.name),
-                   raw_.rows());
+      note_counted(
+          fmt::format("{} is {} in all ", quantity.name, shortest(value)),
+          fmt::format(" rows, as the job says: the file's own column '{}' is not read", own.name),
+          raw_.rows(), true);
     }
   }
 
@@ -323,8 +323,14 @@ private:
       if (raw_.interval.empty())
         faults_.add(header(), "an HDF5 file has no intervals (data.experiment)",
                     "one group or file per experiment, or a column that names it");
+      out_.intervals = true;
       for (const std::size_t interval : raw_.interval)
         out_.experiment.push_back(fmt::format("{} {}", label_, interval + 1));
+      return;
+    }
+    if (options_.experiment == "row") {
+      for (std::size_t i = 0; i < raw_.rows(); ++i)
+        out_.experiment.push_back(fmt::format("{} {}", label_, i + 1));
       return;
     }
     const CsvColumn* column = experiment_source();
@@ -451,11 +457,12 @@ private:
   }
 
   void tell_empty(const std::string& name, std::size_t rows, const char* then) {
-    note_counted(fmt::format("{}: ROWS of OF rows without a value{}", name, then), rows);
+    note_counted(name + ": ", fmt::format(" rows without a value{}", then), rows, false);
   }
 
-  void note_counted(std::string words, std::size_t rows) {
-    out_.counted_notes.push_back({out_.notes.size(), std::move(words), rows, raw_.rows()});
+  void note_counted(std::string before, std::string after, std::size_t rows, bool of_all) {
+    out_.counted_notes.push_back(
+        {out_.notes.size(), std::move(before), std::move(after), of_all, rows, raw_.rows()});
     out_.notes.push_back(out_.counted_notes.back().text());
   }
 
@@ -508,11 +515,7 @@ private:
 } // namespace
 
 std::string MappedFile::CountedNote::text() const {
-  std::string said = words;
-  for (const auto& [sign, count] : {std::pair("ROWS ", rows), std::pair("OF ", of)})
-    if (const std::size_t at = said.find(sign); at != said.npos)
-      said.replace(at, std::string(sign).size(), thousands(count) + " ");
-  return said;
+  return before + thousands(rows) + (of_all ? "" : " of " + thousands(of)) + after;
 }
 
 MappedFile map_columns(const io::CsvTable& raw, const DataOptions& options,

@@ -11,6 +11,7 @@ namespace frictab::data {
 struct MappedFile {
   std::vector<Column> columns;
   std::vector<std::string> experiment; // per row; empty where the file is one
+  bool intervals = false;              // they are those between header lines
   std::vector<std::string> notes;
   struct CellFault { // of one cell: told only where its row is not left out
     std::size_t row;
@@ -21,7 +22,10 @@ struct MappedFile {
   std::vector<CellFault> cell_faults;
   struct CountedNote { // one of `notes` that counts rows: those of parts of a file are one
     std::size_t note;  // its number
-    std::string words; // with ROWS and OF for the counts
+    // "x: 3 of 60 rows without a value": around the counts, which are those of all parts; without
+    // the second one where all rows are meant.
+    std::string before, after;
+    bool of_all;
     std::size_t rows, of;
     std::string text() const;
   };

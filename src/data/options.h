@@ -88,9 +88,13 @@ struct DataOptions {
   std::map<std::string, ColumnSource> columns; // by canonical name
   std::map<std::string, double> constants;     // by canonical name; of one file others as well
   std::map<std::string, std::string> labels;   // of one file: text columns
-  // What an experiment is: "file", "interval" (from one header line to the next), a column, or
-  // "file+COLUMN"; empty: a column of the name experiment where there is one, else the file.
+  // What an experiment is: "file", "interval" (from one header line to the next), "row", a column,
+  // or "file+COLUMN"; empty: a column of the name experiment where there is one, else the file.
   std::string experiment;
+  // Which experiments are intervals of one recording: "none", those of a "file", those whose "name"
+  // differs in its last number, or those of one value of a column; empty: inferred
+  // (data/recordings.h).
+  std::string recording;
   Missing missing = Missing::error;
   // Whether a law of the job takes this recorded column: Missing::drop leaves out rows without it.
   std::function<bool(const std::string& column)> needed;
@@ -124,10 +128,15 @@ inline constexpr const char* origin_column = "origin";
 // In front of the column in DataOptions::experiment where both name a test.
 inline constexpr std::string_view file_and_column = "file+";
 
+// Whether experiments are counted in the file: it is read as a whole.
+inline bool is_cut_whole(const DataOptions& options) {
+  return options.experiment == "interval" || options.experiment == "row";
+}
+
 // The column that DataOptions::experiment names; empty where it names none.
 inline std::string experiment_column_of(const DataOptions& options) {
   const std::string& said = options.experiment;
-  if (said == "file" || said == "interval") return "";
+  if (said == "file" || said == "interval" || said == "row") return "";
   return said.starts_with(file_and_column) ? said.substr(file_and_column.size()) : said;
 }
 

@@ -40,6 +40,7 @@ void gather_experiments(Part& part, MappedFile&& mapped, const std::string& labe
     if (is_new) {
       members.emplace_back();
       data.experiments.push_back(name);
+      data.filed.push_back({label, mapped.intervals});
     }
     current = found->second;
     members[current].push_back(i);
@@ -76,6 +77,7 @@ void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none) {
   Dataset& data = part.data;
   std::vector<std::size_t> first{0};
   std::vector<std::string> names, gone;
+  std::vector<Dataset::Filed> filed;
   std::vector<std::size_t> kept;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
@@ -85,6 +87,7 @@ void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none) {
       continue;
     }
     names.push_back(data.experiments[e]);
+    filed.push_back(data.filed[e]);
     first.push_back(kept.size());
   }
   if (kept.size() == part.row.size()) return;
@@ -102,6 +105,7 @@ void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none) {
     row.push_back(part.row[i]);
   part.row = std::move(row);
   data.experiments = std::move(names);
+  data.filed = std::move(filed);
   data.first_row = std::move(first);
 }
 
@@ -117,8 +121,9 @@ void CountedNotes::take(Part& part) {
 
 void CountedNotes::add(const CountedNotes& more) {
   for (const MappedFile::CountedNote& note : more.notes_) {
-    const auto same = std::find_if(notes_.begin(), notes_.end(),
-                                   [&](const auto& other) { return other.words == note.words; });
+    const auto same = std::find_if(notes_.begin(), notes_.end(), [&](const auto& other) {
+      return other.before == note.before && other.after == note.after;
+    });
     if (same == notes_.end())
       notes_.push_back(note);
     else

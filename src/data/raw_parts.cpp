@@ -123,7 +123,7 @@ void cut_pieces(const std::function<std::vector<io::CsvTable>()>& next, const Da
 void read_raw_parts(const std::string& path, const std::string& named, const DataOptions& options,
                     FaultList& faults, const TakeParts& take) {
   const bool held = is_workbook(path) || !options.wide.empty() || !options.join.files.empty() ||
-                    options.experiment == "interval";
+                    is_cut_whole(options);
   if (held) return read_whole(path, named, options, faults, take);
   if (io::looks_like_hdf5(path)) {
     Hdf5Columns columns(path, named, options, faults);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "data/checks.h"
 #include "data/quantity.h"
 #include "data/raw.h"
 #include "io/hdf5.h"
@@ -275,6 +277,26 @@ bool is_found_by_names(std::string_view text, const GuessedFile& guess, const io
   }
 }
 
+// Text as the number of its first row.
+std::vector<double> levels_of(const io::CsvColumn& raw) {
+  std::vector<double> levels = raw.numbers;
+  std::map<std::string, double> known;
+  for (const io::CsvColumn::Text& cell : raw.texts)
+    levels[cell.row] = known.emplace(cell.text, static_cast<double>(cell.row)).first->second;
+  return levels;
+}
+
+bool each_row_is_a_test(const GuessedFile& guess, const io::CsvTable& table) {
+  if (guess.find("experiment") || guess.find("time_s")) return false;
+  std::vector<std::vector<double>> settings;
+  for (const GuessedColumn& column : guess.columns)
+    for (const io::CsvColumn& raw : table.columns)
+      if (raw.name == column.name && !column.coefficient && column.canonical != "tau_R_MPa" &&
+          column.canonical != "F_R_N")
+        settings.push_back(levels_of(raw));
+  return rows_look_like_tests(settings, table.rows());
+}
+
 // A column that numbers the rows names no test.
 void check_experiment(GuessedFile& guess, const io::CsvTable& table) {
   for (GuessedColumn& column : guess.columns) {
@@ -304,7 +326,7 @@ bool GuessedFile::is_read_as(const GuessedFile& other) const {
   };
   return (any_decimal || decimal == other.decimal) &&
          (thousands == 0 || thousands == other.thousands) && units_row == other.units_row &&
-         intervals == other.intervals && skip_rows == other.skip_rows &&
+         intervals == other.intervals && rows == other.rows && skip_rows == other.skip_rows &&
          named(*this) == named(other);
 }
 
@@ -330,6 +352,7 @@ GuessedFile guess_file(const std::string& path, const std::string& named) {
   }
   if (guess.columns.empty()) guess.columns = columns_of(table);
   check_experiment(guess, table);
+  guess.rows = each_row_is_a_test(guess, table);
   return guess;
 }
 

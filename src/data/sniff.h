@@ -25,6 +25,7 @@ struct GuessedFile {
   std::size_t skip_rows = 0; // 0 also where the header line is found by its names
   bool units_row = false;
   bool intervals = false; // the header line comes again
+  bool rows = false;      // each looks like a test (data/checks.h)
   std::vector<GuessedColumn> columns;
 
   const GuessedColumn* find(const std::string& canonical) const; // nullptr where there is none

@@ -45,6 +45,8 @@ std::string dialect_lines(const GuessedFile& file) {
   if (file.units_row) out += line("units_row = true", "the line below the names holds units");
   if (file.intervals)
     out += line("experiment = \"interval\"", "the header line comes again: a test each time");
+  if (file.rows)
+    out += line("experiment = \"row\"", "settings change from row to row: each row is a test");
   return out;
 }
 
@@ -140,7 +142,7 @@ private:
   }
 
   void add_experiment() {
-    if (has("experiment") || most_.intervals) return;
+    if (has("experiment") || most_.intervals || most_.rows) return;
     if (files_.size() > 1)
       out_.text += line("experiment = \"file\"", "no column names the tests: each file is one");
     else
@@ -220,7 +222,8 @@ private:
     if (file.decimal == '.' && most_.decimal != '.') out += "decimal = \".\"\n";
     if (file.skip_rows == 0 && most_.skip_rows > 0) out += "skip_rows = 0\n";
     if (!file.units_row && most_.units_row) out += "units_row = false\n";
-    if (!file.intervals && most_.intervals) out += "experiment = \"file\"\n";
+    if (!file.intervals && !file.rows && (most_.intervals || most_.rows))
+      out += "experiment = \"file\"\n";
     return out;
   }
 

@@ -191,8 +191,15 @@ std::vector<KeyRule> file_keys() {
       key<std::string>(
           "data.experiment", [](Job & job) -> auto& { return job.data.experiment; },
           "what an experiment is: \"file\", \"interval\" (from one header line of a file to the "
-          "next), a column of the file, or both: \"file+COLUMN\"",
+          "next), \"row\" (each row is a test), a column of the file, or both: \"file+COLUMN\"",
           "the column experiment where there is one, else the file", "\"file\""),
+      key<std::string>(
+          "data.recording", [](Job & job) -> auto& { return job.data.recording; },
+          "which experiments are intervals of one recording, to be held out and left out together: "
+          "those of a \"file\", those whose \"name\" differs in its last number only, those of one "
+          "value of a column, or \"none\"",
+          "intervals of one file, a column recording, or a clock that goes on from one to the next",
+          "\"name\""),
       key<data::AutoNumber>(
           "data.condense", [](Job & job) -> auto& { return job.data.condense; },
           "blocks of neighbouring rows per experiment that are held instead of its rows, which are "

@@ -79,13 +79,23 @@ std::string markdown_cell(const std::string& text) {
   return out;
 }
 
+namespace {
+
+// "\\> ", as Markdown has it.
+std::string sign_of(const calibrate::NoiseFloor& floor) {
+  const std::string sign = calibrate::noise_floor_sign(floor);
+  return sign.empty() ? "" : "\\" + sign;
+}
+
+} // namespace
+
 std::string floor_row(const calibrate::Calibration& calibration, int decimals) {
   if (calibration.noise_floors.empty()) return "";
   const calibrate::NoiseFloor& f = calibration.noise_floors.front();
-  return fmt::format("| | *noise floor* | {}{} | {} | {} | | | | {}{} |\n",
-                     f.lower_bound ? "\\> " : "", fixed(f.mae_MPa, decimals),
-                     interval_text(f.mae_interval, decimals), fixed(f.rmse_MPa, decimals),
-                     calibrate::noise_floor_name(f), calibrate::noise_floor_limits(f));
+  return fmt::format("| | *noise floor* | {}{} | {} | {} | | | | {}{} |\n", sign_of(f),
+                     fixed(f.mae_MPa, decimals), interval_text(f.mae_interval, decimals),
+                     fixed(f.rmse_MPa, decimals), calibrate::noise_floor_name(f),
+                     calibrate::noise_floor_limits(f));
 }
 
 std::string markdown_law(const calibrate::ModelFit& fit) {

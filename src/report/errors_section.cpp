@@ -51,8 +51,9 @@ void add_errors(TemplateValues& page, const ReportInput& input) {
           {"rmse", marked_up(floor.rmse_MPa, floor.rmse_interval, decimals)},
           {"size",
            count_of(floor.n_rows, "row") + " of " + count_of(floor.n_experiments, "experiment")},
-          {"bound", floor.lower_bound ? "lower bound: scatter between experiments not included"
-                                      : "no law of the state can do better on average"}},
+          {"bound", floor.measured_MPa > 0 ? "lowered to what the best law errs"
+                    : floor.lower_bound    ? "lower bound: scatter between experiments not included"
+                                           : "no law of the state can do better on average"}},
          {},
          {}});
   page.flags["has_floors"] = !floors.empty();

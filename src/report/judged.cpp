@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/recordings.h"
 #include "report/numbers.h"
 
 namespace frictab::report {
@@ -36,10 +37,15 @@ std::string size_text(JudgedBy judged_by, const data::Dataset& training,
     return count_of(data.rows_behind(), "row") + " of " +
            count_of(data.experiments.size(), "experiment");
   };
+  const data::Units units = data::units_of(training);
+  const bool whole = units.count < units.of.size();
   switch (judged_by) {
   case JudgedBy::leave_one_out:
-    return describe(training) + ", each experiment judged by laws fitted without it" +
-           (training.experiments.size() == 2
+    return describe(training) +
+           (whole ? fmt::format(", each of {} recordings judged by laws fitted without it",
+                                units.count)
+                  : ", each experiment judged by laws fitted without it") +
+           (units.count == 2
                 ? " (their two errors say one difference twice: no intervals, no comparison)"
                 : "");
   case JudgedBy::fit:
@@ -89,6 +95,10 @@ std::string judged_text(const calibrate::Calibration& c) {
       count_of(v.n_rows, "row") + " of " + count_of(v.n_experiments, "experiment");
   switch (c.judged_by) {
   case JudgedBy::leave_one_out:
+    if (c.recordings > 0)
+      return fmt::format("validated on {}, each of {} recordings left out in turn: the errors of a "
+                         "recording are those of the law fitted to all the others",
+                         on, c.recordings);
     return "validated on " + on +
            ", each left out in turn: the errors of an experiment are those of the law fitted to "
            "all the others";

@@ -115,7 +115,7 @@ TemplateValues floor_row(const calibrate::Calibration& calibration, const svg::A
   return {
       {{"name", calibrate::noise_floor_name(floor) + (floor.lower_bound ? ": a lower bound" : "") +
                     (floor.part == "training" ? ", training data" : "")},
-       {"mae", (floor.lower_bound ? "&gt; " : "") + fixed(floor.mae_MPa, decimals)},
+       {"mae", svg::escape(calibrate::noise_floor_sign(floor)) + fixed(floor.mae_MPa, decimals)},
        {"interval", interval_text(floor.mae_interval, decimals)},
        {"rmse", fixed(floor.rmse_MPa, decimals)},
        {"bar", svg::bar(bar, axis, bar_width, bar_height)}},

@@ -20,6 +20,7 @@
 #include "data/oracle.h"
 #include "data/plausibility.h"
 #include "data/quantity.h"
+#include "data/recordings.h"
 #include "data/roles.h"
 #include "effects/extended_law.h"
 
@@ -138,7 +139,7 @@ JobData without_validation_files(const data::DataOptions& options, std::uint64_t
   data::check_plausibility(all, options.allow_implausible, options.place, implausible);
   data::Dataset* const parts[] = {&all};
   find_roles(parts, options);
-  if (!options.holdout && all.experiments.size() < few_experiments)
+  if (!options.holdout && data::units_of(all).count < few_experiments)
     return without_others(std::move(all));
   return with_held_out_tests(std::move(all), options.holdout.value_or(usual_share), seed);
 }
@@ -182,7 +183,7 @@ calibrate::CalibrationInput JobData::calibration_input(const job::Job& job) cons
 }
 
 bool JobData::shows_one_difference() const {
-  return judged_by == calibrate::JudgedBy::leave_one_out && training.experiments.size() == 2;
+  return judged_by == calibrate::JudgedBy::leave_one_out && data::units_of(training).count == 2;
 }
 
 const data::Dataset* JobData::all() const {

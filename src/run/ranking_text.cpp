@@ -62,7 +62,7 @@ void add_floor(std::string& out, const calibrate::Calibration& calibration, int 
     const int more = more_width(decimals);
     out += fmt::format("  {:<{}}{:>{}}  {:<{}}{:>{}.{}f}{:>{}}   {}{}\n", "noise floor",
                        name_width(calibration),
-                       (f.lower_bound ? "> " : "") + fmt::format("{:.{}f}", f.mae_MPa, decimals),
+                       calibrate::noise_floor_sign(f) + fmt::format("{:.{}f}", f.mae_MPa, decimals),
                        8 + more, range_of(f.mae_interval, decimals), 19 + 2 * more, f.rmse_MPa,
                        8 + more, decimals, "", 20 + 2 * more, calibrate::noise_floor_name(f),
                        f.part == "training" ? ", training data" : "");

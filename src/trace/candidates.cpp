@@ -282,7 +282,7 @@ private:
 
   bool allowed(const Column& column) {
     if (data::is_measured(column.name) || column.name == data::origin_column ||
-        ignored(column.name))
+        column.role == data::Role::test || ignored(column.name))
       return false;
     const bool is_apart = !data::may_be_cause(column.role) && column.role != data::Role::order;
     if (is_apart && !data::find_quantity(column.name)) return left_out_by_role(column);
@@ -351,7 +351,8 @@ private:
     column.gap = widest_gap(column.tested);
     column.is_reading = !derived && is_reading(name);
     const bool orders = name == "test_order" || name == found_.order_column;
-    column.between = orders ? declared_wear(name) : !derived && name != "time_s" && name != "s_mm";
+    const bool course = column.within && (name == "time_s" || name == "s_mm");
+    column.between = orders ? declared_wear(name) : !derived && !course;
     column.in_law =
         std::find(inputs_.begin(), inputs_.end(), effects::symbol_of(name)) != inputs_.end();
     found_.by_symbol[effects::symbol_of(name)] = column.values;

@@ -149,8 +149,9 @@ NestedErrors nested_errors(const Search& search) {
   const TraceInput& input = search.input;
   const std::size_t most = search.findings.size();
   const std::size_t tests = input.training.experiments.size();
-  const std::size_t folds = count_of_folds(tests);
-  const auto fold = calibrate::experiment_folds(tests, folds, input.seed, 0);
+  const data::Units units = data::units_of(input.training);
+  const std::size_t folds = count_of_folds(units.count);
+  const auto fold = calibrate::experiment_folds(units, folds, input.seed, 0);
   std::vector<FoldErrors> parts(folds);
   std::vector<std::vector<std::size_t>> out(folds);
   Progress progress("tracing without some tests", folds);

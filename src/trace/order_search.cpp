@@ -237,7 +237,7 @@ void reconsider_order(Search& search) {
     search.order = {};
     search.order.column = search.candidates.order_column;
     search.order.p_value = p;
-    std::iota(search.units.begin(), search.units.end(), 0);
+    search.take_units();
     return;
   }
   search.campaign().nuisance = std::move(nuisance);

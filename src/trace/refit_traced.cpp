@@ -105,7 +105,7 @@ refit_traced(const Search& search, const Delivery& delivery, const Dataset& all)
   const auto model = refitter.fitted_to(all, &fit);
   if (!model) return nullptr;
   fit.model = *model;
-  const auto fold_of = calibrate::delivery_folds(all.experiments.size(), in.seed);
+  const auto fold_of = calibrate::delivery_folds(all, in.seed);
   const auto errors = cross_validated(refitter, all, fold_of);
   if (errors.empty()) return nullptr;
   const models::AssembledLaw law(fit.model);

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "data/recordings.h"
 #include "trace/directions.h"
 #include "trace/noise_fit.h"
 #include "trace/projection.h"
@@ -84,10 +85,8 @@ std::size_t in_rows(const data::Dataset& data, std::size_t experiment) {
 } // namespace
 
 Search::Search(const TraceInput& in, const Effort& how_much) : input(in), effort(how_much) {
-  const std::size_t experiments = in.training.experiments.size();
   const Progress progress("columns and noise", 0);
-  units.resize(experiments);
-  std::iota(units.begin(), units.end(), 0);
+  take_units();
   blocks = make_blocks(in.training);
   make_candidates();
   make_campaign();
@@ -226,6 +225,13 @@ double Search::family_alpha() const {
   const bool validated = input.validation.experiments.size() >= enough_validation;
   const double level = effort.level * (validated ? level_with_validation : 1);
   return std::max(input.options.alpha, std::min(level * input.options.alpha, most));
+}
+
+void Search::take_units() {
+  units = data::units_of(input.training).of;
+  if (enough_units()) return;
+  units.resize(input.training.experiments.size());
+  std::iota(units.begin(), units.end(), 0);
 }
 
 bool Search::enough_units() const {

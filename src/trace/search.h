@@ -81,6 +81,8 @@ public:
   // Per test, what the parameters of the law, the effects in it and the order of tests explain of
   // the logarithm of its gain.
   Eigen::MatrixXd known_between() const;
+  // Recordings, where there are enough of them; else each test is one.
+  void take_units();
   // Whether so many units, which the screening flips, can give a p-value of trace.alpha.
   bool enough_units() const;
   // p-value that a finding of either family needs.

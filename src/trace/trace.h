@@ -195,7 +195,7 @@ struct Trace {
   ValidationShift validation_shift;
   std::vector<Lead> leads;              // strongest first
   std::vector<Alias> cannot_tell;       // by column
-  calibrate::NoiseFloor noise_floor;    // from the noise model: if nothing else is missing
+  calibrate::NoiseFloor noise_floor;    // scatter by the noise model: if nothing else is missing
   double scatter_between = 0;           // relative scatter between experiments, standard deviation
   calibrate::Interval scatter_interval; // 95 %
   double scatter_at_least = 0;          // with 95 % confidence; what repeatability is judged by

@@ -353,7 +353,7 @@ Json one_json(const Trace& t) {
           {"improvement", difference_json(t.improvement)},
           {"improvement_over_calibrated",
            t.over_calibrated ? difference_json(*t.over_calibrated) : Json(nullptr)},
-          {"noise_floor",
+          {"scatter_by_noise_model",
            {{"mae_MPa", floor.mae_MPa}, {"rmse_MPa", floor.rmse_MPa}, {"method", floor.method}}},
           {"scatter_between_experiments",
            {{"share", t.scatter_between},
@@ -422,9 +422,11 @@ Trace parse_one(const Json& j) {
   t.improvement = parse_difference(j.at("improvement"));
   if (const auto over = j.find("improvement_over_calibrated"); over != j.end() && !over->is_null())
     t.over_calibrated = parse_difference(*over);
-  t.noise_floor.mae_MPa = number_or_nan(j.at("noise_floor").at("mae_MPa"));
-  t.noise_floor.rmse_MPa = number_or_nan(j.at("noise_floor").at("rmse_MPa"));
-  t.noise_floor.method = j.at("noise_floor").at("method");
+  const Json& floor = j.at(j.contains("noise_floor") ? "noise_floor" // as versions to 0.1.0 wrote
+                                                     : "scatter_by_noise_model");
+  t.noise_floor.mae_MPa = number_or_nan(floor.at("mae_MPa"));
+  t.noise_floor.rmse_MPa = number_or_nan(floor.at("rmse_MPa"));
+  t.noise_floor.method = floor.at("method");
   const Json& scatter = j.at("scatter_between_experiments");
   t.scatter_between = number_or_nan(scatter.at("share"));
   t.scatter_interval = {number_or_nan(scatter.at("interval_95").at(0)),

@@ -258,7 +258,7 @@ std::string lead_text(const Lead& lead) {
 
 std::string trace_text(const Trace& t) {
   std::string out = found_text(t);
-  out += fmt::format("  noise floor by the noise model: {} MPa, if nothing else is missing\n",
+  out += fmt::format("  scatter by the noise model: {} MPa, if nothing else is missing\n",
                      digits(t.noise_floor.mae_MPa));
   out += "  left: " + t.remaining.note + "\n";
   for (const Lead& lead : t.leads)
@@ -297,9 +297,9 @@ std::string trace_in_short(const Trace& t) {
   for (const TracedEffect& effect : t.effects)
     causes.push_back(cause_text(effect));
   if (causes.empty())
-    return fmt::format("{} in the residual of {}{}; noise floor by the noise model {} MPa",
-                       headline(t), t.model, aliases_in_short(t), digits(t.noise_floor.mae_MPa));
-  return fmt::format("{} in {}: {} -> {} MPa on unseen tests, noise floor by the noise model {}{}",
+    return fmt::format("{} in the residual of {}{}; scatter by the noise model {} MPa", headline(t),
+                       t.model, aliases_in_short(t), digits(t.noise_floor.mae_MPa));
+  return fmt::format("{} in {}: {} -> {} MPa on unseen tests, scatter by the noise model {}{}",
                      join(causes, ", "), t.model, digits(t.before.validation.mae_MPa),
                      digits(t.after.validation.mae_MPa), digits(t.noise_floor.mae_MPa),
                      aliases_in_short(t));
