@@ -2,13 +2,18 @@
 #include "data/append.h"
 
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <set>
 #include <string_view>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
+#include "core/no_value.h"
+#include "data/plausibility.h"
 #include "data/recordings.h"
+#include "data/signs.h"
 
 namespace frictab::data {
 
@@ -49,6 +54,60 @@ void add_dropped(Dataset& all, const std::vector<Dataset::Dropped>& more) {
   }
 }
 
+namespace {
+
+void add_aside(Dataset& all, const Dataset& more) {
+  if (!more.aside) return;
+  if (!all.aside) {
+    all.aside = more.aside;
+    return;
+  }
+  const auto joined = all.aside.use_count() == 1 // a campaign may have many files
+                          ? std::const_pointer_cast<Dataset>(all.aside)
+                          : std::make_shared<Dataset>(*all.aside);
+  const std::size_t before = joined->rows();
+  for (Column& column : joined->columns)
+    if (const Column* same = more.aside->find(column.name))
+      append_values(column.values, same->values);
+    else
+      column.values.resize(column.values.size() + more.aside->rows(), no_value);
+  for (std::size_t e = 1; e < more.aside->first_row.size(); ++e)
+    joined->first_row.push_back(before + more.aside->first_row[e]);
+  joined->experiments.insert(joined->experiments.end(), more.aside->experiments.begin(),
+                             more.aside->experiments.end());
+  all.aside = joined;
+}
+
+void add_apart(std::vector<RowsApart>& all, const std::vector<RowsApart>& more) {
+  for (const RowsApart& one : more) {
+    const auto same = std::find_if(
+        all.begin(), all.end(), [&](const RowsApart& other) { return other.check == one.check; });
+    if (same == all.end()) {
+      all.push_back(one);
+      continue;
+    }
+    same->rows += one.rows;
+    for (const std::string& named : one.first)
+      if (same->first.size() < RowsApart::named) same->first.push_back(named);
+  }
+}
+
+} // namespace
+
+void absorb(Dataset& all, const Dataset& more) {
+  add_dropped(all, more.dropped);
+  for (std::size_t p = 0; p < phase_count; ++p)
+    all.phases[p] += more.phases[p];
+  add_aside(all, more);
+  add_apart(all.apart, more.apart);
+  all.signs.insert(all.signs.end(), more.signs.begin(), more.signs.end());
+  all.at_rest.insert(all.at_rest.end(), more.at_rest.begin(), more.at_rest.end());
+  merge_implausible(more.counted, all.counted);
+  for (const std::string& note : more.notes)
+    if (std::find(all.notes.begin(), all.notes.end(), note) == all.notes.end())
+      all.notes.push_back(note);
+}
+
 constexpr const char* only_same_columns =
     "all files of a list need the same columns: one that a file lacks may stand in `constants` or "
     "`labels` of its [[data.files]]; data.bystanders says which are read beside the quantities";
@@ -58,6 +117,8 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
     if (std::find(all.experiments.begin(), all.experiments.end(), name) != all.experiments.end())
       faults.add({file, 0, 0}, fmt::format("experiment '{}' is in another file as well", name),
                  "give experiments different names, or join the files");
+  std::array both{&all, &more};
+  if (all.has(direction_column) != more.has(direction_column)) add_direction(both);
   std::unordered_map<std::string_view, Column*> others; // a file may have many
   for (Column& column : more.columns)
     others.emplace(column.name, &column);
@@ -109,11 +170,8 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
   all.filed.insert(all.filed.end(), more.filed.begin(), more.filed.end());
   for (std::size_t e = 1; e < more.first_row.size(); ++e)
     all.first_row.push_back(offset + more.first_row[e]);
-  add_dropped(all, more.dropped);
   all.clocks.insert(all.clocks.end(), more.clocks.begin(), more.clocks.end());
-  for (std::string& note : more.notes)
-    if (std::find(all.notes.begin(), all.notes.end(), note) == all.notes.end())
-      all.notes.push_back(std::move(note));
+  absorb(all, more);
 }
 
 namespace {

@@ -9,6 +9,9 @@ namespace frictab::data {
 // Appends `more`, of `file`, to `all`: same columns, text levels joined, experiments told apart.
 void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& faults);
 
+// What is counted and told of `more` beside its rows: rows left out, phases, signs.
+void absorb(Dataset& all, const Dataset& more);
+
 // Adds up the rows that the same rule left out.
 void add_dropped(Dataset& all, const std::vector<Dataset::Dropped>& more);
 

@@ -32,6 +32,17 @@ void check_needed(Part& part, const DataOptions& options) {
 // In the canonical unit of any quantity, seconds since 1970 among them: more is no measurement.
 constexpr double more_than_anything = 1e12;
 
+namespace {
+
+bool is_friction(const std::string& column) {
+  return column == "tau_R_MPa" || column == "F_R_N";
+}
+bool is_load(const std::string& column) {
+  return column == "sigma_n_MPa" || column == "F_N_N";
+}
+
+} // namespace
+
 void check_values(Part& part) {
   FaultsByCause causes;
   for (const Column& column : part.data.columns) {
@@ -59,15 +70,15 @@ void check_values(Part& part) {
              fmt::format("what a device writes where it measured nothing? Such rows are left "
                          "out with data.drop = {{ {} = {{ above = 1e6 }} }}",
                          column.name)});
-      if (!(column.values[i] < quantity->lowest)) continue;
-      std::string hint =
-          fmt::format("a {} cannot be below {}{}", quantity->meaning, quantity->lowest,
-                      quantity->unit == "1" ? "" : " " + quantity->unit);
-      if (quantity->lowest == 0)
-        hint += fmt::format("; leave such rows out with data.drop = {{ {} = {{ below = 0 }} }}",
-                            column.name);
+      if (!(column.values[i] < quantity->lowest) || is_friction(column.name)) continue;
       causes.add("low " + column.name,
-                 {part.place(i), fmt::format("{} is {}", column.name, column.values[i]), hint});
+                 {part.place(i), fmt::format("{} is {}", column.name, column.values[i]),
+                  fmt::format("a {} cannot be below {}{}{}", quantity->meaning, quantity->lowest,
+                              quantity->unit == "1" ? "" : " " + quantity->unit,
+                              is_load(column.name)
+                                  ? "; both signs in one test: a zero that is off, or a channel of "
+                                    "something else?"
+                                  : "")});
     }
   }
   causes.tell(part.faults, "row");

@@ -16,7 +16,8 @@ void tell_cells(Part& part);
 // A contact normal stress: a column that is mapped and absent has had its fault already.
 void check_needed(Part& part, const DataOptions& options);
 
-// Quantities below their lowest value, and rows without load where eq. 1 divides by it.
+// Quantities below their lowest value (friction may scatter about 0), and rows without load where
+// eq. 1 divides by it.
 void check_values(Part& part);
 
 // Values that could not be computed though every cell of their row is a number; a measured stress

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "data/quantity.h"
+#include "data/signs.h"
 #include "expr/program.h"
 
 namespace frictab::data {
@@ -69,6 +71,34 @@ std::string unit_of(const Part& part, const Column& column) {
   return "";
 }
 
+// x of abs(x) and sqrt(x^2), however they are written; nullptr of all else.
+const expr::Expr* under_magnitude(const expr::Expr& e) {
+  using expr::Op;
+  const auto negates = [](const expr::Expr& a, const expr::Expr& b) {
+    return a.op() == Op::negate && a.operands()[0].id() == b.id();
+  };
+  const auto& of = e.operands();
+  if (e.op() == Op::maximum && negates(of[1], of[0])) return &of[0];
+  if (e.op() == Op::maximum && negates(of[0], of[1])) return &of[1];
+  const bool is_root = e.op() == Op::sqrt || (e.op() == Op::power && of[1].is_constant(0.5));
+  if (!is_root) return nullptr;
+  const expr::Expr& square = of[0];
+  const bool is_square =
+      (square.op() == Op::power && square.operands()[1].is_constant(2)) ||
+      (square.op() == Op::multiply && square.operands()[0].id() == square.operands()[1].id());
+  return is_square ? &square.operands()[0] : nullptr;
+}
+
+// The formula with x for abs(x); none where it has no such term.
+std::optional<expr::Expr> without_magnitudes(const expr::Expr& formula) {
+  std::vector<std::pair<expr::Expr, expr::Expr>> nodes;
+  expr::for_each_part(formula, [&](const expr::Expr& part) {
+    if (const expr::Expr* x = under_magnitude(part)) nodes.emplace_back(part, *x);
+  });
+  if (nodes.empty()) return {};
+  return expr::substitute(formula, nodes);
+}
+
 class Formulas {
 public:
   Formulas(Part& part, const DataOptions& options) : part_(part), options_(options) {}
@@ -115,15 +145,34 @@ private:
         inputs.push_back(name + " in " + unit);
     }
     const Quantity& quantity = *find_quantity(canonical);
-    Column out{canonical, quantity.unit, std::vector<double>(part_.row.size()), {}};
-    expr::Program(formula, names, {}).evaluate(part_.row.size(), values, {}, out.values.data());
     const ColumnSource& from = options_.columns.at(canonical);
-    if (!from.unit.empty()) // checked with the job
-      for (double& value : out.values)
-        value = (*convert(from.unit, quantity.unit))(value);
+    const auto values_of = [&](const expr::Expr& of) {
+      std::vector<double> out(part_.row.size());
+      expr::Program(of, names, {}).evaluate(out.size(), values, {}, out.data());
+      if (!from.unit.empty()) // checked with the job
+        for (double& value : out)
+          value = (*convert(from.unit, quantity.unit))(value);
+      return out;
+    };
+    Column out{canonical, quantity.unit, values_of(formula), {}};
+    const auto with_sign = has_direction(canonical) ? without_magnitudes(formula) : std::nullopt;
+    if (with_sign) keep_if_same(canonical, out.values, values_of(*with_sign));
     part_.data.columns.push_back(std::move(out));
     part_.data.notes.push_back(fmt::format("{} = {}{}", canonical, from.formula,
                                            inputs.empty() ? "" : ", " + join(inputs, ", ")));
+  }
+
+  static bool has_direction(const std::string& canonical) {
+    return canonical == "v_rel_mm_s" || canonical == "tau_R_MPa" || canonical == "F_R_N";
+  }
+
+  // Where it is the formula but for its sign: abs(x) + abs(y) is not.
+  void keep_if_same(const std::string& canonical, const std::vector<double>& magnitudes,
+                    std::vector<double> with_sign) {
+    constexpr double rounding = 1e-9;
+    for (std::size_t i = 0; i < magnitudes.size(); ++i)
+      if (std::abs(std::abs(with_sign[i]) - magnitudes[i]) > rounding * magnitudes[i]) return;
+    keep_signed(part_, canonical, std::move(with_sign));
   }
 
   const Column* input(const std::string& canonical, const std::string& name) {
@@ -167,9 +216,12 @@ void take_slopes(Part& part, const DataOptions& options) {
       if (n < from.slope_rows) ++shorter;
       const auto slopes = local_slopes({time->values.data() + first, n},
                                        {column->values.data() + first, n}, from.slope_rows);
-      for (std::size_t i = 0; i < n; ++i)
-        column->values[first + i] = std::abs(slopes[i]);
+      std::copy(slopes.begin(), slopes.end(), column->values.begin() + static_cast<long>(first));
     }
+    std::vector<double> with_sign = column->values;
+    for (double& slope : column->values)
+      slope = std::abs(slope);
+    if (canonical == "v_rel_mm_s") keep_signed(part, canonical, std::move(with_sign));
     std::string note =
         fmt::format("{} = slope over {} rows of its column", canonical, from.slope_rows);
     if (shorter > 0)
@@ -232,15 +284,20 @@ void derive_shear_stress(Part& part, const DataOptions& options) {
     return;
   }
   if (!stress) return; // told by check_needed
-  Column tau{"tau_R_MPa", "MPa", std::vector<double>(stress->values.size()), {}};
   part.measured_tau = false;
-  // No load, no coefficient: NaN; check_values reports the load unless the row is left out before.
-  for (std::size_t i = 0; i < tau.values.size(); ++i)
-    tau.values[i] = normal->values[i] > 0
-                        ? friction->values[i] / normal->values[i] * stress->values[i]
-                        : no_value;
-  part.data.columns.push_back(std::move(tau));
+  part.data.columns.push_back({"tau_R_MPa", "MPa", std::vector<double>(stress->values.size()), {}});
+  fill_shear_stress(part);
   part.data.notes.push_back("tau_R_MPa = F_R_N/F_N_N * sigma_n_MPa (eq. 1)");
+}
+
+void fill_shear_stress(Part& part) {
+  Column* const tau = part.find("tau_R_MPa");
+  if (!tau) return;
+  const auto &friction = part.find("F_R_N")->values, &normal = part.find("F_N_N")->values,
+             &stress = part.find("sigma_n_MPa")->values;
+  // No load, no coefficient: NaN; check_values reports the load unless the row is left out before.
+  for (std::size_t i = 0; i < tau->values.size(); ++i)
+    tau->values[i] = normal[i] > 0 ? friction[i] / normal[i] * stress[i] : no_value;
 }
 
 void integrate_distance(Part& part) {

@@ -11,8 +11,10 @@
 #include "core/error.h"
 #include "core/no_value.h"
 #include "core/text.h"
+#include "data/append.h"
 #include "data/derived.h"
 #include "data/recordings.h"
+#include "data/signs.h"
 
 namespace frictab::data {
 
@@ -35,7 +37,8 @@ class Borders {
 public:
   explicit Borders(const Dataset& data) : pressure_(data.values("sigma_n_MPa")) {
     for (const Column& column : data.columns)
-      if (!column.levels.empty()) texts_.push_back(column.values);
+      if (!column.levels.empty() || column.name == direction_column)
+        texts_.push_back(column.values);
   }
   bool at(std::size_t i) const {
     if ((pressure_[i] > 0) != (pressure_[i - 1] > 0)) return true;
@@ -120,14 +123,15 @@ public:
     out_.filed = rows_.filed;
     out_.first_row = first_block_;
     out_.sources = rows_.sources;
-    out_.dropped = rows_.dropped;
-    out_.notes = rows_.notes;
+    absorb(out_, rows_);
+    out_.aside.reset(); // strokes of blocks are drawn without
     out_.clocks = rows_.clocks;
     out_.condensed.emplace();
     add_experiments(source);
     add_weights();
     for (const Column& column : rows_.columns) {
-      out_.columns.push_back({column.name, column.unit, means(column), column.levels});
+      out_.columns.push_back(
+          {column.name, column.unit, means(column), column.levels, column.role, column.why});
       if (column.levels.empty()) add_spans(column);
     }
     for (const DerivedQuantity& quantity : derived_quantities())

@@ -8,9 +8,9 @@
 // go. Errors of laws are taken in a second look at the rows (read_again).
 //
 // A test changes most where it begins: there blocks are short, an eighth of the way so far. A block
-// ends where a text column changes or the load begins or ends, so that its mean is one of
-// alike rows; cells without a value are not in the mean. An experiment with no more rows than
-// blocks keeps its rows.
+// ends where a text column or the direction changes or the load begins or ends, so that its mean is
+// one of alike rows; cells without a value are not in the mean. An experiment with no more rows
+// than blocks keeps its rows.
 #pragma once
 
 #include <functional>

@@ -70,6 +70,9 @@ Dataset Dataset::subset(std::span<const std::size_t> keep) const {
   part.sources = sources;
   part.dropped = dropped;
   part.notes = notes;
+  part.phases = phases;
+  part.aside = aside;
+  part.interventions = interventions;
   for (const Column& column : columns)
     part.columns.push_back({column.name, column.unit, {}, column.levels, column.role, column.why});
   if (condensed) {
@@ -176,6 +179,8 @@ Split hold_out(const Dataset& data, double share, std::uint64_t seed) {
   Split split{data.subset(in), data.subset(out)};
   // What was left out at reading is told once, with the training part.
   split.validation.dropped.clear();
+  split.validation.phases = {};
+  split.validation.interventions.clear();
   split.training.notes.push_back(
       fmt::format("{} of {} experiments held out to validate{}, drawn by seed {}", out.size(),
                   units.of.size(), in_words(units, held), seed));

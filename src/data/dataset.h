@@ -56,6 +56,31 @@ struct ClockOffset {
   double correlation = 0; // of the two series at this offset
 };
 
+// What the forces of a test's two directions differ by, half of it (data/signs.h).
+struct ForceOffset {
+  double offset = 0, error = 0;  // of column; its standard error
+  double friction = 0, load = 0; // in the middle
+};
+
+// A test whose friction or speed has a sign.
+struct SignedTest {
+  std::string experiment;
+  std::string friction_column;
+  int speed = 1, friction = 1; // their signs, where the test has one direction
+  bool both = false;           // directions
+  std::optional<ForceOffset> zero = {};
+  std::optional<double> unloaded = {}; // what the friction column shows without load
+};
+
+// Rows that no rig can measure, left out of fits (data/plausibility.h).
+struct RowsApart {
+  static constexpr std::size_t named = 3;
+  std::string check; // its name, for data.allow_implausible
+  std::string what;  // "tau_R_MPa is above the shear yield stress"
+  std::size_t rows = 0;
+  std::vector<std::string> first; // "t03.csv:21: 812 MPa in test 't03'"
+};
+
 class Dataset;
 
 // Files whose rows were held as means over blocks, and can be read once more.
@@ -121,14 +146,20 @@ public:
     std::string rule; // "tau_R_MPa below 0.1"
     std::size_t rows;
   };
-  std::vector<Dropped> dropped;                  // rows left out at the user's word
+  std::vector<Dropped> dropped;                  // rows left out
   std::array<std::size_t, phase_count> phases{}; // rows read, by phase; all 0: phases are not known
-  std::shared_ptr<const Dataset>
-      aside;                       // rows that are not sliding; a text column `phase` says what
+  // Rows that were left out as not sliding, of rows that are held: time_s, s_mm and tau_R_MPa,
+  // their number in the test from 1, `row`, and a text column `phase`.
+  std::shared_ptr<const Dataset> aside;
+  std::vector<RowsApart> apart;
+  std::vector<SignedTest> signs;          // tests that are not plain
+  std::vector<std::string> interventions; // notes on what was left out or changed, for summaries
+  std::vector<std::string> at_rest;       // tests without a row that slides: they are left out
   std::vector<std::string> notes;  // what was derived: "s_mm integrated from v_rel_mm_s and time_s"
   std::vector<ClockOffset> clocks; // of data.join, where they were found
   std::vector<std::string> unused; // "tests.csv: K7": a test beside the data that none of them has
   std::vector<std::string> implausible; // what some rows cannot have been (data/plausibility.h)
+  std::vector<Implausible> counted;     // by checks that look at rows which are left out
   // Synthetic data only: the noise-free tau_R per row; empty where it is not known. Not a column,
   // so that nothing can be fitted to it, and not part of the fingerprint.
   std::vector<double> oracle_MPa;

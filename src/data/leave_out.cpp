@@ -1,13 +1,18 @@
 // data.drop and data.missing.
 #include "data/leave_out.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <memory>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/plausibility.h"
 #include "data/quantity.h"
+#include "data/signs.h"
 
 namespace frictab::data {
 
@@ -65,6 +70,160 @@ void drop_missing(Part& part, const DataOptions& options) {
     if (options.needed && !find_quantity(column.name) && options.needed(column.name))
       drop_without(column, part, keep);
   keep_rows(part, keep, "data.missing = \"drop\" leaves no row");
+}
+
+// ---- phases ----
+
+namespace {
+
+// Why rows of a phase are left out.
+const char* phase_rule(Phase phase) {
+  if (phase == Phase::rest) return "at rest: v_rel_mm_s is 0, or cannot be told from 0";
+  if (phase == Phase::turning) return "turning: where a stroke begins and ends";
+  return "unloaded: below 5 % of the load of its test";
+}
+
+// The rows that are left out, with what a stroke is drawn of.
+std::shared_ptr<const Dataset> rows_aside(const Part& part, const std::vector<char>& keep,
+                                          const std::vector<Phase>& phases) {
+  const Dataset& data = part.data;
+  const auto aside = std::make_shared<Dataset>();
+  Column row{"row", "1", {}, {}}, phase{"phase", "", {}, {}};
+  for (std::size_t p = 0; p < phase_count; ++p)
+    phase.levels.emplace_back(phase_name(static_cast<Phase>(p)));
+  std::sort(phase.levels.begin(), phase.levels.end());
+  std::vector<const Column*> from;
+  for (const Column& column : data.columns)
+    if (column.name == "time_s" || column.name == "s_mm" || column.name == "tau_R_MPa") {
+      from.push_back(&column);
+      aside->columns.push_back({column.name, column.unit, {}, {}});
+    }
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+      if (keep[i]) continue;
+      for (std::size_t c = 0; c < from.size(); ++c)
+        aside->columns[c].values.push_back(from[c]->values[i]);
+      row.values.push_back(static_cast<double>(i - data.first_row[e] + 1));
+      const auto level = std::find(phase.levels.begin(), phase.levels.end(), phase_name(phases[i]));
+      phase.values.push_back(static_cast<double>(level - phase.levels.begin()));
+    }
+    if (row.values.size() == aside->first_row.back()) continue;
+    aside->experiments.push_back(data.experiments[e]);
+    aside->first_row.push_back(row.values.size());
+  }
+  aside->columns.push_back(std::move(row));
+  aside->columns.push_back(std::move(phase));
+  return aside;
+}
+
+} // namespace
+
+void leave_out_phases(Part& part, const std::vector<Phase>& phases, const DataOptions& options) {
+  Dataset& data = part.data;
+  if (!options.measured) return;
+  std::vector<char> keep(phases.size(), 1);
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    ++data.phases[static_cast<std::size_t>(phases[i])];
+    keep[i] = is_fitted(phases[i]);
+  }
+  if (data.phases[static_cast<std::size_t>(Phase::unloaded)] > 0) count_unloaded(data);
+  if (options.rows == UsedRows::all) return;
+  for (std::size_t p = 0; p < phase_count; ++p)
+    if (const auto phase = static_cast<Phase>(p); data.phases[p] > 0 && !is_fitted(phase))
+      data.dropped.push_back({phase_rule(phase), data.phases[p]});
+  if (std::count(keep.begin(), keep.end(), 0) == 0) return;
+  data.aside = rows_aside(part, keep, phases);
+  const std::vector<std::string> before = data.experiments;
+  keep_rows(part, keep, nullptr);
+  const std::set<std::string> left(data.experiments.begin(), data.experiments.end());
+  std::copy_if(before.begin(), before.end(), std::back_inserter(data.at_rest),
+               [&](const std::string& name) { return left.count(name) == 0; });
+}
+
+// ---- rows that no rig can measure ----
+
+void leave_out_impossible(Part& part, const DataOptions& options) {
+  Dataset& data = part.data;
+  if (!options.measured || !part.faults.empty() || !data.has("tau_R_MPa") ||
+      !data.has("sigma_n_MPa"))
+    return;
+  std::set<std::string> allowed = options.keep_apart;
+  allowed.insert(options.allow_implausible.begin(), options.allow_implausible.end());
+  std::vector<char> keep(part.row.size(), 1);
+  std::size_t e = 0;
+  for (const ImpossibleRow& found : impossible_rows(data, part.row, allowed)) {
+    while (data.first_row[e + 1] <= found.row)
+      ++e;
+    keep[found.row] = 0;
+    auto known = std::find_if(data.apart.begin(), data.apart.end(),
+                              [&](const RowsApart& one) { return one.check == found.check; });
+    if (known == data.apart.end())
+      known = data.apart.insert(known, {found.check, impossible_text(found.check), 0, {}});
+    if (++known->rows > RowsApart::named) continue;
+    known->first.push_back(fmt::format(
+        "{} in test '{}' ({:.4g}{})", format_place(part.place(found.row)), data.experiments[e],
+        found.value, found.check == "friction_coefficient" ? "" : " MPa"));
+  }
+  for (const RowsApart& one : data.apart)
+    data.dropped.push_back({one.what, one.rows});
+  keep_rows(part, keep, nullptr);
+}
+
+// ---- a campaign ----
+
+void tell(Dataset& data, std::string intervention) {
+  data.notes.push_back(intervention);
+  data.interventions.push_back(std::move(intervention));
+}
+
+bool look_again(const Dataset& data, DataOptions& options) {
+  constexpr double most = 0.05; // of the rows of a campaign
+  bool again = false;
+  double rows = static_cast<double>(data.rows_behind());
+  for (const RowsApart& one : data.apart)
+    rows += static_cast<double>(one.rows);
+  for (const RowsApart& one : data.apart)
+    if (static_cast<double>(one.rows) > most * rows) {
+      options.keep_apart.insert(one.check);
+      again = true;
+    }
+  if (data.rows() == 0 && !data.at_rest.empty()) {
+    options.rows = UsedRows::all;
+    again = true;
+  }
+  if (options.force_zero == ForceZero::automatic &&
+      directions_differ(data) == DirectionsDiffer::by_friction) {
+    options.force_zero = ForceZero::keep;
+    again = true;
+  }
+  return again;
+}
+
+void tell_left_out(Dataset& data) {
+  constexpr std::size_t named = 12;
+  std::size_t all = 0, fitted = 0;
+  for (std::size_t p = 0; p < phase_count; ++p) {
+    all += data.phases[p];
+    if (is_fitted(static_cast<Phase>(p))) fitted += data.phases[p];
+  }
+  if (all > 0 && fitted == 0)
+    tell(data, "no row slides, by v_rel_mm_s and the load: all rows are taken");
+  if (!data.at_rest.empty()) {
+    std::vector<std::string> names = data.at_rest;
+    const std::size_t more = names.size() - std::min(names.size(), named);
+    names.resize(names.size() - more);
+    tell(data,
+         fmt::format("no row of {} slides: left out{} (data.rows = \"all\" takes them)",
+                     names.size() + more == 1 ? "test '" + names[0] + "'"
+                                              : thousands(names.size() + more) + " tests",
+                     names.size() + more == 1 ? ""
+                                              : ": " + join(names, ", ") + and_more(more, "test")));
+  }
+  for (const RowsApart& one : data.apart)
+    tell(data, fmt::format("left out, {}: {}{}; data.allow_implausible = [\"{}\"] keeps {}",
+                           one.what, join(one.first, ", "),
+                           and_more(one.rows - std::min(one.rows, one.first.size()), "row"),
+                           one.check, one.rows == 1 ? "it" : "them"));
 }
 
 } // namespace frictab::data

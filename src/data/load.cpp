@@ -1,6 +1,7 @@
 // From files to a campaign.
 #include "data/load.h"
 
+#include "data/leave_out.h"
 #include "data/load_part.h"
 
 namespace frictab::data {
@@ -8,8 +9,10 @@ namespace frictab::data {
 Dataset load_dataset(const std::vector<std::string>& named, const DataOptions& options) {
   DataOptions rest = options; // without what stands in the table of tests
   const Beside beside = load_beside(rest);
-  Dataset all =
-      load_all(named, rest, [&](const FilePlan& plan) { return load_part(plan, beside); });
+  const auto load = [&](const FilePlan& plan) { return load_part(plan, beside); };
+  Dataset all = load_all(named, rest, load);
+  while (look_again(all, rest))
+    all = load_all(named, rest, load);
   complete(all, options, beside);
   return all;
 }

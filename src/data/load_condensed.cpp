@@ -14,6 +14,7 @@
 #include "data/condense.h"
 #include "data/file_list.h"
 #include "data/hdf5_columns.h"
+#include "data/leave_out.h"
 #include "data/load_part.h"
 #include "data/plausibility.h"
 #include "data/raw_parts.h"
@@ -188,7 +189,7 @@ private:
   void tell_empty_files() {
     std::vector<std::size_t> rows(faults_.size(), 0);
     for (const auto& [number, found] : parts_)
-      rows[number.file] += found.blocks.rows();
+      rows[number.file] += found.blocks.rows() + found.blocks.at_rest.size();
     for (std::size_t f = 0; f < faults_.size(); ++f)
       if (rows[f] == 0 && faults_[f].empty() && options_.join.files.empty())
         faults_[f].add({campaign_->files()[f], 0, 0},
@@ -203,7 +204,7 @@ private:
       notes_.add(found.notes);
       merge_implausible(found.implausible, implausible_);
       if (found.blocks.rows() == 0) {
-        dropped_.insert(dropped_.end(), found.blocks.dropped.begin(), found.blocks.dropped.end());
+        absorb(without_rows_, found.blocks);
         continue;
       }
       if (first) {
@@ -222,7 +223,7 @@ private:
   }
 
   void finish(Dataset& all) {
-    add_dropped(all, dropped_);
+    absorb(all, without_rows_);
     for (std::string& note : notes_.texts())
       all.notes.push_back(std::move(note));
     all.notes.insert(all.notes.begin(), campaign_->notes().begin(), campaign_->notes().end());
@@ -238,7 +239,7 @@ private:
   std::vector<FaultList> faults_; // by file
   CountedNotes notes_;            // of all parts
   std::vector<Implausible> implausible_;
-  std::vector<Dataset::Dropped> dropped_; // of parts of which nothing is left
+  Dataset without_rows_; // of parts of which nothing is left
 };
 
 // ---- how many rows there are ----
@@ -290,8 +291,13 @@ std::size_t blocks_to_condense(const DataOptions& options) {
 
 Dataset load_condensed(const std::vector<std::string>& files, const DataOptions& options,
                        std::size_t blocks) {
-  const auto campaign = std::make_shared<const Campaign>(files, options);
-  Dataset all = FirstLook(options, blocks, campaign).held();
+  DataOptions now = options;
+  auto campaign = std::make_shared<const Campaign>(files, now);
+  Dataset all = FirstLook(now, blocks, campaign).held();
+  while (look_again(all, now)) {
+    campaign = std::make_shared<const Campaign>(files, now);
+    all = FirstLook(now, blocks, campaign).held();
+  }
   complete(all, options, campaign->beside());
   return all;
 }

@@ -15,6 +15,7 @@
 #include "data/join.h"
 #include "data/leave_out.h"
 #include "data/recordings.h"
+#include "data/signs.h"
 #include "data/wide.h"
 
 namespace frictab::data {
@@ -54,14 +55,18 @@ void finish_part(Part& part, const DataOptions& options, const Beside& beside) {
   compute_formulas(part, options);
   multiply_coefficients(part, options);
   check_needed(part, options);
+  turn_loads(part);
   derive_shear_stress(part, options);
   drop_missing(part, options);
   drop_rows(part, options);
   tell_cells(part);
-  check_values(part);
   check_experiments(part, options);
-  integrate_distance(part);
+  const std::vector<Phase> phases = take_signs(part, options);
+  integrate_distance(part); // over all rows
+  leave_out_phases(part, phases, options);
+  check_values(part);
   check_computed(part, options);
+  leave_out_impossible(part, options);
 }
 
 // What `load` makes of a part; its fault where it throws one.
@@ -82,6 +87,7 @@ Part load_second_part(const FilePlan& plan) {
     compute_formulas(part, plan.options);
     multiply_coefficients(part, plan.options);
     drop_missing(part, plan.options);
+    forget_signed(part);
     tell_cells(part);
     check_values(part);
     check_computed(part, plan.options);
@@ -169,6 +175,8 @@ void complete(Dataset& all, const DataOptions& options, const Beside& beside) {
           fmt::format("data.join: {} {} left out ({}): its columns are interpolated "
                       "between those before and behind",
                       thousands(dropped.rows), dropped.rows == 1 ? "row" : "rows", dropped.rule));
+  tell_left_out(all);
+  tell_signs(all, options.force_zero);
   all.unused = unused_tests(all, beside);
   find_recordings(all, options);
   fingerprint(all);
@@ -196,13 +204,21 @@ Dataset one_campaign(std::vector<Part>& parts, const std::vector<std::string>& f
   CountedNotes counted;
   for (Part& part : parts)
     if (parts.size() > 1) counted.take(part);
-  Dataset all = std::move(parts.front().data);
-  all.sources = {files.front()};
-  for (std::size_t i = 1; i < parts.size(); ++i) {
+  std::size_t first = 0; // of which a row is left
+  while (first + 1 < parts.size() && parts[first].data.rows() == 0)
+    ++first;
+  Dataset all = std::move(parts[first].data);
+  all.sources = {files[first]}; // what a fault of the others says
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i == first) continue;
+    if (parts[i].data.rows() == 0) {
+      absorb(all, parts[i].data);
+      continue;
+    }
     append(all, std::move(parts[i].data), files[i], faults);
     faults.throw_if_any();
-    all.sources.push_back(files[i]);
   }
+  all.sources = files;
   for (std::string& note : counted.texts())
     all.notes.push_back(std::move(note));
   return all;

@@ -36,6 +36,13 @@ struct DropRule {
 // An empty cell of a quantity: a fault, or its row is left out and counted.
 enum class Missing { error, drop };
 
+// Which rows are fitted (data/phases.h).
+enum class UsedRows { sliding, all };
+
+// What the forces of both directions of a test differ by (data/signs.h): decided by how it goes
+// with the load; the zero of the force cell, taken off; friction, kept.
+enum class ForceZero { automatic, remove, keep };
+
 // What is special about some files; the first rule that matches a file counts. What it leaves out
 // is as for all.
 struct FileRule {
@@ -101,8 +108,10 @@ struct DataOptions {
   // false: rows to predict. They need neither a measured stress nor what it is computed from (NaN
   // where a cell of it is empty), and an experiment may be one row.
   bool measured = true;
-  std::map<std::string, RoleWish> roles;      // by the column's name: overrule what is inferred
-  bool sliding_only = true;                   // data.rows: which rows are fitted
+  std::map<std::string, RoleWish> roles; // by the column's name: overrule what is inferred
+  UsedRows rows = UsedRows::sliding;
+  ForceZero force_zero = ForceZero::automatic;
+  std::set<std::string> keep_apart; // checks whose rows are too many to be left out; no job key
   std::vector<std::string> allow_implausible; // names of checks (data/plausibility.h)
   std::vector<FileRule> files;
   std::string tests; // a file with one row per experiment

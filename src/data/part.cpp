@@ -109,6 +109,11 @@ void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none) {
   data.first_row = std::move(first);
 }
 
+void add_counted(Part& part, std::string words, std::size_t rows) {
+  part.counted_notes.push_back({part.data.notes.size(), std::move(words), rows, part.raw_rows});
+  part.data.notes.push_back(part.counted_notes.back().text());
+}
+
 void CountedNotes::take(Part& part) {
   std::vector<std::string>& notes = part.data.notes;
   for (auto note = part.counted_notes.rbegin(); note != part.counted_notes.rend(); ++note)

@@ -41,6 +41,9 @@ private:
 // experiment of a file that is one.
 void gather_experiments(Part& part, MappedFile&& mapped, const std::string& label);
 
+// A note that counts: `words` with ROWS for the count (MappedFile::CountedNote).
+void add_counted(Part& part, std::string words, std::size_t rows);
+
 // The rows whose `keep` is not 0; an experiment without a row goes. With `if_none` a note names
 // those, and where no row is left at all, that is a fault in these words.
 void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none);

@@ -184,12 +184,16 @@ Implausible pressure(const Dataset& data) {
           "contact normal stress in Pa or kPa? unit = \"Pa\" where it is mapped"};
 }
 
+bool above_shear_yield(double tau, double flow) {
+  return tau > above_yield * flow / std::sqrt(3.0);
+}
+
 Implausible shear_yield(const Dataset& data) {
   if (!data.has("sigma_f_MPa")) return {};
   const auto tau = data.values("tau_R_MPa"), flow = data.values("sigma_f_MPa");
   std::size_t rows = 0;
   for (std::size_t i = 0; i < tau.size(); ++i)
-    rows += tau[i] > above_yield * flow[i] / std::sqrt(3.0);
+    rows += above_shear_yield(tau[i], flow[i]);
   return {"", rows, tau.size(), "tau_R_MPa is above the shear yield stress sigma_f_MPa/sqrt(3)",
           "a flow stress in GPa or before hardening, or a shear stress in another unit?"};
 }
@@ -556,6 +560,77 @@ Implausible copied_test(const Dataset& data) {
           "no test is measured twice alike: keep one (is a file there under two names?)"};
 }
 
+// ---- rows that no rig can measure ----
+
+// See plausibility.h.
+constexpr double spike_height = 1.5, spike_height_at_ends = 3, spike_scatter = 8;
+constexpr std::size_t spike_rows = 3, spike_window = 11, rows_of_end = 5;
+
+// Running medians of a test, its scatter about them, and its middle.
+struct Course {
+  std::vector<double> middle;
+  double scatter = 0, typical = 0;
+
+  explicit Course(std::span<const double> values)
+      : typical(median({values.begin(), values.end()})) {
+    std::vector<double> off;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::size_t begin =
+          std::min(i - std::min(i, spike_window / 2), values.size() - spike_window);
+      const auto near = values.subspan(begin, spike_window);
+      middle.push_back(median({near.begin(), near.end()}));
+      off.push_back(std::abs(values[i] - middle.back()));
+    }
+    scatter = std::max(1.4826 * median(std::move(off)), 1e-3 * typical);
+  }
+};
+
+// Of the rows of one test; `place` of each in its file.
+std::vector<std::size_t> spikes_of(std::span<const double> tau, std::span<const double> pressure,
+                                   std::span<const std::size_t> place) {
+  std::vector<std::size_t> found;
+  const std::size_t rows = tau.size();
+  if (rows < 2 * spike_window) return found;
+  const double typical = median({tau.begin(), tau.end()});
+  if (!(typical > 0) ||
+      std::none_of(tau.begin(), tau.end(), [&](double x) { return x > spike_height * typical; }))
+    return found;
+  const Course course(tau), load(pressure);
+  const auto is_end = [&](std::size_t i) {
+    return i < rows_of_end || i + rows_of_end >= rows ||
+           place[i + rows_of_end] != place[i - rows_of_end] + 2 * rows_of_end;
+  };
+  const auto is_high = [&](std::size_t i) {
+    const double height = is_end(i) ? spike_height_at_ends : spike_height;
+    return tau[i] - course.middle[i] > spike_scatter * course.scatter &&
+           tau[i] > height * std::max(course.middle[i], typical) &&
+           tau[i] / pressure[i] > height * course.middle[i] / load.middle[i];
+  };
+  for (std::size_t i = 0; i < rows; ++i) {
+    std::size_t end = i;
+    while (end < rows && is_high(end))
+      ++end;
+    for (std::size_t j = i; end - i <= spike_rows && j < end; ++j)
+      found.push_back(j);
+    i = std::max(i, end);
+  }
+  return found;
+}
+
+// Of a test, above which its own scatter from row to row does not reach. A test that is above a
+// limit as a whole has no rows that are: the checks above tell it.
+double end_of_noise(std::span<const double> tau) {
+  constexpr double deviations = 4;
+  const double middle = median({tau.begin(), tau.end()});
+  return tau.size() < spike_window ? spike_height * middle
+                                   : middle + deviations * Course(tau).scatter;
+}
+
+// They are left out as they are read; what is left has none.
+Implausible spike(const Dataset&) {
+  return {};
+}
+
 // What a check needs to see at once: rows that have what it looks at, whole tests of which it
 // counts all rows, or a whole campaign.
 enum class Sees { rows, tests, campaign };
@@ -573,6 +648,7 @@ constexpr Check checks[] = {{"no_friction", no_friction, Sees::campaign},
                             {"high_coefficient", high_coefficient, Sees::rows},
                             {"no_coefficient", no_coefficient, Sees::tests},
                             {"shear_yield", shear_yield, Sees::rows},
+                            {"spike", spike, Sees::rows},
                             {"temperature", temperature, Sees::campaign},
                             {"speed", speed, Sees::rows},
                             {"path", path, Sees::tests},
@@ -584,12 +660,24 @@ constexpr Check checks[] = {{"no_friction", no_friction, Sees::campaign},
                             {"test_apart", test_apart, Sees::campaign},
                             {"copied_test", copied_test, Sees::campaign}};
 
+const Implausible* counted_by(const Check& check, const std::vector<Implausible>& counted) {
+  for (const Implausible& one : counted)
+    if (one.check == check.name) return &one;
+  return nullptr;
+}
+
+// Where rows are left out, what was counted before they were.
+Implausible found_in_rows(const Check& check, const Dataset& data) {
+  Implausible found = check.find(data);
+  const Implausible* const before = counted_by(check, data.counted);
+  return before && before->rows > found.rows ? *before : found;
+}
+
 // Of a condensed campaign, what was counted before its rows went.
 Implausible found_by(const Check& check, const Dataset& data) {
-  if (!data.condensed || check.sees == Sees::campaign) return check.find(data);
-  for (const Implausible& one : data.condensed->implausible)
-    if (one.check == check.name) return one;
-  return {};
+  if (!data.condensed || check.sees == Sees::campaign) return found_in_rows(check, data);
+  const Implausible* const counted = counted_by(check, data.condensed->implausible);
+  return counted ? *counted : Implausible{};
 }
 
 } // namespace
@@ -619,7 +707,7 @@ void count_implausible(const Dataset& rows, std::vector<Implausible>& counted) {
   std::vector<Implausible> here;
   for (const Check& check : checks) {
     if (check.sees == Sees::campaign || rows.rows() == 0) continue;
-    here.push_back(check.find(rows));
+    here.push_back(found_in_rows(check, rows));
     here.back().check = check.name;
     if (check.sees == Sees::tests) here.back().of = rows.rows();
   }
@@ -642,6 +730,57 @@ void merge_implausible(const std::vector<Implausible>& more, std::vector<Implaus
     known->rows += one.rows;
     known->of += one.of;
   }
+}
+
+void count_unloaded(Dataset& data) {
+  Implausible found = force_offset(data);
+  found.check = "force_offset";
+  if (found.rows > 0) data.counted = {std::move(found)};
+}
+
+std::vector<ImpossibleRow> impossible_rows(const Dataset& data, std::span<const std::size_t> place,
+                                           const std::set<std::string>& allowed) {
+  const auto tau = data.values("tau_R_MPa"), pressure = data.values("sigma_n_MPa");
+  const auto flow = data.has("sigma_f_MPa") ? data.values("sigma_f_MPa") : tau;
+  const bool by_yield = data.has("sigma_f_MPa") && allowed.count("shear_yield") == 0,
+             by_coefficient = allowed.count("friction_coefficient") == 0;
+  std::vector<ImpossibleRow> found;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const std::size_t begin = data.first_row[e], rows = data.first_row[e + 1] - begin;
+    std::vector<char> is_found(rows, 0);
+    std::optional<double> usual; // coefficient, where it is asked for
+    std::optional<double> noise_ends;
+    const auto beyond_noise = [&](double x) {
+      if (!noise_ends) noise_ends = end_of_noise(tau.subspan(begin, rows));
+      return x > *noise_ends;
+    };
+    const auto add = [&](std::size_t i, const char* check, double value) {
+      found.push_back({i, check, value});
+      is_found[i - begin] = 1;
+    };
+    for (std::size_t i = begin; i < begin + rows; ++i) {
+      if (by_yield && above_shear_yield(tau[i], flow[i]) && beyond_noise(tau[i])) {
+        add(i, "shear_yield", tau[i]);
+      } else if (by_coefficient && pressure[i] > 0 && tau[i] > largest_mu * pressure[i]) {
+        if (!usual) usual = median(coefficients(data, begin, begin + rows));
+        const double mu = tau[i] / pressure[i];
+        if (mu > spike_height * *usual && beyond_noise(tau[i])) add(i, "friction_coefficient", mu);
+      }
+    }
+    if (allowed.count("spike") > 0) continue;
+    for (const std::size_t i : spikes_of(tau.subspan(begin, rows), pressure.subspan(begin, rows),
+                                         place.subspan(begin, rows)))
+      if (!is_found[i]) add(begin + i, "spike", tau[begin + i]);
+  }
+  std::sort(found.begin(), found.end(),
+            [](const ImpossibleRow& a, const ImpossibleRow& b) { return a.row < b.row; });
+  return found;
+}
+
+std::string impossible_text(const std::string& check) {
+  if (check == "shear_yield") return "tau_R_MPa above the shear yield stress sigma_f_MPa/sqrt(3)";
+  if (check == "spike") return "a spike: tau_R_MPa far above the rows around it";
+  return fmt::format("tau_R_MPa/sigma_n_MPa above {} and far above that of its test", largest_mu);
 }
 
 void check_plausibility(Dataset& data, const std::vector<std::string>& allowed, const Place& place,

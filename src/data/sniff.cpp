@@ -97,6 +97,22 @@ std::string plain(const std::string& name) {
   return out;
 }
 
+// What a history output of Abaqus calls it: contact forces ("CFN2: Normal force ...", CFSM)
+// wherever they stand, and of a node ("V1 PI: PART-1-1 N: 1") velocities and temperatures. The
+// other components of a vector stay columns of their own.
+std::string of_abaqus(const std::string& name) {
+  const std::string word = name.substr(0, name.find(' '));
+  const bool component =
+      word.size() == 4 && (std::isdigit(static_cast<unsigned char>(word[3])) || word[3] == 'm');
+  if (component && word.starts_with("cfn")) return "F_N_N";
+  if (component && word.starts_with("cfs")) return "F_R_N";
+  if (name.find(" pi ") == name.npos) return "";
+  if (word == "temp" || word == "nt11") return "T_contact_C";
+  const bool velocity =
+      word.size() == 2 && word[0] == 'v' && std::isdigit(static_cast<unsigned char>(word[1]));
+  return velocity ? "v_rel_mm_s" : "";
+}
+
 // 3: the canonical name; 2: a whole name; 1: part of one; 0: no such column.
 int likeness(const Names& names, const GuessedColumn& column) {
   if (column.name == names.canonical && !names.coefficient) return 3;
@@ -106,6 +122,7 @@ int likeness(const Names& names, const GuessedColumn& column) {
   if (quantity && column.text) return 0;
   const std::string name = plain(io::read_header_name(column.name).name);
   if (std::find(names.whole.begin(), names.whole.end(), name) != names.whole.end()) return 2;
+  if (!names.coefficient && of_abaqus(name) == names.canonical) return 2;
   return std::any_of(names.part.begin(), names.part.end(),
                      [&](const std::string& part) { return name.find(part) != name.npos; });
 }

@@ -172,18 +172,21 @@ private:
                                                   {"min", Op::minimum},
                                                   {"maximum", Op::maximum},
                                                   {"max", Op::maximum}};
-    const bool is_where = name == "where", is_atan = name == "atan" || name == "arctan";
-    if (!is_where && !is_atan && !one.count(name) && !two.count(name)) {
-      const std::vector<std::string> known = {"arccos", "atan",    "exp",  "ln",      "log",
-                                              "max",    "maximum", "min",  "minimum", "sin",
-                                              "sqrt",   "tanh",    "where"};
+    static const std::map<std::string, Expr (*)(const Expr&)> of_others = {
+        {"atan", arctangent}, {"arctan", arctangent}, {"abs", magnitude}, {"sign", sign}};
+    const bool is_where = name == "where";
+    const auto other = of_others.find(name);
+    if (!is_where && other == of_others.end() && !one.count(name) && !two.count(name)) {
+      const std::vector<std::string> known = {"abs",  "arccos", "atan",    "exp",  "ln",
+                                              "log",  "max",    "maximum", "min",  "minimum",
+                                              "sign", "sin",    "sqrt",    "tanh", "where"};
       fail(fmt::format("unknown function '{}'", name), suggest(name, known));
     }
     expect("(");
     const Expr a = sum();
-    if (is_atan) {
+    if (other != of_others.end()) {
       expect(")");
-      return counted(arctangent(a));
+      return counted(other->second(a));
     }
     if (const auto found = one.find(name); found != one.end()) {
       expect(")");
@@ -203,8 +206,10 @@ private:
     return counted(where_le(a, b, x, y));
   }
 
-  // Without an operation of its own, which every language and bound would have to know: near 0 as
-  // exact as any, 1e-8 off at worst, where it is within 1e-8 of pi/2.
+  // Functions without an operation of their own, which every language and bound would have to know.
+  static Expr magnitude(const Expr& x) { return maximum(x, -x); }
+  static Expr sign(const Expr& x) { return where_le(x, 0, where_le(0, x, 0, -1), 1); }
+  // Near 0 as exact as any, 1e-8 off at worst, where it is within 1e-8 of pi/2.
   static Expr arctangent(const Expr& x) {
     return std::numbers::pi / 2 - acos(x / sqrt(1.0 + x * x));
   }

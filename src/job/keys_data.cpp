@@ -117,6 +117,12 @@ std::vector<std::string> groupings() {
 std::vector<std::string> missing_words() { // as data::Missing
   return {"error", "drop"};
 }
+std::vector<std::string> row_words() { // as data::UsedRows
+  return {"sliding", "all"};
+}
+std::vector<std::string> zero_words() { // as data::ForceZero
+  return {"auto", "remove", "keep"};
+}
 
 std::vector<KeyRule> file_keys() {
   return {
@@ -183,10 +189,23 @@ std::vector<KeyRule> file_keys() {
           "data.missing", [](Job & job) -> auto& { return job.data.missing; },
           "an empty cell of a quantity: an error, or its row is left out and counted") |
           Allowed{"", missing_words},
+      key<data::UsedRows>(
+          "data.rows", [](Job & job) -> auto& { return job.data.rows; },
+          "which rows are fitted: those that slide, without rest, the turns of strokes and what "
+          "has "
+          "no load; or \"all\"") |
+          Allowed{"", row_words},
+      key<data::ForceZero>(
+          "data.force_zero", [](Job & job) -> auto& { return job.data.force_zero; },
+          "what the forces of a test's two directions differ by: \"remove\" takes it off as the "
+          "zero of the force cell, \"keep\" leaves it as friction; \"auto\" keeps it where it "
+          "grows in proportion to the load over three tests or more") |
+          Allowed{"", zero_words},
       key<std::vector<std::string>>(
           "data.allow_implausible", [](Job & job) -> auto& { return job.data.allow_implausible; },
-          "plausibility checks that most rows may fail; without it that is an error", "none",
-          "[\"friction_coefficient\"]") |
+          "plausibility checks that most rows may fail, without which that is an error, and whose "
+          "single rows are kept",
+          "none", "[\"friction_coefficient\"]") |
           Allowed{"plausibility check", data::plausibility_checks},
       key<std::string>(
           "data.experiment", [](Job & job) -> auto& { return job.data.experiment; },
@@ -382,6 +401,25 @@ template <> std::string Kind<data::Role>::show(data::Role v) {
 }
 template <> std::string Kind<data::Missing>::show(data::Missing v) {
   return toml_quoted(missing_words()[static_cast<std::size_t>(v)]);
+}
+
+template <> data::UsedRows Kind<data::UsedRows>::from(KeyValue& v) {
+  return std::get<std::string>(v) == "all" ? data::UsedRows::all : data::UsedRows::sliding;
+}
+
+template <> std::string Kind<data::UsedRows>::show(data::UsedRows v) {
+  return toml_quoted(row_words()[static_cast<std::size_t>(v)]);
+}
+
+template <> data::ForceZero Kind<data::ForceZero>::from(KeyValue& v) {
+  const std::string& word = std::get<std::string>(v);
+  return word == "remove" ? data::ForceZero::remove
+         : word == "keep" ? data::ForceZero::keep
+                          : data::ForceZero::automatic;
+}
+
+template <> std::string Kind<data::ForceZero>::show(data::ForceZero v) {
+  return toml_quoted(zero_words()[static_cast<std::size_t>(v)]);
 }
 
 char Kind<char>::from(KeyValue& v) {

@@ -65,7 +65,8 @@ std::vector<KeyRule> law_keys() {
           },
           "tau_R in MPa, of parameters, parts, states, k_MPa (the shear yield stress), pi, "
           "recorded "
-          "columns and histories; + - * / ** ( ), exp, ln, sqrt, sin, tanh, atan, arccos, min, "
+          "columns and histories; + - * / ** ( ), exp, ln, sqrt, sin, tanh, atan, arccos, abs, "
+          "sign, min, "
           "max, "
           "where(a <= b, x, y)",
           "`piece` and `combine` say it", "\"min(mu*sigma_n_MPa, m*k_MPa)\""),

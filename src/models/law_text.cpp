@@ -217,9 +217,9 @@ std::map<std::string, std::vector<double>> kinks_of(const Expr& piece) {
 
 // What a parameter or a named part cannot be called, and why.
 std::string taken_by(const std::string& name) {
-  static const std::set<std::string> functions = {"exp",  "log",     "ln",     "sqrt",    "sin",
-                                                  "tanh", "atan",    "arctan", "arccos",  "acos",
-                                                  "min",  "minimum", "max",    "maximum", "where"};
+  static const std::set<std::string> functions = {
+      "exp",  "log", "ln",   "sqrt", "sin",     "tanh", "atan",    "arctan", "arccos",
+      "acos", "abs", "sign", "min",  "minimum", "max",  "maximum", "where"};
   const std::string lower = lower_case(name);
   for (const data::Quantity& quantity : data::quantities())
     if (lower == lower_case(quantity.name)) return "a quantity";

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "codegen/template.h"
+#include "core/no_value.h"
 #include "core/text.h"
 #include "data/overview.h"
 #include "data/quantity.h"
@@ -63,14 +65,54 @@ Curve curve_of(const Dataset& data, std::size_t e, const data::Quantity* over) {
   return curve;
 }
 
+// Rows of a test that are not fitted, by their names; each piece of neighbouring rows is a line.
+class RowsAside {
+public:
+  explicit RowsAside(const Dataset& data) : aside_(data.aside.get()) {
+    for (std::size_t e = 0; aside_ && e < aside_->experiments.size(); ++e)
+      number_[aside_->experiments[e]] = e;
+  }
+
+  Curve curve_of(const std::string& test, const data::Quantity* over) const {
+    const auto found = number_.find(test);
+    if (found == number_.end()) return {};
+    const std::size_t first = aside_->first_row[found->second],
+                      end = aside_->first_row[found->second + 1];
+    const auto tau = aside_->values("tau_R_MPa"), row = aside_->values("row"),
+               x = over ? aside_->values(over->name) : row;
+    constexpr std::size_t most = 300;
+    const std::size_t step = (end - first) / most + 1;
+    Curve curve;
+    for (std::size_t i = first; i < end; i += step) {
+      if (i > first && row[i] > row[i - step] + static_cast<double>(step)) {
+        curve.x.push_back(x[i]);
+        curve.y.push_back(no_value);
+      }
+      curve.x.push_back(x[i]);
+      curve.y.push_back(tau[i]);
+    }
+    return curve;
+  }
+
+private:
+  const Dataset* aside_;
+  std::map<std::string, std::size_t> number_;
+};
+
 svg::Axis axis_over(const DataPage& page, const std::string& name) {
   double low = 0, high = 0;
-  for (const Dataset* data : {&page.training, &page.validation})
-    for (const double value : data->values(name))
+  const auto cover = [&](const Dataset* data) {
+    for (const double value :
+         data && data->has(name) ? data->values(name) : std::span<const double>())
       if (std::isfinite(value)) {
         low = std::min(low, value);
         high = std::max(high, value);
       }
+  };
+  for (const Dataset* data : {&page.training, &page.validation}) {
+    cover(data);
+    cover(data->aside.get());
+  }
   return svg::nice_axis(low, high, 2, axis_name(name));
 }
 
@@ -87,11 +129,14 @@ void add_strokes(TemplateValues& values, const DataPage& page) {
   const svg::Axis x = over ? axis_over(page, over->name) : row_axis(page);
   const svg::Axis y = axis_over(page, "tau_R_MPa");
   const auto add = [&](const Dataset& data, const char* use, const char* colour) {
+    const RowsAside aside(data);
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
       const Curve curve = curve_of(data, e, over);
       svg::Plot plot(150, 90, x, y);
-      plot.line(curve.x, curve.y, {colour, 1.2, "", false});
       const std::string& name = data.experiments[e];
+      const Curve beside = aside.curve_of(name, over);
+      if (!beside.x.empty()) plot.line(beside.x, beside.y, {"#9aa3ad", 1.2, "", false});
+      plot.line(curve.x, curve.y, {colour, 1.2, "", false});
       const std::size_t rows = data.first_row[e + 1] - data.first_row[e];
       values.lists["strokes"].push_back(
           {{{"name", svg::escape(name)},

@@ -78,6 +78,9 @@ void add_data_lines(codegen::TemplateValues& page, const data::Dataset& t, const
   if (const std::string how = uneven_text(judged_by, t, v); !how.empty())
     add("Length of experiments", none.empty() ? "\u2013" : svg::escape(how),
         none.empty() ? svg::escape(how) : "\u2013");
+  if (const std::string of_t = phases_text(t), of_v = phases_text(v);
+      !of_t.empty() || !of_v.empty())
+    add("Of the rows read", of_t, of_v);
   if (t.condensed)
     add("Held as means over blocks of rows", thousands(t.rows()),
         of_validation(thousands(v.rows())));
@@ -89,7 +92,7 @@ void add_data_lines(codegen::TemplateValues& page, const data::Dataset& t, const
         together && !training.empty() ? "counted at left, with the training tests'"
                                       : lines(validation));
   };
-  add_counted("Left out by the job", dropped_of(t), dropped_of(v));
+  add_counted("Left out", dropped_of(t), dropped_of(v));
   add_counted("Derived", t.notes, v.notes);
   add_counted("Implausible", t.implausible, v.implausible);
   if (!t.unused.empty()) add("Beside the data, in none of them", lines(t.unused), "\u2013");

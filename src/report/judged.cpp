@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/phases.h"
 #include "data/recordings.h"
 #include "report/numbers.h"
 
@@ -55,6 +56,15 @@ std::string size_text(JudgedBy judged_by, const data::Dataset& training,
     break;
   }
   return describe(training) + " to train, " + describe(validation) + " to validate";
+}
+
+std::string phases_text(const data::Dataset& data) {
+  std::vector<std::string> parts;
+  for (std::size_t p = 0; p < data::phase_count; ++p)
+    if (data.phases[p] > 0)
+      parts.push_back(thousands(data.phases[p]) + " " +
+                      data::phase_name(static_cast<data::Phase>(p)));
+  return parts.size() == 1 && data.phases[0] > 0 ? "" : join(parts, ", ");
 }
 
 std::string condensed_text(const data::Dataset& training, const data::Dataset& validation) {

@@ -25,6 +25,9 @@ std::string size_text(calibrate::JudgedBy judged_by, const data::Dataset& traini
 
 // Of condensed data, which figures are of all rows and which of blocks, without a full stop; empty
 // where rows are held.
+// "460 sliding, 20 closing"; empty where nothing but sliding was found, or looked for.
+std::string phases_text(const data::Dataset& data);
+
 std::string condensed_text(const data::Dataset& training, const data::Dataset& validation);
 // Those of blocks.
 std::vector<std::string> from_blocks();

@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "data/append.h"
 #include "data/overview.h"
+#include "data/phases.h"
 #include "data/quantity.h"
 #include "data/roles.h"
 #include "io/json.h"
@@ -149,6 +150,8 @@ std::string data_text(const JobData& data) {
   for (const Dataset* part : {&data.training, &data.validation}) {
     for (const data::ClockOffset& clock : part->clocks)
       out += "joined: " + clock_text(clock) + "\n";
+    if (const std::string phases = report::phases_text(*part); !phases.empty())
+      out += "rows read: " + phases + "\n";
     add_lines(out, "left out", dropped_lines(*part));
     add_lines(out, "implausible", part->implausible);
   }
@@ -168,6 +171,7 @@ std::string data_json(const JobData& data) {
   Json json = {{"synthetic_data", calibrate::is_synthetic(data.training)},
                {"tests", Json::array()},
                {"read", notes_of(data)},
+               {"phases", Json::object()},
                {"left_out", Json::array()},
                {"clocks", Json::array()},
                {"implausible", Json::array()},
@@ -177,6 +181,10 @@ std::string data_json(const JobData& data) {
   for (const Dataset* part : {&data.training, &data.validation}) {
     for (const data::TestOverview& test : data::overview(*part))
       json["tests"].push_back(test_json(test, uses[use]));
+    for (std::size_t p = 0; p < data::phase_count; ++p) {
+      Json& count = json["phases"][data::phase_name(static_cast<data::Phase>(p))];
+      count = (count.is_null() ? 0 : count.get<std::size_t>()) + part->phases[p];
+    }
     for (const Dataset::Dropped& dropped : part->dropped)
       json["left_out"].push_back({{"rule", dropped.rule}, {"rows", dropped.rows}});
     for (const data::ClockOffset& clock : part->clocks)

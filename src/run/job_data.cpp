@@ -2,6 +2,7 @@
 #include "run/job_data.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string>
 
@@ -22,6 +23,7 @@
 #include "data/quantity.h"
 #include "data/recordings.h"
 #include "data/roles.h"
+#include "data/signs.h"
 #include "effects/extended_law.h"
 
 namespace frictab::run {
@@ -95,7 +97,13 @@ JobData with_validation_files(const data::DataOptions& options, FaultList& impla
   JobData data;
   const std::size_t blocks = data::blocks_to_condense(options);
   data.training = load(options.training, options, blocks);
-  data.validation = load(options.validation, options, blocks);
+  data::DataOptions alike = options; // what the training tests say of forces holds for these
+  if (const auto differ = data::directions_differ(data.training);
+      options.force_zero == data::ForceZero::automatic && differ != data::DirectionsDiffer::nowhere)
+    alike.force_zero = differ == data::DirectionsDiffer::by_friction ? data::ForceZero::keep
+                                                                     : data::ForceZero::remove;
+  data.validation = load(options.validation, alike, blocks);
+  data::settle_directions(std::array{&data.training, &data.validation});
   for (data::Dataset* part : {&data.training, &data.validation})
     data::check_plausibility(*part, options.allow_implausible, options.place, implausible);
   data::Dataset* const parts[] = {&data.training, &data.validation};
@@ -113,6 +121,8 @@ JobData without_others(data::Dataset all) {
   data.judged_by = one ? calibrate::JudgedBy::fit : calibrate::JudgedBy::leave_one_out;
   data.validation = all.subset({});
   data.validation.dropped.clear();
+  data.validation.phases = {};
+  data.validation.interventions.clear();
   data.validation.notes.clear();
   data.leak = calibrate::leak_note(all, all);
   data.training = std::move(all);
@@ -136,6 +146,7 @@ JobData with_held_out_tests(data::Dataset all, double share, std::uint64_t seed)
 JobData without_validation_files(const data::DataOptions& options, std::uint64_t seed,
                                  FaultList& implausible) {
   data::Dataset all = load(options.training, options, data::blocks_to_condense(options));
+  data::settle_directions(std::array{&all});
   data::check_plausibility(all, options.allow_implausible, options.place, implausible);
   data::Dataset* const parts[] = {&all};
   find_roles(parts, options);

@@ -2,6 +2,7 @@
 #include "run/predict.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <ostream>
@@ -20,6 +21,7 @@
 #include "data/derived.h"
 #include "data/load.h"
 #include "data/quantity.h"
+#include "data/signs.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
 #include "io/json.h"
@@ -56,7 +58,10 @@ data::Dataset load_rows(data::DataOptions mapping, const std::vector<std::string
   mapping.measured = false;
   mapping.bystanders.reset(); // the job's list is of its own files
   if (!takes_recorded_columns(inputs)) mapping.bystanders.emplace();
-  return data::load_dataset({file}, mapping);
+  data::Dataset rows = data::load_dataset({file}, mapping);
+  if (std::count(inputs.begin(), inputs.end(), data::direction_column) > 0)
+    data::add_direction(std::array{&rows});
+  return rows;
 }
 
 // ---- predicting ----

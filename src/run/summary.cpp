@@ -44,6 +44,9 @@ std::string data_text(const Pipeline& p) {
       out +=
           fmt::format("  left out: {}, {}\n", report::count_of(dropped.rows, "row"), dropped.rule);
   for (const data::Dataset* data : {&training, &validation})
+    for (const std::string& line : data->interventions)
+      out += "  " + line + "\n";
+  for (const data::Dataset* data : {&training, &validation})
     for (const std::string& line : data->implausible)
       out += "  implausible: " + line + "\n";
   return out;

@@ -1,0 +1,410 @@
+// Load, then speed, then strokes.
+#include "data/phases.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "data/middle.h"
+
+namespace frictab::data {
+
+namespace {
+
+using Values = std::span<const double>;
+
+// Shares of the typical load, speed or path of a test (facts/roles: phases).
+constexpr double unloaded_share = 0.05, full_share = 0.9, steady_share = 0.3, ramp_share = 0.15;
+constexpr double slow = 0.02, nearly_zero = 1e-3, turning_speed = 0.2, turning_path = 0.05;
+// A force that builds up the other way: over so much of the stroke's path, from half of its later
+// value to nearly all of it.
+constexpr double longest_turn = 0.2, half_turned = 0.5, turned = 0.9;
+// A reading's step, and its scatter from row to row, over the typical speed.
+constexpr double coarse_step = 1.0 / 3, noisy_speed = 0.3;
+constexpr std::size_t ramp_rows = 20, stroke_rows = 3, mean_rows = 5, few_values = 60;
+// Both directions occur: this share of the rows goes either way at this share of the speed.
+constexpr double either_way = 0.1, goes = 0.2;
+// Friction over load, beside that of the whole test: the same friction at a lower load.
+constexpr double same_friction = 2;
+
+std::vector<double> finite_values(Values values) {
+  std::vector<double> out;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(out),
+               [](double x) { return std::isfinite(x); });
+  return out;
+}
+
+std::vector<double> sizes(Values values) {
+  std::vector<double> out = finite_values(values);
+  for (double& x : out)
+    x = std::abs(x);
+  return out;
+}
+
+// In the middle of what is more than `share` of nearly the largest.
+double typical_of(std::vector<double> values, double share) {
+  const double least = share * quantile_of(values, 0.95);
+  std::erase_if(values, [&](double x) { return !(x > least); });
+  return median_of(std::move(values));
+}
+
+// Running median of five, of short tests as they are.
+std::vector<double> median_of_five(Values values) {
+  std::vector<double> out(values.begin(), values.end());
+  constexpr std::size_t width = 5, half = width / 2;
+  if (values.size() < 2 * width) return out;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::array<double, width> near;
+    const std::size_t begin = std::min(i - std::min(i, half), values.size() - width);
+    std::copy_n(values.begin() + static_cast<long>(begin), width, near.begin());
+    std::nth_element(near.begin(), near.begin() + half, near.end());
+    out[i] = near[half];
+  }
+  return out;
+}
+
+// What is not finite, as what stands before it; `held` keeps what is new.
+Values filled(Values values, std::vector<double>& held) {
+  if (std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
+    return values;
+  double last = 0;
+  for (const double x : values)
+    held.push_back(last = std::isfinite(x) ? x : last);
+  return held;
+}
+
+struct Piece {
+  std::size_t begin, end;
+  std::size_t rows() const { return end - begin; }
+};
+
+template <class Is> std::vector<Piece> pieces_where(std::size_t rows, const Is& is) {
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0, from = 0; i <= rows; ++i)
+    if (i == rows || !is(i)) {
+      if (i > from) pieces.push_back({from, i});
+      from = i + 1;
+    }
+  return pieces;
+}
+
+struct Mean {
+  double value = 0, error = 0;
+  // A single row says nothing of its error.
+  bool is_zero() const { return value == 0 || std::abs(value) < 2 * error; }
+};
+
+Mean mean_with_error(Values values) {
+  const double n = static_cast<double>(values.size());
+  Mean mean;
+  for (const double x : values)
+    mean.value += x / n;
+  for (const double x : values)
+    mean.error += (x - mean.value) * (x - mean.value) / n;
+  mean.error = values.size() < mean_rows ? 0 : std::sqrt(mean.error / n);
+  return mean;
+}
+
+// ---- load ----
+
+class LoadPhases {
+public:
+  LoadPhases(const TestSignals& test, TestPhases& out) : test_(test), load_(test.load), out_(out) {
+    typical_ = typical_of(finite_values(load_), 0.5);
+    if (!(typical_ > 0)) return;
+    out.has_load = true;
+    if (load_.size() >= ramp_rows) mark_ramps();
+    mark_unloaded();
+  }
+
+private:
+  void mark_ramps() {
+    const auto is_full = [&](double x) { return x >= full_share * typical_; };
+    const auto first = std::find_if(load_.begin(), load_.end(), is_full);
+    const auto last = std::find_if(load_.rbegin(), load_.rend(), is_full).base();
+    if (first >= last) return;
+    const std::vector<double> between(first, last);
+    if (quantile_of(between, 0.9) - quantile_of(between, 0.1) > steady_share * typical_) return;
+    const auto longest = static_cast<std::ptrdiff_t>(ramp_share * double(load_.size()));
+    const auto front = first - load_.begin(), back = load_.end() - last;
+    if (front <= longest && (front == 0 || *first > load_.front()))
+      std::fill_n(out_.rows.begin(), front, Phase::closing);
+    if (back <= longest) std::fill_n(out_.rows.end() - back, back, Phase::opening);
+  }
+
+  // Where what rubs is more than half of what rubs under load, the load is what is wrong.
+  void mark_unloaded() {
+    std::vector<double> ratios, frictions;
+    for (std::size_t i = 0; i < test_.friction.size(); ++i)
+      if (load_[i] > 0.5 * typical_ && std::isfinite(test_.friction[i])) {
+        ratios.push_back(std::abs(test_.friction[i]) / load_[i]);
+        frictions.push_back(std::abs(test_.friction[i]));
+      }
+    const double mu = median_of(std::move(ratios)), rubbing = median_of(std::move(frictions));
+    for (const Piece& run : pieces_where(
+             load_.size(), [&](std::size_t i) { return load_[i] < unloaded_share * typical_; })) {
+      const Values load = load_.subspan(run.begin, run.rows());
+      double friction = 0;
+      if (!test_.friction.empty())
+        friction = median_of(sizes(test_.friction.subspan(run.begin, run.rows())));
+      const Mean mean = mean_with_error(load);
+      const double ratio = mean.value > 0 ? friction / mean.value : 0;
+      const bool is_level = run.rows() >= mean_rows && !mean.is_zero() && mu > 0 &&
+                            ratio > mu / same_friction && ratio < mu * same_friction;
+      if (is_level || (rubbing > 0 && friction > 0.5 * rubbing)) continue;
+      std::fill_n(out_.rows.begin() + static_cast<long>(run.begin), run.rows(), Phase::unloaded);
+    }
+  }
+
+  const TestSignals& test_;
+  Values load_;
+  TestPhases& out_;
+  double typical_ = 0;
+};
+
+// ---- speed ----
+
+// What a rig sets stays the same for rows on end; what it reads does not.
+bool is_held(Values speed) {
+  std::size_t held = 0, moving = 0;
+  for (std::size_t from = 0, i = 1; i <= speed.size(); ++i) {
+    if (i < speed.size() && speed[i] == speed[from]) continue;
+    if (speed[from] != 0) {
+      moving += i - from;
+      held += i - from >= mean_rows ? i - from : 0;
+    }
+    from = i;
+  }
+  return 2 * held > moving;
+}
+
+// Between neighbouring readings, where there are few of them.
+double reading_step(Values speed) {
+  std::vector<double> values = sizes(speed.first(std::min<std::size_t>(speed.size(), 5000)));
+  std::sort(values.begin(), values.end());
+  values.erase(
+      std::unique(values.begin(), values.end(), [](double a, double b) { return b - a < 1e-9; }),
+      values.end());
+  if (values.size() >= few_values || values.size() < 2) return 0;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    steps.push_back(values[i] - values[i - 1]);
+  return median_of(std::move(steps));
+}
+
+// Standard deviation of a reading about its neighbours' mean; of Gaussian noise the difference has
+// 1.22 times its standard deviation.
+double row_scatter(Values speed) {
+  std::vector<double> off;
+  for (std::size_t i = 1; i + 1 < speed.size(); ++i)
+    off.push_back(std::abs(speed[i] - (speed[i - 1] + speed[i + 1]) / 2));
+  return off.size() < 6 ? 0 : 1.4826 * median_of(std::move(off)) / 1.22;
+}
+
+SpeedReading reading_of(Values speed) {
+  std::vector<double> moving = sizes(speed);
+  std::erase(moving, 0.0);
+  const double middle = median_of(std::move(moving));
+  if (!(middle > 0)) return SpeedReading::still;
+  if (is_held(speed)) return SpeedReading::usable;
+  if (reading_step(speed) > coarse_step * middle) return SpeedReading::coarse;
+  return row_scatter(speed) > noisy_speed * middle ? SpeedReading::noisy : SpeedReading::usable;
+}
+
+bool goes_both_ways(Values values, double reference) {
+  double forward = 0, backward = 0;
+  const double n = static_cast<double>(values.size());
+  for (const double x : values) {
+    forward += x > goes * reference;
+    backward += x < -goes * reference;
+  }
+  return forward > either_way * n && backward > either_way * n;
+}
+
+// Rows between changes of sign; rows near zero go with those before.
+std::vector<TestPhases::Stroke> strokes_of(Values values, double near_zero) {
+  std::vector<TestPhases::Stroke> strokes;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const int sign = std::abs(values[i]) < near_zero ? 0 : values[i] > 0 ? 1 : -1;
+    if (strokes.empty())
+      strokes.push_back({0, 1, sign});
+    else if (sign == 0 || strokes.back().direction == sign || strokes.back().direction == 0) {
+      strokes.back().end = i + 1;
+      if (strokes.back().direction == 0) strokes.back().direction = sign;
+    } else
+      strokes.push_back({i, i + 1, sign});
+  }
+  return strokes;
+}
+
+// Of a path, over as many rows as its noise needs.
+std::vector<double> speed_of_path(Values path, Values time) {
+  std::vector<double> speed(path.size());
+  const std::size_t last = path.size() - 1;
+  for (std::size_t half = 2;; half *= 2) {
+    for (std::size_t i = 0; i <= last; ++i) {
+      const std::size_t a = i - std::min(i, half), b = std::min(i + half, last);
+      speed[i] = time[b] > time[a] ? (path[b] - path[a]) / (time[b] - time[a]) : 0;
+    }
+    if (half >= std::max<std::size_t>(2, path.size() / 20) ||
+        row_scatter(speed) < 0.2 * median_of(sizes(speed)))
+      return speed;
+  }
+}
+
+class SpeedPhases {
+public:
+  SpeedPhases(const TestSignals& test, TestPhases& out) : test_(test), out_(out) {
+    const std::size_t rows = out.rows.size();
+    if (!test.speed.empty()) out.speed = reading_of(test.speed);
+    if (out.speed == SpeedReading::still) mark(0, rows, Phase::rest);
+    if (out.speed == SpeedReading::usable) {
+      speed_ = median_of_five(test.speed);
+      size_ = speed_;
+      for (double& v : size_)
+        v = std::abs(v);
+      typical_ = typical_of(size_, 0.1);
+      if (goes_both_ways(speed_, typical_)) out.strokes = strokes_of(speed_, slow * typical_);
+    }
+    if (!out.both_directions()) take_strokes_of_friction();
+    if (out.speed == SpeedReading::usable) mark_rest();
+    if (!out.both_directions()) {
+      double sum = 0;
+      for (const double v : test.speed)
+        sum += std::isfinite(v) ? v : 0;
+      out.strokes = {{0, rows, sum < 0 ? -1 : 1}};
+      return;
+    }
+    for (std::size_t s = 0; s < out.strokes.size(); ++s)
+      mark_turning(out.strokes[s], s > 0, s + 1 < out.strokes.size());
+  }
+
+private:
+  // A speed without its sign: then the force says which way, where it does not just scatter.
+  void take_strokes_of_friction() {
+    const std::vector<double> friction = median_of_five(test_.friction);
+    const double reference = typical_of(sizes(friction), 0.1);
+    if (!(reference > 0) || row_scatter(friction) > noisy_speed * reference ||
+        !goes_both_ways(friction, reference))
+      return;
+    auto strokes = strokes_of(friction, goes * reference);
+    if (friction.size() < mean_rows * strokes.size()) return; // too short for strokes
+    out_.strokes = std::move(strokes);
+  }
+
+  bool wide_range() const {
+    const auto between = std::count_if(size_.begin(), size_.end(), [&](double v) {
+      return v >= nearly_zero * typical_ && v < 0.1 * typical_;
+    });
+    return static_cast<double>(between) > either_way * static_cast<double>(size_.size());
+  }
+
+  // A slow level that is held slides; nothing that can be told from zero is at rest, but for what a
+  // speed cell shows at zero.
+  void mark_rest() {
+    const bool wide = wide_range();
+    for (const Piece& run : pieces_where(size_.size(), [&](std::size_t i) {
+           return size_[i] < slow * typical_ || test_.speed[i] == 0;
+         })) {
+      const Values speed = test_.speed.subspan(run.begin, run.rows());
+      const Mean mean = mean_with_error(speed);
+      const bool constant =
+          std::all_of(speed.begin(), speed.end(), [&](double v) { return v == speed.front(); });
+      const bool is_offset = !wide && !constant && std::abs(mean.value) < nearly_zero * typical_;
+      if (mean.is_zero() ? mean.value == 0 || run.rows() >= mean_rows : is_offset)
+        mark(run.begin, run.end, Phase::rest);
+    }
+  }
+
+  void mark(std::size_t begin, std::size_t end, Phase phase) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (out_.rows[i] != Phase::unloaded) out_.rows[i] = phase;
+  }
+
+  // Along the stroke, from 0 to 1: of the path, else of what the speed sums up to, else of its
+  // rows.
+  std::vector<double> along(const TestPhases::Stroke& stroke) const {
+    std::vector<double> way{0};
+    for (std::size_t i = stroke.begin + 1; i < stroke.end; ++i)
+      way.push_back(way.back() + (!test_.path.empty() ? std::abs(test_.path[i] - test_.path[i - 1])
+                                  : !size_.empty()    ? size_[i]
+                                                      : 1));
+    const double all = way.back() > 0 ? way.back() : 1;
+    for (double& at : way)
+      at /= all;
+    return way;
+  }
+
+  void mark_turning(const TestPhases::Stroke& stroke, bool has_before, bool has_behind) {
+    const std::size_t rows = stroke.end - stroke.begin;
+    if (rows < stroke_rows) return mark_turned(stroke.begin, stroke.end);
+    const std::vector<double> way = along(stroke);
+    const double top = size_.empty() ? 0
+                                     : quantile_of({size_.begin() + static_cast<long>(stroke.begin),
+                                                    size_.begin() + static_cast<long>(stroke.end)},
+                                                   0.9);
+    for (std::size_t i = 0; i < rows; ++i) {
+      const bool is_slow = !size_.empty() && size_[stroke.begin + i] < turning_speed * top;
+      if (is_slow || (has_before && way[i] < turning_path) ||
+          (has_behind && way[i] > 1 - turning_path))
+        mark_turned(stroke.begin + i, stroke.begin + i + 1);
+    }
+    mark_turned(stroke.begin, stroke.begin + rows_that_build_up(stroke, way));
+  }
+
+  void mark_turned(std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (out_.rows[i] != Phase::unloaded && out_.rows[i] != Phase::rest)
+        out_.rows[i] = Phase::turning;
+  }
+
+  // At the start of a stroke, from the force before the reversal to that of the stroke.
+  std::size_t rows_that_build_up(const TestPhases::Stroke& stroke,
+                                 const std::vector<double>& way) const {
+    if (test_.friction.empty()) return 0;
+    const Values friction = test_.friction.subspan(stroke.begin, stroke.end - stroke.begin);
+    const double later = median_of(finite_values(friction));
+    const auto built_up = std::find_if(friction.begin(), friction.end(),
+                                       [&](double x) { return x / later >= turned; });
+    const auto rows = static_cast<std::size_t>(built_up - friction.begin());
+    const bool builds_up = friction.front() / later < half_turned;
+    return builds_up && rows < friction.size() && way[rows] < longest_turn ? rows : 0;
+  }
+
+  const TestSignals& test_;
+  TestPhases& out_;
+  std::vector<double> speed_, size_; // smoothed
+  double typical_ = 0;
+};
+
+} // namespace
+
+const char* phase_name(Phase phase) {
+  static constexpr const char* names[phase_count] = {"sliding", "rest",    "closing",
+                                                     "opening", "turning", "unloaded"};
+  return names[static_cast<std::size_t>(phase)];
+}
+
+bool is_fitted(Phase phase) {
+  return phase == Phase::sliding || phase == Phase::closing || phase == Phase::opening;
+}
+
+TestPhases phases_of(const TestSignals& test) {
+  TestPhases out;
+  const std::size_t rows =
+      std::max({test.speed.size(), test.load.size(), test.path.size(), test.friction.size()});
+  out.rows.assign(rows, Phase::sliding);
+  std::vector<double> speed, time, load, path, friction;
+  TestSignals whole = {filled(test.speed, speed), filled(test.time, time), filled(test.load, load),
+                       filled(test.path, path), filled(test.friction, friction)};
+  if (whole.speed.empty() && whole.path.size() > 2 && !whole.time.empty()) {
+    speed = speed_of_path(whole.path, whole.time);
+    whole.speed = speed;
+  }
+  const LoadPhases of_load(whole, out);
+  const SpeedPhases of_speed(whole, out);
+  return out;
+}
+
+} // namespace frictab::data

@@ -1,0 +1,507 @@
+// Test by test; what only a campaign can say is said when it is complete.
+#include "data/signs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/no_value.h"
+#include "core/text.h"
+#include "data/computed.h"
+#include "data/leave_out.h"
+#include "data/middle.h"
+#include "data/quantity.h"
+
+namespace frictab::data {
+
+namespace {
+
+using Values = std::span<const double>;
+
+// Rows of each direction for an offset of its own, and for one of the test.
+constexpr std::size_t cycle_rows = 10, test_rows = 3;
+// A load of the other sign that is still none, of the typical one.
+constexpr double still_unloaded = 0.05;
+// Rows without load that tell a zero.
+constexpr std::size_t unloaded_rows = 10;
+// Loads differ enough to tell a zero from friction; one of the two scatters so much less over the
+// tests; an offset that matters, of the friction.
+constexpr double other_load = 1.2, clearly = 0.5, matters = 0.02;
+
+// "\1v_rel_mm_s": no header holds such a character.
+std::string signed_name(const std::string& canonical) {
+  return '\1' + canonical;
+}
+
+double finite_median(std::vector<double> values) { // NaN of none
+  std::erase_if(values, [](double x) { return !std::isfinite(x); });
+  return values.empty() ? no_value : median_of(std::move(values));
+}
+
+struct Middle {
+  double value = no_value, error = 0;
+  std::size_t rows = 0;
+};
+
+// The median and its standard error, were the rows Gaussian and independent.
+Middle middle_of(const std::vector<double>& values) {
+  Middle out{finite_median(values), 0, values.size()};
+  std::vector<double> off;
+  for (const double x : values)
+    off.push_back(std::abs(x - out.value));
+  if (out.rows > 0)
+    out.error =
+        1.2533 * 1.4826 * finite_median(std::move(off)) / std::sqrt(static_cast<double>(out.rows));
+  return out;
+}
+
+template <class Takes>
+std::vector<double> rows_where(Values values, std::size_t begin, std::size_t end,
+                               const Takes& takes) {
+  std::vector<double> out;
+  for (std::size_t i = begin; i < end; ++i)
+    if (takes(i) && std::isfinite(values[i])) out.push_back(values[i]);
+  return out;
+}
+
+Column direction_of(std::vector<double> values) {
+  return {direction_column, "", std::move(values), {}, Role::setting, direction_why};
+}
+
+bool is_direction(const Column& column) { // and not a file's own
+  return column.name == direction_column && column.why == direction_why;
+}
+
+// ---- one test ----
+
+// Friction of one test, over its fitted rows.
+class TestFriction {
+public:
+  TestFriction(std::span<double> friction, Values load, const TestPhases& test)
+      : friction_(friction), load_(load), test_(test) {}
+
+  // What it was is written to `found`.
+  void take_magnitude(bool keeps_offset, SignedTest& found) {
+    const auto unloaded = rows_where(friction_, 0, friction_.size(), [&](std::size_t i) {
+      return test_.rows[i] == Phase::unloaded;
+    });
+    if (unloaded.size() >= unloaded_rows) found.unloaded = finite_median(unloaded);
+    if (test_.both_directions() && take_both_directions(keeps_offset, found)) return;
+    const Middle all = middle_of(fitted(0, friction_.size(), 0));
+    if (!(all.value < -2 * all.error)) return;
+    for (double& x : friction_)
+      x = -x;
+    found.friction = -1;
+  }
+
+private:
+  // Of one direction; of both: 0.
+  std::vector<double> fitted(std::size_t begin, std::size_t end, int direction) const {
+    std::vector<double> out;
+    for (const TestPhases::Stroke& stroke : test_.strokes) {
+      if (direction != 0 && stroke.direction != direction) continue;
+      const auto rows =
+          rows_where(friction_, std::max(begin, stroke.begin), std::min(end, stroke.end),
+                     [&](std::size_t i) { return is_fitted(test_.rows[i]); });
+      out.insert(out.end(), rows.begin(), rows.end());
+    }
+    return out;
+  }
+
+  // Half of what the two directions differ by beyond their sign; none where rows are too few.
+  std::optional<Middle> offset(std::size_t begin, std::size_t end, std::size_t least) const {
+    const Middle forward = middle_of(fitted(begin, end, 1)),
+                 backward = middle_of(fitted(begin, end, -1));
+    if (forward.rows < least || backward.rows < least) return {};
+    return Middle{(forward.value + backward.value) / 2,
+                  std::hypot(forward.error, backward.error) / 2, forward.rows + backward.rows};
+  }
+
+  bool take_both_directions(bool keeps_offset, SignedTest& found) {
+    const double forward = finite_median(fitted(0, friction_.size(), 1)),
+                 backward = finite_median(fitted(0, friction_.size(), -1));
+    if (!(forward * backward < 0)) return false; // a magnitude already
+    const std::optional<Middle> of_test = offset(0, friction_.size(), test_rows);
+    if (!of_test) return false;
+    const std::vector<double> offsets =
+        keeps_offset ? std::vector<double>(friction_.size(), 0.0) : by_cycle(of_test->value);
+    const double sign = forward > 0 ? 1 : -1;
+    found.zero = {sign * of_test->value, of_test->error, std::abs(forward - backward) / 2,
+                  std::abs(finite_median({load_.begin(), load_.end()}))};
+    for (const TestPhases::Stroke& stroke : test_.strokes)
+      for (std::size_t i = stroke.begin; i < stroke.end; ++i)
+        friction_[i] = sign * stroke.direction * (friction_[i] - offsets[i]);
+    return true;
+  }
+
+  // Per row. A cycle with too few rows has that of the one before; where none has enough, all have
+  // that of the test.
+  std::vector<double> by_cycle(double of_test) const {
+    std::vector<double> out(friction_.size(), no_value);
+    double last = no_value;
+    for (std::size_t s = 0; s < test_.strokes.size(); s += 2) {
+      const std::size_t begin = test_.strokes[s].begin,
+                        end = test_.strokes[std::min(s + 1, test_.strokes.size() - 1)].end;
+      if (const auto own = offset(begin, end, cycle_rows)) last = own->value;
+      std::fill(out.begin() + static_cast<long>(begin), out.begin() + static_cast<long>(end), last);
+    }
+    const auto first =
+        std::find_if(out.begin(), out.end(), [](double x) { return std::isfinite(x); });
+    std::fill(out.begin(), first, first == out.end() ? of_test : *first);
+    return out;
+  }
+
+  std::span<double> friction_;
+  Values load_;
+  const TestPhases& test_;
+};
+
+// ---- the tests of a file ----
+
+class FileSigns {
+public:
+  FileSigns(Part& part, const DataOptions& options)
+      : part_(part), options_(options), direction_(part.row.size(), 1.0) {
+    for (const char* name : {"v_rel_mm_s", "tau_R_MPa", "F_R_N"})
+      if (const Column* with_sign = part.find(signed_name(name)))
+        part.find(name)->values = with_sign->values;
+    forget_signed(part);
+    const Column* const force = part.find("F_N_N");
+    const bool by_force = force && std::any_of(force->values.begin(), force->values.end(),
+                                               [&](double x) { return x != force->values[0]; });
+    load_ = by_force ? "F_N_N" : "sigma_n_MPa";
+    if (part.find("F_R_N")) friction_.emplace_back("F_R_N");
+    if (part.find("tau_R_MPa") && part.measured_tau) friction_.emplace_back("tau_R_MPa");
+  }
+
+  std::vector<Phase> take() {
+    std::vector<Phase> phases;
+    std::map<SpeedReading, std::size_t> readings;
+    for (std::size_t e = 0; e < part_.data.experiments.size(); ++e) {
+      const TestPhases test =
+          phases_of({values("v_rel_mm_s", e), values("time_s", e), values(load_, e),
+                     values("s_mm", e), friction_.empty() ? Values() : values(friction_[0], e)});
+      ++readings[test.speed];
+      phases.insert(phases.end(), test.rows.begin(), test.rows.end());
+      take_test(e, test);
+    }
+    if (Column* speed = part_.find("v_rel_mm_s"))
+      for (double& v : speed->values)
+        v = std::abs(v);
+    if (!part_.measured_tau) fill_shear_stress(part_);
+    if (std::any_of(direction_.begin(), direction_.end(), [](double d) { return d < 0; }) &&
+        !part_.find(direction_column))
+      part_.data.columns.push_back(direction_of(std::move(direction_)));
+    tell_readings(readings);
+    return phases;
+  }
+
+private:
+  std::span<double> values(const std::string& name, std::size_t e) {
+    Column* const column = part_.find(name);
+    if (!column) return {};
+    return std::span(column->values)
+        .subspan(part_.data.first_row[e], part_.data.first_row[e + 1] - part_.data.first_row[e]);
+  }
+
+  void take_test(std::size_t e, const TestPhases& test) {
+    SignedTest found{part_.data.experiments[e], friction_.empty() ? "" : friction_[0]};
+    found.both = test.both_directions();
+    found.speed = found.both ? 1 : test.strokes.front().direction;
+    for (const TestPhases::Stroke& stroke : test.strokes)
+      std::fill(direction_.begin() + static_cast<long>(part_.data.first_row[e] + stroke.begin),
+                direction_.begin() + static_cast<long>(part_.data.first_row[e] + stroke.end),
+                static_cast<double>(stroke.direction));
+    for (std::size_t f = friction_.size(); f-- > 0;) { // `found` is of the first
+      found.zero.reset();
+      TestFriction(values(friction_[f], e), values(load_, e), test)
+          .take_magnitude(options_.force_zero == ForceZero::keep, found);
+    }
+    if (found.both || found.speed < 0 || found.friction < 0 || found.unloaded)
+      part_.data.signs.push_back(std::move(found));
+  }
+
+  void tell_readings(const std::map<SpeedReading, std::size_t>& readings) {
+    if (!options_.measured || part_.data.rows() == part_.data.experiments.size()) return;
+    const auto count = [&](SpeedReading reading) {
+      const auto found = readings.find(reading);
+      return found == readings.end() ? 0 : found->second;
+    };
+    if (!part_.find("v_rel_mm_s") && count(SpeedReading::none) > 0)
+      part_.data.notes.emplace_back(
+          "rows have no phases of motion (rest, turning): there is neither "
+          "v_rel_mm_s nor s_mm with time_s");
+    if (options_.constants.count("sigma_n_MPa") > 0 && !part_.find("F_N_N"))
+      part_.data.notes.emplace_back("rows have no phases of load (closing, opening, unloaded): "
+                                    "sigma_n_MPa is a constant of the job");
+    for (const auto& [reading, how] :
+         {std::pair(SpeedReading::coarse, "coarse"), std::pair(SpeedReading::noisy, "noisy")})
+      if (const std::size_t tests = count(reading); tests > 0)
+        add_counted(part_,
+                    fmt::format("v_rel_mm_s is read too {} in ROWS of the tests to say what is at "
+                                "rest or turning there",
+                                how),
+                    tests);
+  }
+
+  Part& part_;
+  const DataOptions& options_;
+  std::string load_;
+  std::vector<std::string> friction_; // columns that were measured
+  std::vector<double> direction_;
+};
+
+} // namespace
+
+void keep_signed(Part& part, const std::string& canonical, std::vector<double> values) {
+  if (std::any_of(values.begin(), values.end(), [](double x) { return x < 0; }))
+    part.data.columns.push_back({signed_name(canonical), "", std::move(values), {}});
+}
+
+void forget_signed(Part& part) {
+  std::erase_if(part.data.columns,
+                [](const Column& column) { return column.name.starts_with('\1'); });
+}
+
+void turn_loads(Part& part) {
+  for (const char* name : {"F_N_N", "sigma_n_MPa"}) {
+    Column* const column = part.find(name);
+    if (!column) continue;
+    std::size_t turned = 0;
+    for (std::size_t e = 0; e < part.data.experiments.size(); ++e) {
+      const auto rows =
+          std::span(column->values)
+              .subspan(part.data.first_row[e], part.data.first_row[e + 1] - part.data.first_row[e]);
+      const double least = *std::min_element(rows.begin(), rows.end());
+      const bool one_sign = std::none_of(rows.begin(), rows.end(),
+                                         [&](double x) { return x > -still_unloaded * least; });
+      if (!(least < 0) || !one_sign || !(finite_median({rows.begin(), rows.end()}) < 0)) continue;
+      ++turned;
+      for (double& x : rows)
+        x = -x;
+    }
+    if (turned > 0)
+      add_counted(part,
+                  fmt::format("{} is negative all along in ROWS of the tests: a convention, taken "
+                              "as compression",
+                              name),
+                  turned);
+  }
+}
+
+std::vector<Phase> take_signs(Part& part, const DataOptions& options) {
+  return FileSigns(part, options).take();
+}
+
+// ---- a campaign ----
+
+namespace {
+
+std::vector<const ForceOffset*> offsets_of(const Dataset& data) {
+  std::vector<const ForceOffset*> out;
+  for (const SignedTest& test : data.signs)
+    if (test.zero) out.push_back(&*test.zero);
+  return out;
+}
+
+// Standard deviation over the size of the mean.
+double relative_scatter(const std::vector<double>& values) {
+  double mean = 0, squares = 0;
+  for (const double x : values)
+    mean += x / static_cast<double>(values.size());
+  for (const double x : values)
+    squares += (x - mean) * (x - mean) / static_cast<double>(values.size());
+  return std::sqrt(squares) / std::abs(mean);
+}
+
+// "1.9 to 2.1 N", and of one "2 N".
+std::string sizes_text(std::vector<double> values, const std::string& unit) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const std::string first = fmt::format("{:.3g}", *low), last = fmt::format("{:.3g}", *high);
+  return (first == last ? first : first + " to " + last) + " " + unit;
+}
+
+// "test 'a'"; "3 tests ('a', 'b', ...)".
+std::string tests_text(const std::vector<std::string>& names) {
+  constexpr std::size_t shown = 3;
+  if (names.size() == 1) return "test '" + names[0] + "'";
+  std::vector<std::string> some;
+  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i)
+    some.push_back("'" + names[i] + "'");
+  if (names.size() > shown) some.emplace_back("...");
+  return fmt::format("{} tests ({})", thousands(names.size()), join(some, ", "));
+}
+
+std::string canonical_unit(const std::string& column) {
+  const Quantity* quantity = find_quantity(column);
+  return quantity ? quantity->unit : "";
+}
+
+struct Signed { // tests of a kind
+  std::vector<std::string> names;
+  std::vector<double> sizes, frictions;
+  std::string column;
+};
+
+Signed collected(const Dataset& data,
+                 const std::function<std::optional<double>(const SignedTest&)>& size_of) {
+  Signed out;
+  for (const SignedTest& test : data.signs)
+    if (const auto size = size_of(test)) {
+      out.names.push_back(test.experiment);
+      out.sizes.push_back(*size);
+      out.frictions.push_back(test.zero ? test.zero->friction : 0);
+      out.column = test.friction_column;
+    }
+  return out;
+}
+
+void tell_offsets(Dataset& data, ForceZero said) {
+  const Signed both = collected(data, [](const SignedTest& test) {
+    return test.zero ? std::optional(test.zero->offset) : std::nullopt;
+  });
+  if (both.names.empty()) return;
+  const std::string unit = canonical_unit(both.column);
+  const DirectionsDiffer why = directions_differ(data);
+  const bool kept = said == ForceZero::keep ||
+                    (said == ForceZero::automatic && why == DirectionsDiffer::by_friction);
+  std::string text = fmt::format(
+      "{} has both signs in {}: {}; magnitudes are fitted, `{}` is recorded", both.column,
+      tests_text(both.names),
+      fmt::format("the two directions differ by twice {} beside a friction of {} (half the sum and "
+                  "half the difference of their medians)",
+                  sizes_text(both.sizes, unit), sizes_text(both.frictions, unit)),
+      direction_column);
+  text += kept ? "; that difference is kept"
+               : "; it is taken off, cycle by cycle, as the zero of the force cell";
+  if (said == ForceZero::automatic) {
+    if (why == DirectionsDiffer::by_zero) text += ": it is the same whatever the load";
+    if (why == DirectionsDiffer::by_friction)
+      text += ": it is in proportion to the load, so friction";
+    if (why == DirectionsDiffer::cannot_tell)
+      text += ". Is it? These loads cannot tell a zero from friction that depends on the direction "
+              "(data.force_zero = \"remove\" or \"keep\" says which)";
+  }
+  tell(data, std::move(text));
+}
+
+} // namespace
+
+DirectionsDiffer directions_differ(const Dataset& data) {
+  const auto all = offsets_of(data);
+  if (all.empty()) return DirectionsDiffer::nowhere;
+  std::vector<double> offsets, coefficients, loads;
+  bool any = false;
+  for (const ForceOffset* one : all) {
+    offsets.push_back(one->offset);
+    coefficients.push_back(one->offset / one->load);
+    loads.push_back(one->load);
+    any = any || std::abs(one->offset) > std::max(2 * one->error, matters * one->friction);
+  }
+  if (!any) return DirectionsDiffer::nowhere;
+  const auto [low, high] = std::minmax_element(loads.begin(), loads.end());
+  if (all.size() < 3 || !(*high > other_load * *low)) return DirectionsDiffer::cannot_tell;
+  const double as_zero = relative_scatter(offsets), as_friction = relative_scatter(coefficients);
+  if (as_zero < clearly * as_friction) return DirectionsDiffer::by_zero;
+  if (as_friction < clearly * as_zero) return DirectionsDiffer::by_friction;
+  return DirectionsDiffer::cannot_tell;
+}
+
+void tell_signs(Dataset& data, ForceZero said) {
+  tell_offsets(data, said);
+  const Signed negative = collected(data, [](const SignedTest& test) {
+    return test.friction < 0 ? std::optional(0.0) : std::nullopt;
+  });
+  const auto is_positive = [](const SignedTest& test) { return test.friction > 0; };
+  const bool all = negative.names.size() + data.at_rest.size() >= data.experiments.size() &&
+                   std::none_of(data.signs.begin(), data.signs.end(), is_positive);
+  if (!negative.names.empty() && !all)
+    tell(data,
+         fmt::format("{} is negative in {} and positive in others: magnitudes are fitted, `{}` "
+                     "says which way a test goes",
+                     negative.column, tests_text(negative.names), direction_column));
+  if (!negative.names.empty() && all)
+    tell(data, fmt::format("{} is negative all along in {}: a convention, its magnitude "
+                           "is fitted",
+                           negative.column, tests_text(negative.names)));
+  const Signed zeros = collected(data, [](const SignedTest& test) { return test.unloaded; });
+  if (!zeros.names.empty())
+    tell(data, fmt::format("without load {} shows {} in {} (the zero of the force cell; "
+                           "it is not taken off)",
+                           zeros.column, sizes_text(zeros.sizes, canonical_unit(zeros.column)),
+                           tests_text(zeros.names)));
+}
+
+namespace {
+
+// Tests that go one way each by their speed may still be told apart by the sign of their friction.
+void take_signs_of_friction(Dataset& data) {
+  Column direction = direction_of(std::vector<double>(data.rows(), 1.0));
+  std::map<std::string, int> sign;
+  for (const SignedTest& test : data.signs)
+    sign[test.experiment] = test.friction;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    if (const auto found = sign.find(data.experiments[e]); found != sign.end())
+      std::fill(direction.values.begin() + static_cast<long>(data.first_row[e]),
+                direction.values.begin() + static_cast<long>(data.first_row[e + 1]),
+                static_cast<double>(found->second));
+  std::erase_if(data.columns, is_direction);
+  data.columns.push_back(std::move(direction));
+}
+
+} // namespace
+
+void add_direction(std::span<Dataset* const> all) {
+  const auto has_one = [](const Dataset* data) { return data->has(direction_column); };
+  const bool is_own = std::all_of(all.begin(), all.end(), [](const Dataset* data) {
+    const Column* const column = data->find(direction_column);
+    return !column || is_direction(*column);
+  });
+  for (Dataset* data : all)
+    if (is_own && !has_one(data))
+      data->columns.push_back(direction_of(std::vector<double>(data->rows(), 1.0)));
+}
+
+void settle_directions(std::span<Dataset* const> all) {
+  const auto plain = [](const Dataset* data) { return data->signs.empty(); };
+  const auto has_own = [](const Dataset* data) {
+    const Column* const column = data->find(direction_column);
+    return column && !is_direction(*column);
+  };
+  if (std::all_of(all.begin(), all.end(), plain) || std::any_of(all.begin(), all.end(), has_own))
+    return;
+  const auto differ = [&](const auto& value_of) {
+    std::optional<double> first;
+    bool differs = false;
+    for (const Dataset* data : all)
+      value_of(*data, [&](double value) {
+        differs = differs || (first && *first != value);
+        first = value;
+      });
+    return differs;
+  };
+  const bool by_speed = differ([](const Dataset& data, const auto& take) {
+    const Column* const column = data.find(direction_column);
+    if (!column && data.rows() > 0) take(1.0);
+    if (column) std::for_each(column->values.begin(), column->values.end(), take);
+  });
+  const bool by_friction = differ([](const Dataset& data, const auto& take) {
+    for (const SignedTest& test : data.signs)
+      take(test.friction);
+    if (data.signs.size() < data.experiments.size()) take(1.0);
+  });
+  if (by_speed) add_direction(all);
+  for (Dataset* data : all) {
+    if (!by_speed && by_friction)
+      take_signs_of_friction(*data);
+    else if (!by_speed)
+      std::erase_if(data->columns, is_direction);
+    fingerprint(*data);
+  }
+}
+
+} // namespace frictab::data

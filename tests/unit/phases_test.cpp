@@ -1,0 +1,255 @@
+// Claims: what the rows of a test show is called as it was made, over a generator of rigs' habits
+// that is not the twin; each habit on and off, over many seeds.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "data/phases.h"
+
+namespace frictab {
+namespace {
+
+using data::Phase;
+using data::phases_of;
+using data::SpeedReading;
+using data::TestPhases;
+
+constexpr std::size_t seeds = 50;
+
+// One test as a rig records it, and what its rows are.
+struct Rig {
+  std::vector<double> time, speed, load, friction;
+  std::vector<Phase> truth;
+
+  void add(double v, double f_n, double f_r, Phase phase) {
+    time.push_back(0.01 * static_cast<double>(time.size()));
+    speed.push_back(v);
+    load.push_back(f_n);
+    friction.push_back(f_r);
+    truth.push_back(phase);
+  }
+  TestPhases phases() const { return phases_of({speed, time, load, {}, friction}); }
+};
+
+struct Habits {
+  std::size_t unloaded = 0, rest = 0; // rows before the test slides
+  std::size_t closing = 0;            // rows in which the load builds up, sliding
+  double load_noise = 0.01, speed_noise = 0.01;
+  double offset_N = 0;  // of the force cell
+  double step_mm_s = 0; // of the speed's reading
+};
+
+double read(double value, double step) {
+  return step > 0 ? step * std::round(value / step) : value;
+}
+
+// A test at one speed.
+Rig one_way(const Habits& habits, std::uint64_t seed) {
+  Random random(seed, 0);
+  const double v = std::exp(std::log(1000.0) * random.uniform()),
+               load = 500 + 500 * random.uniform(), mu = 0.05 + 0.2 * random.uniform();
+  Rig rig;
+  const auto add = [&](double speed, double force, double friction, Phase phase) {
+    const double scatter = speed == 0 ? 0 : habits.speed_noise * v * random.normal();
+    rig.add(read(speed + scatter, habits.step_mm_s),
+            force + habits.load_noise * load * random.normal(),
+            friction * (1 + 0.02 * random.normal()) + habits.offset_N, phase);
+  };
+  for (std::size_t i = 0; i < habits.unloaded; ++i)
+    add(v, 0, 0, Phase::unloaded);
+  for (std::size_t i = 0; i < habits.rest; ++i)
+    add(0, load, mu * load * static_cast<double>(i) / static_cast<double>(habits.rest),
+        Phase::rest);
+  for (std::size_t i = 0; i < habits.closing; ++i) {
+    const double share = static_cast<double>(i + 1) / static_cast<double>(habits.closing + 1);
+    add(v, share * load, mu * share * load, Phase::closing);
+  }
+  for (std::size_t i = 0; i < 200; ++i)
+    add(v, load, mu * load, Phase::sliding);
+  return rig;
+}
+
+// Strokes there and back: at a constant speed that turns within a row, or as a sine.
+Rig both_ways(std::size_t rows_of_stroke, bool sine, double offset, std::uint64_t seed) {
+  Random random(seed, 1);
+  const double v = 1 + 99 * random.uniform(), mu = 0.05 + 0.2 * random.uniform(), load = 500;
+  Rig rig;
+  for (std::size_t i = 0; i < 6 * rows_of_stroke; ++i) {
+    const std::size_t stroke = i / rows_of_stroke;
+    const double along = (static_cast<double>(i % rows_of_stroke) + 0.5) / double(rows_of_stroke);
+    const double sign = stroke % 2 == 0 ? 1 : -1;
+    const double speed = sign * v * (sine ? std::sin(std::numbers::pi * along) : 1);
+    const double way = sine ? (1 - std::cos(std::numbers::pi * along)) / 2 : along;
+    const bool ends = way < 0.05 || way > 0.95 || std::abs(speed) < 0.2 * v;
+    rig.add(speed * (1 + 0.01 * random.normal()), load,
+            sign * mu * load * (1 + 0.02 * random.normal()) + offset,
+            ends ? Phase::turning : Phase::sliding);
+  }
+  return rig;
+}
+
+struct Calls {
+  std::size_t rows = 0, missed = 0, wrongly = 0; // left out; of a phase that is fitted
+};
+
+// What matters: whether a row is fitted.
+void count(Calls& calls, const Rig& rig) {
+  const TestPhases found = rig.phases();
+  for (std::size_t i = 0; i < rig.truth.size(); ++i) {
+    ++calls.rows;
+    const bool is = data::is_fitted(found.rows[i]), should = data::is_fitted(rig.truth[i]);
+    calls.missed += is && !should;
+    calls.wrongly += !is && should;
+  }
+}
+
+Calls calls_of(const Habits& habits) {
+  Calls calls;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed)
+    count(calls, one_way(habits, seed));
+  return calls;
+}
+
+TEST(Phases, NothingIsCalledInTestsThatJustSlide) {
+  for (const Habits& habits :
+       {Habits{}, Habits{.speed_noise = 0.2}, Habits{.load_noise = 0.2}, Habits{.closing = 9},
+        Habits{.offset_N = 30}, Habits{.speed_noise = 0.0}, Habits{.step_mm_s = 1}})
+    EXPECT_EQ(calls_of(habits).wrongly, 0u);
+}
+
+TEST(Phases, RestAndRowsWithoutLoadAreFound) {
+  const Calls rest = calls_of({.rest = 20}), unloaded = calls_of({.unloaded = 20}),
+              all = calls_of({.unloaded = 15, .rest = 10, .closing = 12, .offset_N = 20});
+  EXPECT_EQ(rest.missed, 0u);
+  EXPECT_EQ(rest.wrongly, 0u);
+  EXPECT_EQ(unloaded.missed, 0u);
+  EXPECT_EQ(unloaded.wrongly, 0u);
+  EXPECT_EQ(all.missed, 0u);
+  EXPECT_LT(all.wrongly,
+            all.rows / 200); // the first rows of a load that builds up: below 5 % of it
+}
+
+TEST(Phases, ClosingIsCountedAndFitted) {
+  const Rig rig = one_way({.closing = 15}, 3);
+  const TestPhases found = rig.phases();
+  EXPECT_EQ(std::count(found.rows.begin(), found.rows.end(), Phase::closing), 14); // to 90 %
+  Rig reversed = rig;
+  for (auto* values : {&reversed.speed, &reversed.load, &reversed.friction})
+    std::reverse(values->begin(), values->end());
+  const TestPhases opening = reversed.phases();
+  EXPECT_EQ(std::count(opening.rows.begin(), opening.rows.end(), Phase::opening), 14);
+}
+
+TEST(Phases, ALowLevelThatIsHeldSlides) {
+  Rig rig;
+  Random random(1, 2);
+  for (const double load : {10.0, 100.0, 1000.0})
+    for (std::size_t i = 0; i < 60; ++i)
+      rig.add(10, load * (1 + 0.01 * random.normal()), 0.1 * load * (1 + 0.02 * random.normal()),
+              Phase::sliding);
+  Calls calls;
+  count(calls, rig);
+  EXPECT_EQ(calls.wrongly, 0u);
+  Rig speeds;
+  for (const double v : {0.01, 0.1, 1.0, 10.0, 100.0})
+    for (std::size_t i = 0; i < 40; ++i)
+      speeds.add(v * (1 + 0.01 * random.normal()), 100, 10, Phase::sliding);
+  count(calls, speeds);
+  EXPECT_EQ(calls.wrongly, 0u);
+}
+
+TEST(Phases, ASpeedThatIsTooCoarseOrTooNoisyCallsNothing) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    Random random(seed, 3);
+    Rig coarse, noisy, counted;
+    for (std::size_t i = 0; i < 200; ++i) {
+      coarse.add(std::floor(2 * random.uniform()), 100, 10, Phase::sliding);
+      noisy.add(1 + 2 * random.normal(), 100, 10, Phase::sliding);
+      counted.add(i % 40 == 39 ? 1 : 0, 100, 10, Phase::sliding); // a counter at a slow speed
+    }
+    EXPECT_EQ(coarse.phases().speed, SpeedReading::coarse);
+    EXPECT_EQ(noisy.phases().speed, SpeedReading::noisy);
+    EXPECT_EQ(counted.phases().speed, SpeedReading::coarse);
+    Calls calls;
+    for (const Rig* rig : {&coarse, &noisy, &counted})
+      count(calls, *rig);
+    EXPECT_EQ(calls.wrongly, 0u);
+  }
+}
+
+TEST(Phases, StrokesHaveADirectionAndTheirEndsTurn) {
+  Calls calls;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed)
+    for (const bool sine : {false, true})
+      for (const double offset : {0.0, 10.0}) {
+        const Rig rig = both_ways(60, sine, offset, seed);
+        const TestPhases found = rig.phases();
+        ASSERT_EQ(found.strokes.size(), 6u) << seed;
+        for (std::size_t s = 0; s < 6; ++s) {
+          EXPECT_EQ(found.strokes[s].direction, s % 2 == 0 ? 1 : -1);
+          EXPECT_NEAR(static_cast<double>(found.strokes[s].begin), static_cast<double>(60 * s), 1);
+        }
+        count(calls, rig);
+      }
+  EXPECT_LT(calls.wrongly, calls.rows / 100); // a row beside the limit, here or there
+  EXPECT_LT(calls.missed, calls.rows / 30);   // the start of the first stroke, the end of the last
+}
+
+TEST(Phases, TheForceSaysTheDirectionWhereTheSpeedHasNoSign) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    Rig rig = both_ways(60, false, 5, seed);
+    for (double& v : rig.speed)
+      v = std::abs(v);
+    const TestPhases found = rig.phases();
+    ASSERT_EQ(found.strokes.size(), 6u);
+    EXPECT_EQ(found.strokes[1].direction, -1);
+  }
+  Rig about_zero; // noise about no friction is no stroke
+  Random random(5, 4);
+  for (std::size_t i = 0; i < 300; ++i)
+    about_zero.add(10, 100, random.normal(), Phase::sliding);
+  EXPECT_FALSE(about_zero.phases().both_directions());
+}
+
+TEST(Phases, AForceThatBuildsUpTheOtherWayTurns) {
+  Rig rig;
+  for (std::size_t i = 0; i < 240; ++i) {
+    const double sign = i / 60 % 2 == 0 ? 1 : -1;
+    const double built = std::min(1.0, static_cast<double>(i % 60) / 8);
+    rig.add(sign * 10, 500, sign * 50 * (2 * built - 1),
+            built < 0.95 ? Phase::turning : Phase::sliding);
+  }
+  const TestPhases found = rig.phases();
+  for (const std::size_t i : {60u, 63u, 66u, 120u, 126u})
+    EXPECT_EQ(found.rows[i], Phase::turning) << i;
+  EXPECT_EQ(found.rows[90], Phase::sliding);
+}
+
+TEST(Phases, APathStandsForASpeedThatIsNotRecorded) {
+  std::vector<double> time, path, load;
+  Random random(2, 5);
+  for (std::size_t i = 0; i < 200; ++i) {
+    time.push_back(0.1 * static_cast<double>(i));
+    path.push_back(i < 50 ? 0 : 0.5 * static_cast<double>(i - 50));
+    load.push_back(100);
+  }
+  const TestPhases found = phases_of({{}, time, load, path, {}});
+  EXPECT_EQ(found.rows[20], Phase::rest);
+  EXPECT_EQ(found.rows[100], Phase::sliding);
+  EXPECT_EQ(std::count(found.rows.begin() + 55, found.rows.end(), Phase::sliding), 145);
+}
+
+TEST(Phases, WhatIsNoNumberIsSkipped) {
+  Rig rig = one_way({}, 1);
+  rig.speed[10] = rig.load[20] = rig.friction[30] = std::nan("");
+  const TestPhases found = rig.phases();
+  EXPECT_EQ(std::count(found.rows.begin(), found.rows.end(), Phase::sliding), 200);
+  EXPECT_EQ(phases_of({}).rows.size(), 0u);
+}
+
+} // namespace
+} // namespace frictab

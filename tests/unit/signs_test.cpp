@@ -1,0 +1,303 @@
+// Claims: forces and speeds with a sign are read as magnitudes; which way a row went, the zero of
+// the force cell and rows that are not fitted are told.
+#include "data/signs.h"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "core/random.h"
+#include "data/load_condensed.h"
+#include "unit/load_case.h"
+
+namespace frictab {
+namespace {
+
+using data::Dataset;
+using data::ForceZero;
+using data::load_dataset;
+using testing::Contains;
+using testing::Each;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double mu = 0.12;
+
+class Signs : public test::LoadCase {
+protected:
+  void SetUp() override {
+    LoadCase::SetUp();
+    options.columns["sigma_n_MPa"] = {.names = {"F_N"}, .area_mm2 = 20};
+    options.columns["tau_R_MPa"] = {.names = {"F_T"}, .area_mm2 = 20};
+    options.columns["v_rel_mm_s"] = {.names = {"v"}};
+  }
+
+  // Strokes of 50 rows; `zero` and `share` (of the load) are added to what rubs.
+  static std::string there_and_back(double load, double zero, double share, std::uint64_t seed,
+                                    bool polarity = true) {
+    Random random(seed, 0);
+    std::string text = "time_s,F_N,F_T,v\n";
+    for (int i = 0; i < 300; ++i) {
+      const double sign = i / 50 % 2 == 0 ? 1 : -1;
+      const double force = sign * mu * load * (1 + 0.02 * random.normal()) + zero + share * load;
+      text += fmt::format("{},{},{},{}\n", 0.1 * i, load * (1 + 0.01 * random.normal()),
+                          polarity ? force : -force, 20 * sign);
+    }
+    return text;
+  }
+  std::vector<std::string> campaign(double zero, double share) {
+    std::vector<std::string> files;
+    for (int t = 0; t < 5; ++t)
+      files.push_back(file(fmt::format("t{}.csv", t),
+                           there_and_back(500.0 * (t + 1), zero, share, std::uint64_t(t))));
+    return files;
+  }
+  static double mean_mu(const Dataset& data, double direction) {
+    const auto tau = data.values("tau_R_MPa"), load = data.values("sigma_n_MPa"),
+               way = data.values("direction");
+    double sum = 0, rows = 0;
+    for (std::size_t i = 0; i < tau.size(); ++i)
+      if (way[i] == direction) {
+        sum += tau[i] / load[i];
+        ++rows;
+      }
+    return sum / rows;
+  }
+};
+
+TEST_F(Signs, TheZeroOfTheForceCellIsTheMeanOfBothDirections) {
+  const Dataset data = load_dataset(campaign(20, 0), options);
+  EXPECT_NEAR(mean_mu(data, 1), mu, 0.0005);
+  EXPECT_NEAR(mean_mu(data, -1), mu, 0.0005);
+  EXPECT_THAT(column(data, "v_rel_mm_s"), Each(20));
+  EXPECT_THAT(data.notes, Contains(HasSubstr("twice 0.9")));
+  EXPECT_THAT(data.notes, Contains(HasSubstr("taken off, cycle by cycle, as the zero of the force "
+                                             "cell: it is the same whatever the load")));
+  EXPECT_EQ(data.interventions.size(), 1u);
+  EXPECT_GT(data.phases[std::size_t(data::Phase::turning)], 5u * 6 * 2);
+}
+
+TEST_F(Signs, WhatGrowsWithTheLoadIsFrictionAndStays) {
+  const Dataset data = load_dataset(campaign(0, 0.02), options);
+  EXPECT_NEAR(mean_mu(data, 1), mu + 0.02, 0.0005);
+  EXPECT_NEAR(mean_mu(data, -1), mu - 0.02, 0.0005);
+  EXPECT_THAT(data.notes, Contains(HasSubstr("it is in proportion to the load, so friction")));
+  options.force_zero = ForceZero::remove;
+  EXPECT_NEAR(mean_mu(load_dataset(campaign(0, 0.02), options), 1), mu, 0.0005);
+}
+
+TEST_F(Signs, OneLoadCannotTellAndTheNoteAsks) {
+  const Dataset data = read(there_and_back(500, 10, 0, 1));
+  EXPECT_NEAR(mean_mu(data, -1), mu, 0.0005);
+  EXPECT_THAT(data.notes, Contains(HasSubstr("data.force_zero = \"remove\" or \"keep\"")));
+  options.force_zero = ForceZero::keep;
+  EXPECT_NEAR(mean_mu(read(there_and_back(500, 10, 0, 1)), 1), mu + 0.02, 0.0005);
+}
+
+TEST_F(Signs, TheZeroMayDriftFromCycleToCycle) {
+  Random random(3, 0);
+  std::string text = "time_s,F_N,F_T,v\n";
+  for (int i = 0; i < 1000; ++i) {
+    const double sign = i / 50 % 2 == 0 ? 1 : -1;
+    text +=
+        fmt::format("{},500,{},{}\n", 0.1 * i,
+                    sign * mu * 500 * (1 + 0.02 * random.normal()) + 0.05 * (i / 100), 20 * sign);
+  }
+  const Dataset data = read(text);
+  EXPECT_NEAR(mean_mu(data, 1), mu, 0.0003);
+  EXPECT_NEAR(mean_mu(data, -1), mu, 0.0003);
+}
+
+// However the sensor is mounted, and however the job makes a speed of what was recorded.
+TEST_F(Signs, PolarityAndHowTheSpeedIsMadeDoNotMatter) {
+  const Dataset plain = read(there_and_back(500, 10, 0, 7));
+  const Dataset other = read(there_and_back(500, 10, 0, 7, false));
+  EXPECT_EQ(column(plain, "tau_R_MPa"), column(other, "tau_R_MPa"));
+  for (const char* formula : {"abs(v)", "sqrt(v^2)", "sqrt(v*v)", "(v**2)^0.5", "max(v, -v)"}) {
+    options.columns["v_rel_mm_s"] = {.formula = formula};
+    const Dataset data = read(there_and_back(500, 10, 0, 7));
+    EXPECT_EQ(column(data, "direction"), column(plain, "direction")) << formula;
+    EXPECT_EQ(column(data, "tau_R_MPa"), column(plain, "tau_R_MPa")) << formula;
+  }
+  options.columns["tau_R_MPa"] = {.formula = "abs(F_T)/20"};
+  EXPECT_EQ(column(read(there_and_back(500, 10, 0, 7)), "tau_R_MPa"), column(plain, "tau_R_MPa"));
+  options.columns["v_rel_mm_s"] = {.formula = "abs(v) + abs(v)"}; // whatever that is
+  EXPECT_THAT(column(read(there_and_back(500, 10, 0, 7)), "v_rel_mm_s"), Each(40));
+}
+
+TEST_F(Signs, FrictionThatIsAMagnitudeAlreadyHasNoOffset) {
+  std::string text = "time_s,F_N,F_T,v\n";
+  for (int i = 0; i < 300; ++i)
+    text += fmt::format("{},500,{},{}\n", 0.1 * i, 50 + i % 3, i / 50 % 2 == 0 ? 20 : -20);
+  const Dataset data = read(text);
+  EXPECT_THAT(column(data, "tau_R_MPa"), Each(testing::AllOf(testing::Ge(2.5), testing::Le(2.6))));
+  EXPECT_THAT(data.notes, Not(Contains(HasSubstr("both signs"))));
+  EXPECT_TRUE(data.has("direction"));
+}
+
+std::string one_way(double force, double load, double speed) {
+  std::string text = "time_s,F_N,F_T,v\n";
+  for (int i = 0; i < 40; ++i)
+    text += fmt::format("{},{},{},{}\n", 0.1 * i, load + i % 3, force + i % 5 * 0.1, speed);
+  return text;
+}
+
+TEST_F(Signs, OneSignAllAlongIsAConvention) {
+  const std::vector<std::string> files = {file("a.csv", one_way(-50, -500, -20)),
+                                          file("b.csv", one_way(-60, -500, -30))};
+  Dataset data = load_dataset(files, options);
+  EXPECT_THAT(column(data, "tau_R_MPa"), Each(testing::Gt(2)));
+  EXPECT_THAT(column(data, "sigma_n_MPa"), Each(testing::Gt(24)));
+  EXPECT_THAT(data.notes, Contains(HasSubstr("tau_R_MPa is negative all along in 2 tests ('a', "
+                                             "'b'): a convention")));
+  EXPECT_THAT(data.notes, Contains("sigma_n_MPa is negative all along in 2 of the tests: a "
+                                   "convention, taken as compression"));
+  data::settle_directions(std::array{&data});
+  EXPECT_FALSE(data.has("direction"));
+}
+
+TEST_F(Signs, TestsThatGoOneWayEachHaveADirection) {
+  const std::vector<std::string> files = {file("a.csv", one_way(50, 500, 20)),
+                                          file("b.csv", one_way(-60, 500, -20)),
+                                          file("c.csv", one_way(50, 500, 30))};
+  Dataset data = load_dataset(files, options);
+  data::settle_directions(std::array{&data});
+  EXPECT_EQ(data.values("direction")[0], 1);
+  EXPECT_EQ(data.values("direction")[40], -1);
+  EXPECT_EQ(data.values("direction")[80], 1);
+  // By the sign of friction, where the speed has none; whichever file comes first.
+  const std::vector<std::string> turned = {file("a.csv", one_way(-60, 500, 20)),
+                                           file("b.csv", one_way(50, 500, 20))};
+  data = load_dataset(turned, options);
+  data::settle_directions(std::array{&data});
+  EXPECT_EQ(data.values("direction")[0], -1);
+  EXPECT_EQ(data.values("direction")[40], 1);
+}
+
+TEST_F(Signs, BlocksHaveOneDirection) {
+  const std::vector<std::string> files = campaign(20, 0);
+  const Dataset rows = load_dataset(files, options), blocks = load_condensed(files, options, 10);
+  EXPECT_THAT(column(blocks, "direction"), Each(testing::AnyOf(1, -1)));
+  EXPECT_EQ(blocks.phases, rows.phases);
+  EXPECT_EQ(blocks.rows_behind(), rows.rows());
+  EXPECT_NEAR(mean_mu(blocks, 1), mu, 0.001);
+}
+
+// ---- rows that are not fitted ----
+
+std::string with_rest(int rest, int sliding) {
+  std::string text = "time_s,F_N,F_T,v\n";
+  for (int i = 0; i < rest + sliding; ++i)
+    text += fmt::format("{},{},{},{}\n", 0.1 * i, 500 + i % 3, i < rest ? i : 60 + i % 2,
+                        i < rest ? 0 : 20);
+  return text;
+}
+
+TEST_F(Signs, RowsAtRestAreLeftOutCountedAndKeptAside) {
+  const Dataset data = read(with_rest(10, 50));
+  EXPECT_EQ(data.rows(), 50u);
+  EXPECT_EQ(data.phases[std::size_t(data::Phase::rest)], 10u);
+  ASSERT_EQ(data.dropped.size(), 1u);
+  EXPECT_EQ(data.dropped[0].rows, 10u);
+  ASSERT_TRUE(data.aside);
+  EXPECT_EQ(data.aside->rows(), 10u);
+  EXPECT_EQ(data.aside->values("row")[9], 10);
+  EXPECT_DOUBLE_EQ(data.values("s_mm").front(), 1); // the path is that of all rows
+  options.rows = data::UsedRows::all;
+  EXPECT_EQ(read(with_rest(10, 50)).rows(), 60u);
+  EXPECT_EQ(read(with_rest(10, 50)).phases[std::size_t(data::Phase::rest)], 10u);
+  options.rows = data::UsedRows::sliding;
+  options.measured = false; // rows to predict
+  EXPECT_EQ(read(with_rest(10, 50)).rows(), 60u);
+}
+
+TEST_F(Signs, ATestThatNeverSlidesIsNamed) {
+  const std::vector<std::string> files = {file("still.csv", with_rest(30, 0)),
+                                          file("slides.csv", with_rest(0, 30))};
+  const Dataset data = load_dataset(files, options);
+  EXPECT_THAT(data.experiments, testing::ElementsAre("slides"));
+  EXPECT_THAT(data.notes, Contains(HasSubstr("no row of test 'still' slides: left out")));
+  const Dataset only = load_dataset({"still.csv"}, options);
+  EXPECT_EQ(only.rows(), 30u);
+  EXPECT_THAT(only.notes, Contains(HasSubstr("no row slides")));
+}
+
+TEST_F(Signs, ASpeedCellThatIsNotThereIsSaid) {
+  options.columns.erase("v_rel_mm_s");
+  EXPECT_THAT(read("F_N,F_T\n500,60\n500,61\n500,60\n").notes,
+              Contains(HasSubstr("rows have no phases of motion")));
+}
+
+// ---- rows that no rig can measure ----
+
+std::string with_row(double force, int rows = 100) {
+  std::string text = "F_N,F_T,v\n";
+  for (int i = 0; i < rows; ++i)
+    text += fmt::format("{},{},20\n", 5000 + i % 3, i == 40 ? force : 600 + 3 * (i % 7));
+  return text;
+}
+
+TEST_F(Signs, OneRowThatNoRigCanMeasureIsNamedAndLeftOut) {
+  options.constants["sigma_f_MPa"] = 480;
+  for (const auto& [force, check] :
+       {std::pair(7000.0, "shear_yield"), std::pair(1500.0, "spike")}) {
+    options.allow_implausible.clear();
+    const Dataset data = read(with_row(force));
+    EXPECT_EQ(data.rows(), 99u);
+    ASSERT_EQ(data.apart.size(), 1u);
+    EXPECT_EQ(data.apart[0].check, check);
+    EXPECT_THAT(data.interventions, Contains(HasSubstr("a.csv:42 in test 'a' (")));
+    options.allow_implausible = {check, "friction_coefficient", "spike"};
+    EXPECT_EQ(read(with_row(force)).rows(), 100u);
+  }
+  options.constants.clear();
+  options.allow_implausible.clear();
+  EXPECT_EQ(read(with_row(8000)).apart[0].check, "friction_coefficient");
+  EXPECT_EQ(read(with_row(700)).rows(), 100u); // high, but not by half
+  EXPECT_EQ(read(with_row(0)).rows(), 100u);   // upwards only
+}
+
+TEST_F(Signs, MoreThanATwentiethOfTheRowsStay) {
+  options.constants["sigma_f_MPa"] = 480;
+  std::string text = "F_N,F_T,v\n";
+  for (int i = 0; i < 100; ++i)
+    text += fmt::format("5000,{},20\n", i % 16 == 3 ? 7000 : 600 + i % 7);
+  const Dataset data = read(text);
+  EXPECT_EQ(data.rows(), 100u);
+  EXPECT_TRUE(data.apart.empty());
+  EXPECT_TRUE(data.dropped.empty());
+}
+
+// Noise about the shear yield stress is noise; a whole test above it is another flow stress.
+TEST_F(Signs, RowsWithinTheScatterOfTheirTestStay) {
+  options.constants["sigma_f_MPa"] = 480; // k = 277 MPa
+  Random random(9, 0);
+  std::string text = "F_N,F_T,v\n";
+  for (int i = 0; i < 2000; ++i)
+    text += fmt::format("9000,{},20\n", 20 * 260 * (1 + 0.12 * random.normal()));
+  const Dataset noisy = read(text);
+  EXPECT_EQ(noisy.rows(), 2000u);
+  EXPECT_EQ(noisy.apart.size(), 0u);
+  const std::vector<std::string> files = {file("a.csv", one_way(600, 9000, 20)),
+                                          file("b.csv", one_way(8000, 9000, 20))};
+  EXPECT_EQ(load_dataset(files, options).apart.size(), 0u);
+}
+
+// A peak of static friction where sliding begins is none of them.
+TEST_F(Signs, AStaticPeakIsNoSpike) {
+  std::string text = "time_s,F_N,F_T,v\n";
+  for (int i = 0; i < 120; ++i) {
+    const bool rests = i >= 50 && i < 60;
+    text += fmt::format("{},500,{},{}\n", 0.1 * i,
+                        rests ? 30 + i % 3 : (i < 2 || i == 60 || i == 61 ? 110 : 60 + i % 3),
+                        rests ? 0 : 20);
+  }
+  const Dataset data = read(text);
+  EXPECT_EQ(data.rows(), 110u);
+  EXPECT_TRUE(data.apart.empty());
+}
+
+} // namespace
+} // namespace frictab
