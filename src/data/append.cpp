@@ -170,6 +170,10 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
   all.filed.insert(all.filed.end(), more.filed.begin(), more.filed.end());
   for (std::size_t e = 1; e < more.first_row.size(); ++e)
     all.first_row.push_back(offset + more.first_row[e]);
+  all.file_of.insert(all.file_of.end(), more.file_of.begin(), more.file_of.end());
+  for (AssumedUnit& unit : more.assumed)
+    if (std::find(all.assumed.begin(), all.assumed.end(), unit) == all.assumed.end())
+      all.assumed.push_back(std::move(unit));
   all.clocks.insert(all.clocks.end(), more.clocks.begin(), more.clocks.end());
   absorb(all, more);
 }

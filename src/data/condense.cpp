@@ -123,6 +123,8 @@ public:
     out_.filed = rows_.filed;
     out_.first_row = first_block_;
     out_.sources = rows_.sources;
+    out_.file_of = rows_.file_of;
+    out_.assumed = rows_.assumed;
     absorb(out_, rows_);
     out_.aside.reset(); // strokes of blocks are drawn without
     out_.clocks = rows_.clocks;

@@ -83,6 +83,7 @@ Dataset Dataset::subset(std::span<const std::size_t> keep) const {
   for (const std::size_t e : keep) {
     part.experiments.push_back(experiments[e]);
     if (!recording.empty()) part.recording.push_back(recording[e]);
+    if (!file_of.empty()) part.file_of.push_back(file_of[e]);
     std::copy_if(clocks.begin(), clocks.end(), std::back_inserter(part.clocks),
                  [&](const ClockOffset& clock) { return clock.experiment == experiments[e]; });
     if (condensed) append_experiment(*part.condensed, *this, e);

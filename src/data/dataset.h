@@ -112,10 +112,19 @@ struct RowsOfExperiment {
 struct Implausible {
   std::string check; // its name, for data.allow_implausible
   std::size_t rows = 0, of = 0;
-  std::string what;    // "mu_meas is outside 0.001 to 1"
-  std::string hint;    // what it may be, and how to mend it
-  bool may_be = false; // rare, but real: never an error
-  bool most() const { return 2 * rows > of; }
+  std::string what; // "mu_meas is outside 0.001 to 1"
+  std::string hint; // what it may be, and how to mend it
+  // Whether it is an error; absent: where most rows fail.
+  std::optional<bool> certain = {};
+  bool most() const { return certain.value_or(2 * rows > of); }
+};
+
+// A quantity whose unit nobody gave: neither a header, nor a units row, nor its name, nor the job.
+struct AssumedUnit {
+  std::string quantity, column; // canonical; the file's own name
+  std::string unit;             // taken: canonical, or that of a force over an area
+  std::string from_name;        // another unit that its name ends with: "Force_kN"; else empty
+  bool operator==(const AssumedUnit&) const = default;
 };
 
 // Rows held as means over blocks of neighbours (data/condense.h).
@@ -141,6 +150,7 @@ public:
   };
   std::vector<Filed> filed;         // of each experiment, while files are read
   std::vector<std::string> sources; // files read, as named by the user
+  std::vector<std::string> file_of; // of each experiment; empty: unknown
   std::uint64_t hash = 0;           // of all values and names: the data's fingerprint
   struct Dropped {
     std::string rule; // "tau_R_MPa below 0.1"
@@ -160,6 +170,8 @@ public:
   std::vector<std::string> unused; // "tests.csv: K7": a test beside the data that none of them has
   std::vector<std::string> implausible; // what some rows cannot have been (data/plausibility.h)
   std::vector<Implausible> counted;     // by checks that look at rows which are left out
+  std::vector<AssumedUnit> assumed;
+  std::vector<std::string> unit_questions; // of those that may be another one (data/scale.h)
   // Synthetic data only: the noise-free tau_R per row; empty where it is not known. Not a column,
   // so that nothing can be fitted to it, and not part of the fingerprint.
   std::vector<double> oracle_MPa;

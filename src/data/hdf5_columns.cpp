@@ -107,9 +107,8 @@ void Hdf5Columns::add(const Hdf5Rows& rows, std::size_t first, std::size_t count
     else
       to.numbers.insert(to.numbers.end(), found.numbers.begin(), found.numbers.end());
     to.numbers.resize(first + count, no_value); // where they are texts
-    to.texts.reserve(to.texts.size() + found.texts.size());
     for (std::size_t i = 0; i < found.texts.size(); ++i)
-      to.texts.push_back({first + i, std::move(found.texts[i]), 0});
+      to.texts.push_back({first + i, found.texts[i], 0});
     found = {};
   }
   for (const Hdf5Single& single : rows.singles)

@@ -173,8 +173,6 @@ private:
     Found found;
     found.faults = part.faults.all();
     found.notes.take(part);
-    part.raw = {};
-    part.row = {};
     if (found.faults.empty()) {
       count_implausible(part.data, found.implausible);
       found.blocks = condense(part.data, blocks_, campaign_);

@@ -67,6 +67,7 @@ void finish_part(Part& part, const DataOptions& options, const Beside& beside) {
   check_values(part);
   check_computed(part, options);
   leave_out_impossible(part, options);
+  part.data.file_of.assign(part.data.experiments.size(), part.raw.file);
 }
 
 // What `load` makes of a part; its fault where it throws one.
@@ -77,6 +78,8 @@ template <class Load> Part loaded(const Load& load) {
   } catch (const InputError& error) {
     part.faults.add(error);
   }
+  part.raw = {}; // its rows have been checked
+  std::vector<std::size_t>().swap(part.row);
   return part;
 }
 
@@ -179,6 +182,11 @@ void complete(Dataset& all, const DataOptions& options, const Beside& beside) {
   tell_signs(all, options.force_zero);
   all.unused = unused_tests(all, beside);
   find_recordings(all, options);
+  const auto assume = [&](const std::vector<AssumedUnit>& units) {
+    all.assumed.insert(all.assumed.end(), units.begin(), units.end());
+  };
+  if (beside.tests) assume(beside.tests->columns.assumed);
+  if (beside.second) assume(beside.second->assumed);
   fingerprint(all);
 }
 
@@ -216,6 +224,7 @@ Dataset one_campaign(std::vector<Part>& parts, const std::vector<std::string>& f
       continue;
     }
     append(all, std::move(parts[i].data), files[i], faults);
+    parts[i] = {};
     faults.throw_if_any();
   }
   all.sources = files;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <set>
 #include <unordered_map>
 
@@ -13,6 +14,7 @@
 #include "core/units.h"
 #include "data/computed.h"
 #include "data/quantity.h"
+#include "data/scale.h"
 #include "io/number.h"
 
 namespace frictab::data {
@@ -39,8 +41,7 @@ bool is_missing(const std::string& text) {
 
 class Mapper {
 public:
-  Mapper(const io::CsvTable& raw, const DataOptions& options, const std::string& label,
-         FaultList& faults)
+  Mapper(io::CsvTable& raw, const DataOptions& options, const std::string& label, FaultList& faults)
       : raw_(raw), options_(options), label_(label), faults_(faults) {
     for (const CsvColumn& column : raw_.columns) {
       headers_.push_back(header_name(column.name));
@@ -51,12 +52,19 @@ public:
   }
 
   MappedFile map() {
-    for (const Quantity& quantity : quantities())
-      map_quantity(quantity);
     map_experiment();
+    std::vector<std::pair<const Quantity*, const CsvColumn*>> from;
+    for (const Quantity& quantity : quantities()) {
+      from.emplace_back(&quantity, source(quantity.name));
+      ++uses_[from.back().second];
+    }
+    for (const auto& [quantity, column] : from)
+      map_quantity(*quantity, column);
     map_bystanders();
     add_same_for_all();
     tell_nameless();
+    for (CsvColumn& column : raw_.columns)
+      column = {column.name, column.unit, {}, {}};
     return std::move(out_);
   }
 
@@ -220,7 +228,13 @@ private:
       else
         not_finite(i, 0, canonical, shortest(column.numbers[i]));
     }
-    return column.numbers;
+    return taken(column);
+  }
+
+  // Without a copy where no other quantity is taken from the same column.
+  std::vector<double> taken(const CsvColumn& column) {
+    if (uses_[&column]-- > 1) return column.numbers;
+    return std::move(raw_.columns[std::size_t(&column - raw_.columns.data())].numbers);
   }
 
   void no_value(std::size_t row, std::size_t cell_column, const std::string& canonical,
@@ -237,8 +251,7 @@ private:
                "leave the row out, or repair it");
   }
 
-  void map_quantity(const Quantity& quantity) {
-    const CsvColumn* column = source(quantity.name);
+  void map_quantity(const Quantity& quantity, const CsvColumn* column) {
     if (!column) {
       if (const auto constant = options_.constants.find(quantity.name);
           constant != options_.constants.end())
@@ -281,7 +294,10 @@ private:
     const char* const known = !from.unit.empty() ? "as the job says"
                               : unit.empty()     ? "as nobody says otherwise"
                                                  : "as the file says";
-    if (unit.empty()) unit = wanted;
+    if (unit.empty()) {
+      assume(quantity, raw, wanted);
+      unit = wanted;
+    }
     const auto conversion = convert(unit, wanted);
     if (!conversion) {
       faults_.add(
@@ -298,6 +314,17 @@ private:
         from.area_mm2 > 0 ? fmt::format(" over {} mm2: {}", shortest(area), quantity.unit) : "";
     out_.notes.push_back(
         fmt::format("{}: {} {}, taken as {}{}", quantity.name, unit, known, wanted, over));
+  }
+
+  // Of a column that does not say its unit: a canonical name does, and so does one that ends with
+  // it.
+  void assume(const Quantity& quantity, const CsvColumn& raw, const std::string& wanted) {
+    const std::string& name = headers_[std::size_t(&raw - raw_.columns.data())].name;
+    if (wanted == "1" || find_quantity(name)) return;
+    const std::string own = unit_in_name(name, wanted);
+    const auto says = own.empty() ? std::nullopt : convert(own, wanted);
+    if (says && says->factor == 1 && says->offset == 0) return;
+    out_.assumed.push_back({quantity.name, raw.name, wanted, own});
   }
 
   static std::string units_hint(const std::string& unit, const std::vector<std::string>& known) {
@@ -435,7 +462,7 @@ private:
     const std::size_t words = raw.texts.size() - missing;
     const auto numeric = static_cast<std::size_t>(std::count_if(
         raw.numbers.begin(), raw.numbers.end(), [](double value) { return !std::isnan(value); }));
-    Column column{raw.name, "", raw.numbers, {}};
+    Column column{raw.name, "", {}, {}};
     if (words > 0 && words >= (words + numeric) / 2) { // empty cells are neither
       make_categorical(column, raw);
       if (missing > 0) tell_empty(raw.name, missing, ": a level of their own");
@@ -453,6 +480,7 @@ private:
     const auto empty = std::count_if(raw.numbers.begin(), raw.numbers.end(),
                                      [](double value) { return std::isnan(value); });
     if (empty > 0) tell_empty(raw.name, static_cast<std::size_t>(empty), "");
+    column.values = taken(raw);
     out_.columns.push_back(std::move(column));
   }
 
@@ -482,25 +510,33 @@ private:
   }
 
   void make_categorical(Column& column, const CsvColumn& raw) {
-    std::vector<std::string> numeric(raw_.rows());
-    std::vector<std::string_view> cells(raw_.rows());
-    for (const CsvColumn::Text& cell : raw.texts)
-      cells[cell.row] = cell.text;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      if (!std::isnan(raw.numbers[i])) cells[i] = numeric[i] = shortest(raw.numbers[i]);
-    std::unordered_map<std::string_view, double> index;
-    for (const std::string_view cell : cells)
-      index.emplace(cell, 0);
-    for (const auto& [level, code] : index)
-      column.levels.emplace_back(level);
-    std::sort(column.levels.begin(), column.levels.end());
-    for (std::size_t i = 0; i < column.levels.size(); ++i)
-      index[column.levels[i]] = static_cast<double>(i);
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      column.values[i] = index[cells[i]];
+    std::map<std::string, double> index;
+    for_each_text(raw, [&](std::size_t, const std::string& cell) { index.emplace(cell, 0); });
+    for (auto& [level, code] : index) {
+      code = static_cast<double>(column.levels.size());
+      column.levels.push_back(level);
+    }
+    column.values.resize(raw_.rows());
+    const std::string* last = nullptr; // mostly the same again
+    for_each_text(raw, [&](std::size_t i, const std::string& cell) {
+      const bool again = last && *last == cell;
+      const auto found = again ? index.end() : index.find(cell);
+      column.values[i] = again ? column.values[i - 1] : found->second;
+      if (!again) last = &found->first;
+    });
   }
 
-  const io::CsvTable& raw_;
+  // All cells in turn, numbers as they are written shortest.
+  template <class Take> void for_each_text(const CsvColumn& raw, const Take& take) const {
+    std::size_t text = 0;
+    for (std::size_t i = 0; i < raw_.rows(); ++i)
+      if (text < raw.texts.size() && raw.texts[text].row == i)
+        take(i, raw.texts[text++].text);
+      else
+        take(i, shortest(raw.numbers[i]));
+  }
+
+  io::CsvTable& raw_;
   const DataOptions& options_;
   const std::string& label_;
   FaultList& faults_;
@@ -509,6 +545,7 @@ private:
   std::unordered_map<std::string, std::vector<std::size_t>> whole_names_, bare_names_;
   MappedFile out_;
   std::set<const CsvColumn*> used_;
+  std::map<const CsvColumn*, std::size_t> uses_; // of its numbers, by quantities
   std::set<std::string> ambiguous_;
 };
 
@@ -518,12 +555,12 @@ std::string MappedFile::CountedNote::text() const {
   return before + thousands(rows) + (of_all ? "" : " of " + thousands(of)) + after;
 }
 
-MappedFile map_columns(const io::CsvTable& raw, const DataOptions& options,
-                       const std::string& label, FaultList& faults) {
+MappedFile map_columns(io::CsvTable& raw, const DataOptions& options, const std::string& label,
+                       FaultList& faults) {
   return Mapper(raw, options, label, faults).map();
 }
 
-std::vector<ExperimentRun> experiment_runs(const io::CsvTable& raw, const DataOptions& options,
+std::vector<ExperimentRun> experiment_runs(io::CsvTable& raw, const DataOptions& options,
                                            FaultList& faults) {
   return Mapper(raw, options, "", faults).runs();
 }

@@ -13,6 +13,7 @@ struct MappedFile {
   std::vector<std::string> experiment; // per row; empty where the file is one
   bool intervals = false;              // they are those between header lines
   std::vector<std::string> notes;
+  std::vector<AssumedUnit> assumed;
   struct CellFault { // of one cell: told only where its row is not left out
     std::size_t row;
     Fault fault;
@@ -33,9 +34,9 @@ struct MappedFile {
 };
 
 // Adds every fault of the file's columns to `faults`; those of cells are in the result. `label` is
-// the file's part in the names of its experiments.
-MappedFile map_columns(const io::CsvTable& raw, const DataOptions& options,
-                       const std::string& label, FaultList& faults);
+// the file's part in the names of its experiments. Of `raw` names, units and lines are left.
+MappedFile map_columns(io::CsvTable& raw, const DataOptions& options, const std::string& label,
+                       FaultList& faults);
 
 // Rows of one experiment that follow each other.
 struct ExperimentRun {
@@ -43,7 +44,7 @@ struct ExperimentRun {
   std::string name;  // as the file calls it; empty where the file is one
 };
 // In the order of the rows. `faults`: as map_columns adds them.
-std::vector<ExperimentRun> experiment_runs(const io::CsvTable& raw, const DataOptions& options,
+std::vector<ExperimentRun> experiment_runs(io::CsvTable& raw, const DataOptions& options,
                                            FaultList& faults);
 
 } // namespace frictab::data

@@ -49,14 +49,18 @@ void gather_experiments(Part& part, MappedFile&& mapped, const std::string& labe
     part.row.insert(part.row.end(), rows_of_one.begin(), rows_of_one.end());
     data.first_row.push_back(part.row.size());
   }
+  const bool in_order = std::is_sorted(part.row.begin(), part.row.end());
+  if (in_order) data.columns = std::move(mapped.columns);
   for (Column& column : mapped.columns) {
     Column sorted{column.name, column.unit, std::vector<double>(rows), column.levels};
     for (std::size_t i = 0; i < rows; ++i)
       sorted.values[i] = column.values[part.row[i]];
+    column = {};
     data.columns.push_back(std::move(sorted));
   }
   part.raw_rows = rows;
   data.notes = std::move(mapped.notes);
+  data.assumed = std::move(mapped.assumed);
   part.cell_faults = std::move(mapped.cell_faults);
   part.counted_notes = std::move(mapped.counted_notes);
 }
@@ -95,15 +99,13 @@ void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none) {
     part.faults.add({part.raw.file, 0, 0}, if_none);
   if (if_none && !gone.empty()) data.notes.push_back("no row is left of " + some_of(gone));
   for (Column& column : data.columns) {
-    std::vector<double> values;
-    for (const std::size_t i : kept)
-      values.push_back(column.values[i]);
-    column.values = std::move(values);
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      column.values[i] = column.values[kept[i]];
+    column.values.resize(kept.size());
   }
-  std::vector<std::size_t> row;
-  for (const std::size_t i : kept)
-    row.push_back(part.row[i]);
-  part.row = std::move(row);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    part.row[i] = part.row[kept[i]];
+  part.row.resize(kept.size());
   data.experiments = std::move(names);
   data.filed = std::move(filed);
   data.first_row = std::move(first);

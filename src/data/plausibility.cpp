@@ -2,6 +2,7 @@
 #include "data/plausibility.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -13,6 +14,7 @@
 #include "core/text.h"
 #include "data/condense.h"
 #include "data/equal_tests.h"
+#include "data/scale.h"
 #include "data/tests_apart.h"
 
 namespace frictab::data {
@@ -25,7 +27,6 @@ constexpr double least_mu = 0.001, usual_mu = 1, largest_mu = 3.6;
 // Above every flow stress of a metal, and every contact that metals bear.
 constexpr double largest_pressure_MPa = 20000;
 constexpr double largest_psi = 100;
-constexpr double kelvin_low = 270, room_in_kelvin = 330;
 // Between a stress and the forces that it comes from: what rounding and smoothing make.
 constexpr double same_coefficient = 1.1;
 // Steps of a path that go back now and then are no noise.
@@ -152,7 +153,7 @@ Implausible high_coefficient(const Dataset& data) {
                       "rubber, or clean metals in vacuum",
                       usual_mu, median(high)),
           coefficient_hint(data, median(high)),
-          true};
+          false};
 }
 
 Implausible no_coefficient(const Dataset& data) {
@@ -174,7 +175,7 @@ Implausible no_coefficient(const Dataset& data) {
           data.rows_behind(),
           first + and_more(tests - 1, "test"),
           "a zero point that was not set, or a force of the other sign?",
-          true};
+          false};
 }
 
 Implausible pressure(const Dataset& data) {
@@ -196,21 +197,6 @@ Implausible shear_yield(const Dataset& data) {
     rows += above_shear_yield(tau[i], flow[i]);
   return {"", rows, tau.size(), "tau_R_MPa is above the shear yield stress sigma_f_MPa/sqrt(3)",
           "a flow stress in GPa or before hardening, or a shear stress in another unit?"};
-}
-
-Implausible temperature(const Dataset& data) {
-  Implausible worst;
-  for (const char* name : {"T_contact_C", "T_tool_C"}) {
-    if (!data.has(name)) continue;
-    const auto [low, high] = span_behind(data, name, data.values(name));
-    const std::size_t rows = data.rows_behind();
-    if (low > kelvin_low && low < room_in_kelvin)
-      worst = {
-          "", rows, rows,
-          fmt::format("{} is {:.4g} to {:.4g}, and never below {}", name, low, high, kelvin_low),
-          "a temperature in K? unit = \"K\" where it is mapped"};
-  }
-  return worst;
 }
 
 // Against the path: one that was integrated from the speed agrees with its mean over each row.
@@ -629,56 +615,64 @@ double end_of_noise(std::span<const double> tau) {
 // They are left out as they are read; what is left has none.
 Implausible spike(const Dataset&) {
   return {};
-}
+  Implausible units_of_tests(const Dataset& data) {
+    const Dataset* const one = &data;
+    return mixed_units({&one, 1});
+  }
 
-// What a check needs to see at once: rows that have what it looks at, whole tests of which it
-// counts all rows, or a whole campaign.
-enum class Sees { rows, tests, campaign };
+  // What a check needs to see at once: rows that have what it looks at, whole tests of which it
+  // counts all rows, or a whole campaign.
+  enum class Sees { rows, tests, campaign };
 
-struct Check {
-  const char* name;
-  Implausible (*find)(const Dataset& data);
-  Sees sees;
-};
+  struct Check {
+    const char* name;
+    Implausible (*find)(const Dataset& data);
+    Sees sees;
+  };
 
-constexpr Check checks[] = {{"no_friction", no_friction, Sees::campaign},
-                            {"no_load", no_load_channel, Sees::rows},
-                            {"pressure", pressure, Sees::rows},
-                            {"friction_coefficient", friction_coefficient, Sees::rows},
-                            {"high_coefficient", high_coefficient, Sees::rows},
-                            {"no_coefficient", no_coefficient, Sees::tests},
-                            {"shear_yield", shear_yield, Sees::rows},
-                            {"spike", spike, Sees::rows},
-                            {"temperature", temperature, Sees::campaign},
-                            {"speed", speed, Sees::rows},
-                            {"path", path, Sees::tests},
-                            {"surface_expansion", surface_expansion, Sees::rows},
-                            {"clipped_channel", clipped_channel, Sees::tests},
-                            {"stuck_channel", stuck_channel, Sees::tests},
-                            {"force_offset", force_offset, Sees::tests},
-                            {"forces", forces, Sees::rows},
-                            {"test_apart", test_apart, Sees::campaign},
-                            {"copied_test", copied_test, Sees::campaign}};
+  constexpr Check checks[] = {{"no_friction", no_friction, Sees::campaign},
+                              {"no_load", no_load_channel, Sees::rows},
+                              {"pressure", pressure, Sees::rows},
+                              {"friction_coefficient", friction_coefficient, Sees::rows},
+                              {"high_coefficient", high_coefficient, Sees::rows},
+                              {"no_coefficient", no_coefficient, Sees::tests},
+                              {"shear_yield", shear_yield, Sees::rows},
+                              {"spike", spike, Sees::rows},
+                              {"temperature", temperature, Sees::campaign},
+                              {"speed", speed, Sees::rows},
+                              {"sliding_speed", sliding_speed, Sees::rows},
+                              {"elapsed_time", elapsed_time, Sees::tests},
+                              {"sliding_path", sliding_path, Sees::tests},
+                              {"flow_stress", normal_to_flow, Sees::campaign},
+                              {"mixed_units", units_of_tests, Sees::campaign},
+                              {"path", path, Sees::tests},
+                              {"surface_expansion", surface_expansion, Sees::rows},
+                              {"clipped_channel", clipped_channel, Sees::tests},
+                              {"stuck_channel", stuck_channel, Sees::tests},
+                              {"force_offset", force_offset, Sees::tests},
+                              {"forces", forces, Sees::rows},
+                              {"test_apart", test_apart, Sees::campaign},
+                              {"copied_test", copied_test, Sees::campaign}};
 
-const Implausible* counted_by(const Check& check, const std::vector<Implausible>& counted) {
-  for (const Implausible& one : counted)
-    if (one.check == check.name) return &one;
-  return nullptr;
-}
+  const Implausible* counted_by(const Check& check, const std::vector<Implausible>& counted) {
+    for (const Implausible& one : counted)
+      if (one.check == check.name) return &one;
+    return nullptr;
+  }
 
-// Where rows are left out, what was counted before they were.
-Implausible found_in_rows(const Check& check, const Dataset& data) {
-  Implausible found = check.find(data);
-  const Implausible* const before = counted_by(check, data.counted);
-  return before && before->rows > found.rows ? *before : found;
-}
+  // Where rows are left out, what was counted before they were.
+  Implausible found_in_rows(const Check& check, const Dataset& data) {
+    Implausible found = check.find(data);
+    const Implausible* const before = counted_by(check, data.counted);
+    return before && before->rows > found.rows ? *before : found;
+  }
 
-// Of a condensed campaign, what was counted before its rows went.
-Implausible found_by(const Check& check, const Dataset& data) {
-  if (!data.condensed || check.sees == Sees::campaign) return found_in_rows(check, data);
-  const Implausible* const counted = counted_by(check, data.condensed->implausible);
-  return counted ? *counted : Implausible{};
-}
+  // Of a condensed campaign, what was counted before its rows went.
+  Implausible found_by(const Check& check, const Dataset& data) {
+    if (!data.condensed || check.sees == Sees::campaign) return found_in_rows(check, data);
+    const Implausible* const counted = counted_by(check, data.condensed->implausible);
+    return counted ? *counted : Implausible{};
+  }
 
 } // namespace
 
@@ -726,6 +720,7 @@ void merge_implausible(const std::vector<Implausible>& more, std::vector<Implaus
     if (one.rows > known->rows) { // than of all so far
       known->what = one.what;
       known->hint = one.hint;
+      known->certain = one.certain;
     }
     known->rows += one.rows;
     known->of += one.of;
@@ -783,19 +778,37 @@ std::string impossible_text(const std::string& check) {
   return fmt::format("tau_R_MPa/sigma_n_MPa above {} and far above that of its test", largest_mu);
 }
 
+namespace {
+
+void tell(const Implausible& one, Dataset& data, const std::vector<std::string>& allowed,
+          const Place& place, FaultList& faults) {
+  const std::string text =
+      fmt::format("{} ({} of {} rows)", one.what, thousands(one.rows), thousands(one.of));
+  const bool is_allowed = std::find(allowed.begin(), allowed.end(), one.check) != allowed.end();
+  if (one.most() && !is_allowed)
+    faults.add(
+        place, text,
+        fmt::format("{}; if it is right: data.allow_implausible = [\"{}\"]", one.hint, one.check));
+  else // what is told alone says what it may be
+    data.implausible.push_back(one.certain && !is_allowed ? text + ": " + one.hint : text);
+}
+
+} // namespace
+
 void check_plausibility(Dataset& data, const std::vector<std::string>& allowed, const Place& place,
                         FaultList& faults) {
-  for (const Implausible& one : find_implausible(data)) {
-    const std::string text =
-        fmt::format("{} ({} of {} rows)", one.what, thousands(one.rows), thousands(one.of));
-    const bool is_allowed = std::find(allowed.begin(), allowed.end(), one.check) != allowed.end();
-    if (one.most() && !one.may_be && !is_allowed)
-      faults.add(place, text,
-                 fmt::format("{}; if it is right: data.allow_implausible = [\"{}\"]", one.hint,
-                             one.check));
-    else
-      data.implausible.push_back(one.may_be ? text + ": " + one.hint : text);
-  }
+  ask_for_units(data);
+  for (const Implausible& one : find_implausible(data))
+    tell(one, data, allowed, place, faults);
+}
+
+void check_units_between(Dataset& training, const Dataset& validation,
+                         const std::vector<std::string>& allowed, const Place& place,
+                         FaultList& faults) {
+  Implausible one = mixed_units(std::array<const Dataset*, 2>{&training, &validation});
+  one.check = "mixed_units";
+  const bool told = units_of_tests(training).rows + units_of_tests(validation).rows > 0;
+  if (one.rows > 0 && !told) tell(one, training, allowed, place, faults);
 }
 
 } // namespace frictab::data

@@ -52,7 +52,12 @@ std::string impossible_text(const std::string& check);
 void count_unloaded(Dataset& data);
 
 // Sets data.implausible to what some rows fail, or what is allowed; the rest is added to `faults`.
+// Asks for units that nobody gave (data/scale.h).
 void check_plausibility(Dataset& data, const std::vector<std::string>& allowed, const Place& place,
                         FaultList& faults);
+// The tests of both beside each other, where neither has tests in other units by itself.
+void check_units_between(Dataset& training, const Dataset& validation,
+                         const std::vector<std::string>& allowed, const Place& place,
+                         FaultList& faults);
 
 } // namespace frictab::data

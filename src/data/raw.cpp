@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -103,13 +105,43 @@ io::CsvFormat csv_format(const std::string& path, const DataOptions& options) {
   return format;
 }
 
+namespace {
+
+// Text of more than this is not held beside its numbers: it is read in pieces of this.
+constexpr std::uint64_t large_text = std::uint64_t{32} << 20,
+                        piece_of_text = std::uint64_t{1} << 20;
+
+bool is_large(const std::string& path) {
+  std::error_code unknown;
+  const auto bytes = std::filesystem::file_size(path, unknown);
+  return !unknown && !is_workbook(path) && bytes > large_text;
+}
+
+io::CsvTable whole_of(io::CsvPieces& pieces, FaultList& faults) {
+  io::CsvTable table;
+  for (auto next = pieces.next(faults); !next.empty(); next = pieces.next(faults))
+    for (io::CsvTable& piece : next)
+      if (table.columns.empty())
+        table = std::move(piece);
+      else
+        io::append(table, std::move(piece));
+  return table;
+}
+
+} // namespace
+
 io::CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
                       FaultList& faults) {
   if (io::looks_like_hdf5(path))
     return Hdf5Columns(path, named, options, faults)
         .next(std::numeric_limits<std::uint64_t>::max());
-  return io::parse_csv(raw_text(path, named, options.sheet), named, csv_format(path, options),
-                       faults);
+  const io::CsvFormat format = csv_format(path, options);
+  if (is_large(path)) {
+    io::CsvPieces pieces(std::make_unique<std::ifstream>(io::open_text_file(path, named)), named,
+                         format, piece_of_text);
+    if (pieces.whole_because().empty()) return whole_of(pieces, faults);
+  }
+  return io::parse_csv(raw_text(path, named, options.sheet), named, format, faults);
 }
 
 } // namespace frictab::data

@@ -43,7 +43,7 @@ TestTable read_test_table(DataOptions& options) {
   DataOptions dialect = options;
   dialect.skip_rows = dialect.skip_footer = 0;
   dialect.units_row = false;
-  const io::CsvTable raw = read_raw(path.string(), options.tests, dialect, faults);
+  io::CsvTable raw = read_raw(path.string(), options.tests, dialect, faults);
   table.header_line = raw.header_line;
   table.columns = map_columns(raw, take_over(options, raw), "", faults);
   FaultsByCause causes;

@@ -560,6 +560,28 @@ void reserve_rows(CsvTable& table, std::string_view rows_text, std::size_t whole
 
 } // namespace
 
+std::size_t CsvTexts::first_from(std::size_t row) const {
+  const auto is_before = [](const Cell& cell, std::size_t other) { return cell.row < other; };
+  return static_cast<std::size_t>(std::lower_bound(cells_.begin(), cells_.end(), row, is_before) -
+                                  cells_.begin());
+}
+
+void CsvTexts::push_back(const Text& cell) {
+  constexpr std::size_t most_known = 4096; // a column of time stamps holds each once
+  const auto column = static_cast<std::uint32_t>(cell.column);
+  if (!empty() && back().text == cell.text) {
+    cells_.push_back({cell.row, column, cells_.back().word});
+    return;
+  }
+  auto word = static_cast<std::uint32_t>(words_.size());
+  if (const auto found = known_.find(cell.text); found != known_.end())
+    word = found->second;
+  else if (known_.size() < most_known)
+    known_.emplace(cell.text, word);
+  if (word == words_.size()) words_.push_back(cell.text);
+  cells_.push_back({cell.row, column, word});
+}
+
 CsvTable parse_csv(std::string_view text, const std::string& file, const CsvFormat& format,
                    FaultList& faults) {
   CsvTable table;
@@ -747,8 +769,8 @@ void append(CsvTable& to, CsvTable&& more) {
   for (std::size_t c = 0; c < more.columns.size(); ++c) {
     CsvColumn &column = to.columns[c], &other = more.columns[c];
     column.numbers.insert(column.numbers.end(), other.numbers.begin(), other.numbers.end());
-    for (CsvColumn::Text& text : other.texts)
-      column.texts.push_back({rows + text.row, std::move(text.text), text.column});
+    for (const CsvColumn::Text& text : other.texts)
+      column.texts.push_back({rows + text.row, text.text, text.column});
   }
   to.line.insert(to.line.end(), more.line.begin(), more.line.end());
   to.interval.insert(to.interval.end(), more.interval.begin(), more.interval.end());
@@ -772,11 +794,11 @@ CsvTable rows_of(const CsvTable& table, std::size_t first, std::size_t end) {
     own.name = column.name;
     own.unit = column.unit;
     cut(column.numbers, own.numbers);
-    const auto before = [](const CsvColumn::Text& text, std::size_t row) { return text.row < row; };
-    const auto from = std::lower_bound(column.texts.begin(), column.texts.end(), first, before);
-    const auto to = std::lower_bound(from, column.texts.end(), end, before);
-    for (auto text = from; text != to; ++text)
-      own.texts.push_back({text->row - first, text->text, text->column});
+    const std::size_t behind = column.texts.first_from(end);
+    for (std::size_t t = column.texts.first_from(first); t < behind; ++t) {
+      const CsvColumn::Text text = column.texts[t];
+      own.texts.push_back({text.row - first, text.text, text.column});
+    }
   }
   cut(table.line, part.line);
   cut(table.interval, part.interval);

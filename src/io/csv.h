@@ -1,11 +1,14 @@
 // Delimited text as rigs write it, parsed to columns of cells that are numbers where they can be.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <istream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "core/error.h"
@@ -28,17 +31,57 @@ struct CsvFormat {
   std::function<bool(const std::string& name)> also_wanted; // other such names; empty: none
 };
 
+// The cells of a column that are no numbers, in ascending rows. Of a text column that is every
+// cell: a word that comes again is held once.
+class CsvTexts {
+public:
+  struct Text {
+    std::size_t row;
+    const std::string& text; // what stands there, in UTF-8; empty where the cell is empty
+    std::size_t column = 0;  // of its first byte in its line, from 1; 0 = unknown
+  };
+  struct Iterator {
+    using iterator_category = std::input_iterator_tag;
+    using value_type = Text;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const Text*;
+    using reference = Text;
+    const CsvTexts* texts;
+    std::size_t at;
+    Text operator*() const { return (*texts)[at]; }
+    Iterator& operator++() { return ++at, *this; }
+    bool operator==(const Iterator&) const = default;
+  };
+
+  std::size_t size() const { return cells_.size(); }
+  bool empty() const { return cells_.empty(); }
+  Text operator[](std::size_t i) const {
+    return {cells_[i].row, words_[cells_[i].word], cells_[i].column};
+  }
+  Text back() const { return (*this)[size() - 1]; }
+  Iterator begin() const { return {this, 0}; }
+  Iterator end() const { return {this, size()}; }
+  std::size_t first_from(std::size_t row) const; // size() where there is none
+  void push_back(const Text& cell);
+  void pop_back() { cells_.pop_back(); }
+
+private:
+  struct Cell {
+    std::size_t row;
+    std::uint32_t column, word;
+  };
+  std::vector<Cell> cells_;
+  std::vector<std::string> words_;
+  std::unordered_map<std::string, std::uint32_t> known_; // of them the first few thousand
+};
+
 // One column of a file. A cell that is no number is NaN in `numbers` and listed in `texts`.
 struct CsvColumn {
   std::string name;
   std::string unit; // of the units row, else empty
   std::vector<double> numbers;
-  struct Text {
-    std::size_t row;
-    std::string text;       // what stands there, in UTF-8; empty where the cell is empty
-    std::size_t column = 0; // of its first byte in its line, from 1; 0 = unknown
-  };
-  std::vector<Text> texts; // ascending rows
+  using Text = CsvTexts::Text;
+  CsvTexts texts;
 };
 
 // Lines that are no rows and no faults.

@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "data/quantity.h"
+#include "data/scale.h"
 #include "io/csv.h"
 #include "job/toml_tree.h"
 
@@ -60,13 +61,31 @@ std::string source_of(const GuessedColumn& column, const GuessedFile& file) {
   return toml_quoted(alike > 1 ? column.name : bare);
 }
 
+// A quantity of which neither the file nor its name says the unit.
+bool lacks_unit(const GuessedColumn& column) {
+  const data::Quantity* quantity = data::find_quantity(column.canonical);
+  return quantity && quantity->unit != "1" && !column.coefficient && column.unit.empty() &&
+         column.name != column.canonical;
+}
+
+// By the end of its name; empty where it says none.
+std::string unit_in_name(const GuessedColumn& column) {
+  return lacks_unit(column)
+             ? data::unit_in_name(column.name, data::find_quantity(column.canonical)->unit)
+             : "";
+}
+
 std::string column_line(const GuessedColumn& column, const GuessedFile& file) {
   const data::Quantity* quantity = data::find_quantity(column.canonical);
   std::string value = source_of(column, file);
   if (column.coefficient) value = fmt::format("{{ column = {}, times = \"sigma_n_MPa\" }}", value);
+  const std::string named_unit = unit_in_name(column);
+  if (!named_unit.empty() && named_unit != quantity->unit)
+    value = fmt::format("{{ column = {}, unit = {} }}", value, toml_quoted(named_unit));
   std::string comment = "first values: " + shown(column.first_values);
   if (quantity && !column.coefficient)
-    comment += column.unit.empty()
+    comment += !named_unit.empty() ? fmt::format("; in {}, by the end of its name", named_unit)
+               : column.unit.empty()
                    ? fmt::format("; no unit is given: {} is assumed", quantity->unit)
                    : fmt::format("; in {}, as the file says", shown(column.unit));
   if (column.coefficient) comment += "; a coefficient of friction";
@@ -116,6 +135,7 @@ public:
   GuessedJob write() {
     add_head();
     out_.text += "\n[data.columns]\n" + columns_lines(most_);
+    ask_for_units();
     ask_for_pressure();
     ask_for_friction();
     add_constants();
@@ -153,6 +173,27 @@ private:
   void ask(const std::string& question, const std::string& lines) {
     out_.questions.push_back(question);
     out_.text += "# ? " + question + "\n" + lines;
+  }
+
+  void ask_for_units() {
+    std::vector<std::string> names;
+    std::string lines;
+    for (const GuessedColumn& column : most_.columns) {
+      if (!lacks_unit(column) || !unit_in_name(column).empty()) continue;
+      const std::string& unit = data::find_quantity(column.canonical)->unit;
+      const auto others = data::other_units(unit);
+      names.push_back(fmt::format("{} ({})", shown(column.name), unit));
+      lines +=
+          line(fmt::format("# {} = {{ column = {}, unit = {} }}", column.canonical,
+                           source_of(column, most_), toml_quoted(others.front())),
+               fmt::format("or {}, {}", unit, fmt::join(others.begin() + 1, others.end(), ", ")));
+    }
+    if (names.empty()) return;
+    ask(fmt::format(
+            "In which units? The file does not say, and these are taken: {}. A line here replaces "
+            "the one above.",
+            join(names, ", ")),
+        lines);
   }
 
   void ask_for_pressure() {

@@ -94,6 +94,7 @@ void add_data_lines(codegen::TemplateValues& page, const data::Dataset& t, const
   };
   add_counted("Left out", dropped_of(t), dropped_of(v));
   add_counted("Derived", t.notes, v.notes);
+  add_counted("Unit not given", t.unit_questions, v.unit_questions);
   add_counted("Implausible", t.implausible, v.implausible);
   if (!t.unused.empty()) add("Beside the data, in none of them", lines(t.unused), "\u2013");
   add("Other columns", lines(bystanders_of(t)), lines(bystanders_of(v)));

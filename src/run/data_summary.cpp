@@ -153,6 +153,7 @@ std::string data_text(const JobData& data) {
     if (const std::string phases = report::phases_text(*part); !phases.empty())
       out += "rows read: " + phases + "\n";
     add_lines(out, "left out", dropped_lines(*part));
+    add_lines(out, "unit not given", part->unit_questions);
     add_lines(out, "implausible", part->implausible);
   }
   add_lines(out, "in none of the data", data.training.unused);
@@ -174,6 +175,7 @@ std::string data_json(const JobData& data) {
                {"phases", Json::object()},
                {"left_out", Json::array()},
                {"clocks", Json::array()},
+               {"units_not_given", Json::array()},
                {"implausible", Json::array()},
                {"unused", data.training.unused},
                {"columns", roles_json(data.training)}};
@@ -192,6 +194,8 @@ std::string data_json(const JobData& data) {
                                 {"offset", number(clock.offset)},
                                 {"std_error", number(clock.std_error)},
                                 {"correlation", number(clock.correlation)}});
+    for (const std::string& line : part->unit_questions)
+      json["units_not_given"].push_back(line);
     for (const std::string& line : part->implausible)
       json["implausible"].push_back(line);
     ++use;

@@ -108,6 +108,9 @@ JobData with_validation_files(const data::DataOptions& options, FaultList& impla
     data::check_plausibility(*part, options.allow_implausible, options.place, implausible);
   data::Dataset* const parts[] = {&data.training, &data.validation};
   find_roles(parts, options);
+  data::check_units_between(data.training, data.validation, options.allow_implausible,
+                            options.place, implausible);
+  if (data.training.assumed == data.validation.assumed) data.validation.unit_questions.clear();
   data.training.unused = unused_by_both(data.training, data.validation);
   data.validation.unused.clear();
   data.leak = calibrate::leak_note(data.training, data.validation);
@@ -136,6 +139,7 @@ JobData with_held_out_tests(data::Dataset all, double share, std::uint64_t seed)
   data.training = std::move(split.training);
   data.validation = std::move(split.validation);
   data.training.implausible = all.implausible;
+  data.training.unit_questions = all.unit_questions;
   data.training.unused = all.unused;
   data.leak = calibrate::leak_note(data.training, data.validation);
   data.undivided = std::move(all);
