@@ -22,9 +22,8 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double tied = 0.95;       // |correlation| of two parameters
-constexpr double its_own = 0.9;     // and of a parameter with what grows beyond the tests
-constexpr double much_more = 2;     // beyond the tests than in their middle
-constexpr double beyond_K = 50;     // of a temperature, which has no ratio
+constexpr double its_own = 0.9;     // and of a parameter with the change of the stress
+constexpr double step_K = 50;       // of a temperature, which is not doubled
 constexpr double of_bounds = 0.5;   // share of them that an interval may cover
 constexpr double level_share = 0.5; // by which the slope of a level may change over the data
 
@@ -36,9 +35,9 @@ struct Reach {
   double lowest; // that has a meaning
   double low, middle, high;
 
-  double beyond(bool above) const {
-    if (kelvins) return above ? high + beyond_K : std::max(low - beyond_K, lowest);
-    return above ? 2 * high : std::max(0.5 * low, lowest);
+  double stepped(bool above) const {
+    if (kelvins) return above ? middle + step_K : std::max(middle - step_K, lowest);
+    return above ? 2 * middle : std::max(0.5 * middle, lowest);
   }
   // A test this side of the data, and far enough from their middle to tell something.
   double proposed(bool above) const {
@@ -58,7 +57,9 @@ class Determined {
 public:
   Determined(ModelFit& fit, const InputColumns& columns, std::size_t experiments)
       : fit_(fit), law_(*fit.model.law), u_(*fit.uncertainty), error_(fit.model, columns.names()),
-        experiments_(experiments), middle_(middle_of(columns)) {
+        experiments_(experiments),
+        t_(experiments < 2 ? 0 : gsl_cdf_tdist_Pinv(0.975, static_cast<double>(experiments - 1))),
+        middle_(middle_of(columns)) {
     for (std::size_t i = 0; i < columns.names().size(); ++i) {
       const std::string& name = columns.names()[i];
       const auto [low, high] = columns.range(i);
@@ -123,20 +124,18 @@ private:
     fit_.determination.not_determined.push_back(std::move(open));
   }
 
-  // Along each state: what the stress beyond the tests is less known by than in their middle.
+  // Along each state: how well the change of the stress over a doubling is known.
   void add_open() {
     const auto in_middle = error_.known() ? error_.slope(middle_) : std::nullopt;
-    if (!in_middle) return;
+    if (!in_middle || experiments_ < 2) return;
     for (const Reach& reach : reaches_) {
       double worst = allowed_error;
       VectorXd contrast;
       for (const bool above : {false, true}) {
-        const auto there = slope_at(reach, reach.beyond(above));
-        if (!there) continue;
-        const double error = error_.of(*there);
-        if (error <= worst || error <= much_more * error_.of(*in_middle)) continue;
-        worst = error;
+        const auto there = slope_at(reach, reach.stepped(above));
+        if (!there || t_ * error_.of(*there - *in_middle) <= worst) continue;
         contrast = *there - *in_middle;
+        worst = t_ * error_.of(contrast);
       }
       if (contrast.size() == 0) continue;
       const VectorXd with = error_.covariance() * contrast;
@@ -155,10 +154,9 @@ private:
   // An interval over most of what a parameter may be.
   void add_wide() {
     if (experiments_ < 2) return;
-    const double t = gsl_cdf_tdist_Pinv(0.975, static_cast<double>(experiments_ - 1));
     for (std::size_t p = 0; p < size(); ++p) {
       const models::Parameter& parameter = law_.parameters[p];
-      const double half = t * fit_.std_error[p];
+      const double half = t_ * fit_.std_error[p];
       const double share = is_scale(parameter) ? 2 * half / fit_.model.parameters[p] /
                                                      std::log(parameter.upper / parameter.lower)
                                                : 2 * half / (parameter.upper - parameter.lower);
@@ -209,6 +207,7 @@ private:
   const Uncertainty& u_;
   StressError error_;
   std::size_t experiments_;
+  double t_; // a 95 % interval is so many standard errors either way
   std::vector<double> middle_;
   std::vector<Reach> reaches_;
   std::set<std::size_t> open_;

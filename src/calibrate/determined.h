@@ -1,12 +1,11 @@
 // Which parameters of a law the tests leave open, and what tests would settle them.
 //
-// A parameter is open where the tests do not reach far enough for it: half, or twice, what was
-// tested of one state (50 K beyond, of a temperature; all other states at their medians) the
-// stress's own standard error is above allowed_error and more than twice that in the middle of the
-// data, and what it grows by is that parameter's (|correlation| > 0.9). So it is asked in the same
-// way of an exponent, a slope and a user's parameter, and bounds that are only there for the search
-// do not matter. Where they are narrow they do: an interval (95 %) over more than half of them
-// says nothing either.
+// A parameter is open where the change of the stress over a doubling of a state (or halving; 50 K
+// of a temperature; from the middle of the data, all other states at theirs) is known to no better
+// than allowed_error with 95 %, and what is not known of it is that parameter's (|correlation| >
+// 0.9). So it is asked in the same way of an exponent, a slope and a user's parameter, and bounds
+// that are only there for the search do not matter. Where they are narrow they do: an interval
+// (95 %) over more than half of them says nothing either.
 //
 // Two parameters are tied where the design correlates them by more than 0.95, whatever the scatter.
 // The law's level (a parameter that the stress is proportional to) is not among them: it is

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,9 @@ namespace {
 constexpr std::size_t most_refits = 3;
 // One step is a little off where a law is not linear.
 constexpr double nearly = 0.8;
+
+// Standard errors: told before anything else.
+constexpr double far_moved = 2;
 
 double size_of(const Influence::Moved& m) {
   return std::abs(m.without - m.value) / m.std_error;
@@ -82,9 +86,8 @@ std::vector<Influence> of_law(const ModelFit& fit, const models::Conventions& co
       add(e, fit.without[e]);
   else
     for (const std::size_t e : suspects(*fit.uncertainty))
-      add(e,
-          fit_law(*fit.model.law, conventions, without_experiment(input.training, e), input.options)
-              .model);
+      add(e, fit_law(*fit.model.law, conventions, without_kin(input.training, e), input.options)
+                 .model);
   std::stable_sort(found.begin(), found.end(),
                    [](const Influence& a, const Influence& b) { return size_of(a) > size_of(b); });
   return found;
@@ -112,12 +115,17 @@ std::size_t first_without(const std::vector<std::vector<ErrorSums>>& laws, std::
 
 void add_first_places(Calibration& calibration, const CalibrationInput& input) {
   const std::vector<std::string>& judges = input.validation.experiments;
-  if (calibration.fits.size() < 2 || judges.size() < 3) return;
+  if (judges.size() < 3) return;
+  std::vector<std::string> names;
   std::vector<std::vector<ErrorSums>> laws;
-  for (const ModelFit& fit : calibration.fits)
+  for (const ModelFit& fit : calibration.fits) {
+    if (fit.reference) continue;
+    names.push_back(fit.model.law->name);
     laws.push_back(unseen_sums(fit, input.validation));
+  }
+  if (laws.size() < 2) return;
   if (first_without(laws, judges.size()) != 0) return; // ranked on rows that are not held
-  const std::string& leader = calibration.fits.front().model.law->name;
+  const std::string& leader = names.front();
   for (std::size_t e = 0; e < judges.size(); ++e) {
     const std::size_t first = first_without(laws, e);
     if (first == 0) continue;
@@ -128,7 +136,7 @@ void add_first_places(Calibration& calibration, const CalibrationInput& input) {
                          ? *known
                          : *calibration.influence.insert(calibration.influence.begin(),
                                                          {leader, judges[e], {}, ""});
-    one.first = calibration.fits[first].model.law->name;
+    one.first = names[first];
   }
 }
 
@@ -149,27 +157,28 @@ void add_influence(Calibration& calibration, const models::Conventions& conventi
 std::string influence_sentence(const Calibration& calibration) {
   const auto& all = calibration.influence;
   if (all.empty()) return "";
-  // A first place before a parameter, the better law before the others.
-  const auto most = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    return a.first.empty() && !b.first.empty();
-  });
-  std::string text = fmt::format("test '{}'", most->experiment);
-  if (!most->moved.empty()) {
-    const Influence::Moved& m = most->moved.front();
-    text += fmt::format(" moves {}: {} = {:.3g} without it, not {:.3g} ({:.1f} standard errors)",
-                        most->law, m.parameter, m.without, m.value, size_of(m));
+  // What moves the better law far, before a first place, before what moves a law at all.
+  const auto far = std::find_if(all.begin(), all.end(),
+                                [](const Influence& one) { return size_of(one) > far_moved; });
+  const auto first =
+      std::find_if(all.begin(), all.end(), [](const Influence& one) { return !one.first.empty(); });
+  const Influence& most = far != all.end() ? *far : first != all.end() ? *first : all.front();
+  std::string text = fmt::format("test '{}'", most.experiment);
+  if (!most.moved.empty()) {
+    std::vector<std::string> values;
+    for (const Influence::Moved& m : most.moved)
+      values.push_back(fmt::format("{} = {:.3g}, not {:.3g}", m.parameter, m.without, m.value));
+    text += fmt::format(" moves {} by up to {:.1f} standard errors: without it {}", most.law,
+                        size_of(most), join(values, "; "));
   }
-  if (!most->first.empty())
-    text += fmt::format("{} without it {} would be first, not {}", most->moved.empty() ? ":" : ";",
-                        most->first, most->law);
-  std::vector<std::string> tests;
+  if (!most.first.empty())
+    text += fmt::format("{} without it {} would be first, not {}", most.moved.empty() ? ":" : ";",
+                        most.first, most.law);
+  std::set<std::string> others;
   for (const Influence& one : all)
-    if (one.experiment != most->experiment &&
-        std::find(tests.begin(), tests.end(), one.experiment) == tests.end())
-      tests.push_back(one.experiment);
-  if (tests.empty()) return text;
-  return fmt::format("{} ({} more in calibration.json)", text,
-                     tests.size() == 1 ? "1 test" : fmt::format("{} tests", tests.size()));
+    if (one.experiment != most.experiment) others.insert(one.experiment);
+  if (others.empty()) return text;
+  return fmt::format("{} (calibration.json names {} more)", text, others.size());
 }
 
 } // namespace frictab::calibrate

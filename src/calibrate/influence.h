@@ -18,8 +18,9 @@ namespace frictab::calibrate {
 void add_influence(Calibration& calibration, const models::Conventions& conventions,
                    const CalibrationInput& input);
 
-// "'t05' moves wzl: b = -0.081 without it, not -0.12 (2.1 standard errors); without it log_coulomb
-// would be first", of what matters most; empty where no test does. Without a full stop.
+// "test 't05' moves wzl by up to 2.1 standard errors: without it b = -0.081, not -0.12; without it
+// log_coulomb would be first, not wzl", of what matters most; empty where no test does. Without a
+// full stop.
 std::string influence_sentence(const Calibration& calibration);
 
 } // namespace frictab::calibrate

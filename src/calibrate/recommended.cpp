@@ -14,24 +14,24 @@ namespace frictab::calibrate {
 namespace {
 
 // MAE of a law, and the influence of each experiment on it.
-struct Judged {
+struct JudgedLaw {
   double mae_MPa = 0;
   std::vector<double> influence;
 };
 
-Judged judged(const LawErrors& law) {
+JudgedLaw judged_law(const LawErrors& law) {
   std::vector<double> absolute, rows;
   for (const ErrorSums& one : law.sums) {
     absolute.push_back(one.absolute);
     rows.push_back(one.rows);
   }
-  Judged out{0, std::vector<double>(rows.size())};
+  JudgedLaw out{0, std::vector<double>(rows.size())};
   const std::vector<double> once(rows.size(), 1.0);
   out.mae_MPa = ratio_of(absolute, rows, once, Measure::mean, out.influence);
   return out;
 }
 
-double paired_error(const Judged& a, const Judged& b) {
+double paired_error(const JudgedLaw& a, const JudgedLaw& b) {
   std::vector<double> difference(a.influence.size());
   for (std::size_t e = 0; e < difference.size(); ++e)
     difference[e] = a.influence[e] - b.influence[e];
@@ -59,10 +59,10 @@ std::size_t numbers_of(const ModelFit& fit, std::span<const ModelFit> fits) {
 Recommended recommend(std::span<const LawErrors> laws, std::span<const std::size_t> numbers) {
   Recommended out;
   if (laws.empty()) return out;
-  const Judged best = judged(laws.front());
+  const JudgedLaw best = judged_law(laws.front());
   out = {laws.front().law, laws.front().law, numbers.front(), numbers.front()};
   for (std::size_t i = 1; i < laws.size() && laws.front().sums.size() >= 2; ++i) {
-    const Judged one = judged(laws[i]);
+    const JudgedLaw one = judged_law(laws[i]);
     const double behind = one.mae_MPa - best.mae_MPa, error = paired_error(one, best);
     if (behind > std::max(error, same_error * best.mae_MPa)) continue;
     const bool closer = numbers[i] == out.numbers && behind < out.behind_MPa;

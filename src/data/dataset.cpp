@@ -136,7 +136,7 @@ std::vector<std::size_t> drawn_by_content(const Dataset& data, const Units& unit
   std::vector<std::vector<XXH64_hash_t>> tests(units.count);
   for (std::size_t e = 0; e < units.of.size(); ++e) {
     const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
-    XXH64_hash_t hash = seed;
+    XXH64_hash_t hash = XXH64(&rows, sizeof rows, seed);
     for (const Quantity& quantity : quantities()) // in their own order, not the file's
       if (const Column* column = data.find(quantity.name))
         hash = XXH64(column->values.data() + first, rows * sizeof(double), hash);

@@ -318,6 +318,7 @@ struct Recorded {
   VectorXd values;
   std::array<VectorXd, 3> logarithms;
   bool inside = false;
+  bool is_reading = true; // else a factor only
 };
 
 struct Best {
@@ -327,7 +328,8 @@ struct Best {
 
 class Finder {
 public:
-  Finder(std::span<const Dataset* const> parts, const std::set<std::string>& known)
+  Finder(std::span<const Dataset* const> parts, const std::set<std::string>& known,
+         const std::set<std::string>& of_states)
       : cut_(parts), tau_(cut_.values("tau_R_MPa").cwiseAbs()) {
     read_states(*parts.front());
     log_tau_ = logarithm(tau_, floor_share_tau);
@@ -338,7 +340,7 @@ public:
       screened_[level] = thinned(whole_[level] = places(level));
     for (const Column& column : parts.front()->columns)
       if (!find_quantity(column.name) && !known.count(column.name) && column.name != "origin")
-        read(column);
+        read(column, of_states.count(column.name) == 0);
   }
 
   std::map<std::string, Disguise> run() {
@@ -349,7 +351,9 @@ public:
       parallel_for(recorded_.size(), [&](std::size_t c) { paired[c] = with_another(c, best); });
     std::map<std::string, Disguise> found;
     std::vector<std::optional<Disguise>> verdicts(recorded_.size());
-    parallel_for(recorded_.size(), [&](std::size_t c) { verdicts[c] = verdict(c, paired[c]); });
+    parallel_for(recorded_.size(), [&](std::size_t c) {
+      if (recorded_[c].is_reading) verdicts[c] = verdict(c, paired[c]);
+    });
     for (std::size_t c = 0; c < recorded_.size(); ++c)
       if (verdicts[c] && !found[recorded_[c].column].sure)
         found[recorded_[c].column] = *verdicts[c];
@@ -387,15 +391,17 @@ private:
     powers_.emplace_back(name, std::move(logarithms));
   }
 
-  void read(const Column& column) {
+  void read(const Column& column, bool may_be_called) {
     Recorded one{column.name, column.name, cut_.values(column.name), {}, false};
     const auto known = (one.values.array().isFinite()).count();
     if (static_cast<double>(known) < 0.5 * static_cast<double>(cut_.rows())) return;
-    if (!is_reading(one)) return;
+    one.is_reading = is_reading(one) && may_be_called;
+    if (!one.is_reading && !column.levels.empty()) return; // numbers of levels
     one.logarithms = cut_.levels(logarithm(one.values, floor_share));
     const VectorXd values = one.values;
+    const bool called = one.is_reading;
     recorded_.push_back(std::move(one));
-    if (is_sum(values))
+    if (called && is_sum(values))
       for (const auto& [clock, along] : clocks_) {
         Recorded rate{fmt::format("d {}/d {}", column.name, clock), column.name, {}, {}, true};
         rate.logarithms = cut_.levels(logarithm(cut_.rate(values, along), floor_share));
@@ -473,6 +479,7 @@ private:
   Best alone(std::size_t c) const {
     const Recorded& one = recorded_[c];
     Best best;
+    if (!one.is_reading) return best;
     double finest = infinite; // share on the finest level that says something
     for (std::size_t level = 0; level < 3; ++level) {
       std::vector<Index> at = known_of(whole_[level], level, one, one);
@@ -494,18 +501,19 @@ private:
   static std::string text_of(const std::string& name, double sign, const std::string& factor,
                              double sign_of_factor, double share) {
     return fmt::format(
-        "tau_R_MPa goes as {}{}{}{} beside the states ({:.1g} % of what they leave is "
+        "tau_R_MPa goes as {}{}{}{} beside the states ({:.1g} % or less of what they leave is "
         "left)",
         sign > 0 ? "" : "1/", name,
         factor.empty()       ? ""
         : sign_of_factor > 0 ? "*"
                              : "/",
-        factor, 100 * share);
+        factor, std::max(100 * share, 0.01));
   }
 
   // c goes with what is left by itself; w is a factor beside it (a radius, an area).
   bool is_the_reading(std::size_t c, std::size_t w, const std::vector<Best>& best) const {
     const Recorded &one = recorded_[c], &other = recorded_[w];
+    if (!other.is_reading) return true;
     if (one.inside != other.inside) return one.inside;
     return best[c].share <= best[w].share;
   }
@@ -514,7 +522,7 @@ private:
     Best best = alone[c];
     if (best.share < sure_share) return best;
     // Below its ask_share it may be a copy that scatters: no factor makes it a better one.
-    if (best.share < ask_share) return best;
+    if (best.share < ask_share || !recorded_[c].is_reading) return best;
     for (std::size_t w = 0; w < recorded_.size(); ++w) {
       if (w == c || alone[w].share < ask_share || !is_the_reading(c, w, alone)) continue;
       for (std::size_t level = 0; level < 3; ++level)
@@ -708,8 +716,9 @@ private:
 } // namespace
 
 std::map<std::string, Disguise> find_disguises(std::span<const Dataset* const> parts,
-                                               const std::set<std::string>& known) {
-  return Finder(parts, known).run();
+                                               const std::set<std::string>& known,
+                                               const std::set<std::string>& of_states) {
+  return Finder(parts, known, of_states).run();
 }
 
 } // namespace frictab::data

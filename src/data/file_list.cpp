@@ -196,7 +196,8 @@ private:
     std::vector<std::string> list;
     for (const std::string& text : levels) {
       double plain = 0, value = 0;
-      const bool read = is_number(text, dash, value) && !io::read_number(text, '.', plain);
+      const bool read = is_number(text, dash, value) && !io::read_number(text, '.', plain) &&
+                        !io::read_number(text, ',', plain);
       list.push_back(read ? fmt::format("{} = {}", text, shortest(value)) : text);
     }
     if (list.size() > shown) {

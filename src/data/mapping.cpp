@@ -63,8 +63,8 @@ public:
     map_bystanders();
     add_same_for_all();
     tell_nameless();
-    for (CsvColumn& column : raw_.columns)
-      column = {column.name, column.unit, {}, {}};
+    for (const CsvColumn& column : raw_.columns)
+      forget(column);
     return std::move(out_);
   }
 
@@ -190,21 +190,32 @@ private:
          cause == Cause::empty || cause == Cause::word_for_empty});
   }
 
+  // Whether the file has fractions: then data.decimal is the sign in front of them.
+  bool has_fractions() const {
+    return std::any_of(raw_.columns.begin(), raw_.columns.end(), [](const CsvColumn& column) {
+      return std::any_of(column.numbers.begin(), column.numbers.end(), [](double value) {
+        return std::isfinite(value) && value != std::round(value);
+      });
+    });
+  }
+
+  // 1.341 beside 0,0024 is 1341; beside whole numbers it may be either.
   std::string number_hint(const std::string& text) const {
     const auto looks_like = [&](char decimal) {
       double ignored = 0;
       return io::read_number(text, decimal, ignored);
     };
-    if (options_.decimal == '.' && looks_like(','))
-      return "a decimal comma? set data.decimal = \",\"";
-    if (options_.decimal == ',' && looks_like('.'))
-      return "a decimal point? set data.decimal = \".\"";
+    std::string grouped, pointed;
     double ignored = 0;
     for (const char between : {'.', ',', '\'', ' '})
-      if (between != options_.decimal && options_.thousands == 0 &&
+      if (grouped.empty() && between != options_.decimal && options_.thousands == 0 &&
           io::read_grouped_number(text, options_.decimal, between, ignored))
-        return fmt::format("digits in groups of three? set data.thousands = \"{}\"", between);
-    return "";
+        grouped = fmt::format("digits in groups of three? set data.thousands = \"{}\"", between);
+    if (options_.decimal == '.' && looks_like(','))
+      pointed = "a decimal comma? set data.decimal = \",\"";
+    if (options_.decimal == ',' && looks_like('.'))
+      pointed = "a decimal point? set data.decimal = \".\"";
+    return pointed.empty() || (!grouped.empty() && has_fractions()) ? grouped : pointed;
   }
 
   // All cells of a column as numbers; a fault for each that is none.
@@ -524,6 +535,12 @@ private:
       column.values[i] = again ? column.values[i - 1] : found->second;
       if (!again) last = &found->first;
     });
+    forget(raw);
+  }
+
+  // What a file's column held, once it is taken.
+  void forget(const CsvColumn& raw) {
+    raw_.columns[std::size_t(&raw - raw_.columns.data())] = {raw.name, raw.unit, {}, {}};
   }
 
   // All cells in turn, numbers as they are written shortest.

@@ -111,8 +111,9 @@ void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none) {
   data.first_row = std::move(first);
 }
 
-void add_counted(Part& part, std::string words, std::size_t rows) {
-  part.counted_notes.push_back({part.data.notes.size(), std::move(words), rows, part.raw_rows});
+void add_counted(Part& part, std::string before, std::string after, std::size_t rows) {
+  part.counted_notes.push_back(
+      {part.data.notes.size(), std::move(before), std::move(after), true, rows, part.raw_rows});
   part.data.notes.push_back(part.counted_notes.back().text());
 }
 

@@ -41,8 +41,8 @@ private:
 // experiment of a file that is one.
 void gather_experiments(Part& part, MappedFile&& mapped, const std::string& label);
 
-// A note that counts: `words` with ROWS for the count (MappedFile::CountedNote).
-void add_counted(Part& part, std::string words, std::size_t rows);
+// A note that counts, in the words around the count (MappedFile::CountedNote).
+void add_counted(Part& part, std::string before, std::string after, std::size_t rows);
 
 // The rows whose `keep` is not 0; an experiment without a row goes. With `if_none` a note names
 // those, and where no row is left at all, that is a fault in these words.

@@ -112,7 +112,7 @@ class LoadPhases {
 public:
   LoadPhases(const TestSignals& test, TestPhases& out) : test_(test), load_(test.load), out_(out) {
     typical_ = typical_of(finite_values(load_), 0.5);
-    if (!(typical_ > 0)) return;
+    if (!(typical_ > 0) || load_.size() < 2 * mean_rows) return; // few rows are levels
     out.has_load = true;
     if (load_.size() >= ramp_rows) mark_ramps();
     mark_unloaded();
@@ -142,8 +142,9 @@ private:
         frictions.push_back(std::abs(test_.friction[i]));
       }
     const double mu = median_of(std::move(ratios)), rubbing = median_of(std::move(frictions));
-    for (const Piece& run : pieces_where(
-             load_.size(), [&](std::size_t i) { return load_[i] < unloaded_share * typical_; })) {
+    for (const Piece& run : pieces_where(load_.size(), [&](std::size_t i) {
+           return std::abs(load_[i]) < unloaded_share * typical_;
+         })) {
       const Values load = load_.subspan(run.begin, run.rows());
       double friction = 0;
       if (!test_.friction.empty())
@@ -276,6 +277,7 @@ public:
       out.strokes = {{0, rows, sum < 0 ? -1 : 1}};
       return;
     }
+    if (rows < mean_rows * out.strokes.size()) return; // a row may be the mean of a stroke
     for (std::size_t s = 0; s < out.strokes.size(); ++s)
       mark_turning(out.strokes[s], s > 0, s + 1 < out.strokes.size());
   }
@@ -307,6 +309,7 @@ private:
     for (const Piece& run : pieces_where(size_.size(), [&](std::size_t i) {
            return size_[i] < slow * typical_ || test_.speed[i] == 0;
          })) {
+      if (run.rows() < mean_rows && turns_in(run)) continue; // a stroke that ends, not a rest
       const Values speed = test_.speed.subspan(run.begin, run.rows());
       const Mean mean = mean_with_error(speed);
       const bool constant =
@@ -315,6 +318,12 @@ private:
       if (mean.is_zero() ? mean.value == 0 || run.rows() >= mean_rows : is_offset)
         mark(run.begin, run.end, Phase::rest);
     }
+  }
+
+  bool turns_in(const Piece& piece) const {
+    return std::any_of(out_.strokes.begin(), out_.strokes.end(), [&](const auto& stroke) {
+      return stroke.begin > 0 && stroke.begin >= piece.begin && stroke.begin <= piece.end;
+    });
   }
 
   void mark(std::size_t begin, std::size_t end, Phase phase) {

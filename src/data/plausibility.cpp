@@ -615,64 +615,66 @@ double end_of_noise(std::span<const double> tau) {
 // They are left out as they are read; what is left has none.
 Implausible spike(const Dataset&) {
   return {};
-  Implausible units_of_tests(const Dataset& data) {
-    const Dataset* const one = &data;
-    return mixed_units({&one, 1});
-  }
+}
 
-  // What a check needs to see at once: rows that have what it looks at, whole tests of which it
-  // counts all rows, or a whole campaign.
-  enum class Sees { rows, tests, campaign };
+Implausible units_of_tests(const Dataset& data) {
+  const Dataset* const one = &data;
+  return mixed_units({&one, 1});
+}
 
-  struct Check {
-    const char* name;
-    Implausible (*find)(const Dataset& data);
-    Sees sees;
-  };
+// What a check needs to see at once: rows that have what it looks at, whole tests of which it
+// counts all rows, or a whole campaign.
+enum class Sees { rows, tests, campaign };
 
-  constexpr Check checks[] = {{"no_friction", no_friction, Sees::campaign},
-                              {"no_load", no_load_channel, Sees::rows},
-                              {"pressure", pressure, Sees::rows},
-                              {"friction_coefficient", friction_coefficient, Sees::rows},
-                              {"high_coefficient", high_coefficient, Sees::rows},
-                              {"no_coefficient", no_coefficient, Sees::tests},
-                              {"shear_yield", shear_yield, Sees::rows},
-                              {"spike", spike, Sees::rows},
-                              {"temperature", temperature, Sees::campaign},
-                              {"speed", speed, Sees::rows},
-                              {"sliding_speed", sliding_speed, Sees::rows},
-                              {"elapsed_time", elapsed_time, Sees::tests},
-                              {"sliding_path", sliding_path, Sees::tests},
-                              {"flow_stress", normal_to_flow, Sees::campaign},
-                              {"mixed_units", units_of_tests, Sees::campaign},
-                              {"path", path, Sees::tests},
-                              {"surface_expansion", surface_expansion, Sees::rows},
-                              {"clipped_channel", clipped_channel, Sees::tests},
-                              {"stuck_channel", stuck_channel, Sees::tests},
-                              {"force_offset", force_offset, Sees::tests},
-                              {"forces", forces, Sees::rows},
-                              {"test_apart", test_apart, Sees::campaign},
-                              {"copied_test", copied_test, Sees::campaign}};
+struct Check {
+  const char* name;
+  Implausible (*find)(const Dataset& data);
+  Sees sees;
+};
 
-  const Implausible* counted_by(const Check& check, const std::vector<Implausible>& counted) {
-    for (const Implausible& one : counted)
-      if (one.check == check.name) return &one;
-    return nullptr;
-  }
+constexpr Check checks[] = {{"no_friction", no_friction, Sees::campaign},
+                            {"no_load", no_load_channel, Sees::rows},
+                            {"pressure", pressure, Sees::rows},
+                            {"friction_coefficient", friction_coefficient, Sees::rows},
+                            {"high_coefficient", high_coefficient, Sees::rows},
+                            {"no_coefficient", no_coefficient, Sees::tests},
+                            {"shear_yield", shear_yield, Sees::rows},
+                            {"spike", spike, Sees::rows},
+                            {"temperature", temperature, Sees::campaign},
+                            {"speed", speed, Sees::rows},
+                            {"sliding_speed", sliding_speed, Sees::rows},
+                            {"elapsed_time", elapsed_time, Sees::tests},
+                            {"sliding_path", sliding_path, Sees::tests},
+                            {"flow_stress", normal_to_flow, Sees::campaign},
+                            {"mixed_units", units_of_tests, Sees::campaign},
+                            {"path", path, Sees::tests},
+                            {"surface_expansion", surface_expansion, Sees::rows},
+                            {"clipped_channel", clipped_channel, Sees::tests},
+                            {"stuck_channel", stuck_channel, Sees::tests},
+                            {"force_offset", force_offset, Sees::tests},
+                            {"forces", forces, Sees::rows},
+                            {"test_apart", test_apart, Sees::campaign},
+                            {"copied_test", copied_test, Sees::campaign}};
 
-  // Where rows are left out, what was counted before they were.
-  Implausible found_in_rows(const Check& check, const Dataset& data) {
-    Implausible found = check.find(data);
-    const Implausible* const before = counted_by(check, data.counted);
-    return before && before->rows > found.rows ? *before : found;
-  }
+const Implausible* counted_by(const Check& check, const std::vector<Implausible>& counted) {
+  for (const Implausible& one : counted)
+    if (one.check == check.name) return &one;
+  return nullptr;
+}
 
-  // Of a condensed campaign, what was counted before its rows went.
-  Implausible found_by(const Check& check, const Dataset& data) {
-    if (!data.condensed || check.sees == Sees::campaign) return found_in_rows(check, data);
-    const Implausible* const counted = counted_by(check, data.condensed->implausible);
-    return counted ? *counted : Implausible{};
-  }
+// Where rows are left out, what was counted before they were.
+Implausible found_in_rows(const Check& check, const Dataset& data) {
+  Implausible found = check.find(data);
+  const Implausible* const before = counted_by(check, data.counted);
+  return before && before->rows > found.rows ? *before : found;
+}
+
+// Of a condensed campaign, what was counted before its rows went.
+Implausible found_by(const Check& check, const Dataset& data) {
+  if (!data.condensed || check.sees == Sees::campaign) return found_in_rows(check, data);
+  const Implausible* const counted = counted_by(check, data.condensed->implausible);
+  return counted ? *counted : Implausible{};
+}
 
 } // namespace
 

@@ -111,20 +111,23 @@ namespace {
 constexpr std::uint64_t large_text = std::uint64_t{32} << 20,
                         piece_of_text = std::uint64_t{1} << 20;
 
-bool is_large(const std::string& path) {
+// 0: it is read at once.
+std::uint64_t bytes_of_large(const std::string& path) {
   std::error_code unknown;
   const auto bytes = std::filesystem::file_size(path, unknown);
-  return !unknown && !is_workbook(path) && bytes > large_text;
+  return !unknown && !is_workbook(path) && bytes > large_text ? bytes : 0;
 }
 
-io::CsvTable whole_of(io::CsvPieces& pieces, FaultList& faults) {
+io::CsvTable whole_of(io::CsvPieces& pieces, std::uint64_t bytes, FaultList& faults) {
   io::CsvTable table;
   for (auto next = pieces.next(faults); !next.empty(); next = pieces.next(faults))
     for (io::CsvTable& piece : next)
-      if (table.columns.empty())
-        table = std::move(piece);
-      else
+      if (table.columns.empty()) {
+        table = std::move(piece); // as the others, but for a tenth
+        io::reserve(table, (bytes + bytes / 10) / piece_of_text * table.rows());
+      } else {
         io::append(table, std::move(piece));
+      }
   return table;
 }
 
@@ -136,10 +139,10 @@ io::CsvTable read_raw(const std::string& path, const std::string& named, const D
     return Hdf5Columns(path, named, options, faults)
         .next(std::numeric_limits<std::uint64_t>::max());
   const io::CsvFormat format = csv_format(path, options);
-  if (is_large(path)) {
+  if (const std::uint64_t bytes = bytes_of_large(path); bytes > 0) {
     io::CsvPieces pieces(std::make_unique<std::ifstream>(io::open_text_file(path, named)), named,
                          format, piece_of_text);
-    if (pieces.whole_because().empty()) return whole_of(pieces, faults);
+    if (pieces.whole_because().empty()) return whole_of(pieces, bytes, faults);
   }
   return io::parse_csv(raw_text(path, named, options.sheet), named, format, faults);
 }

@@ -72,6 +72,7 @@ void sort_tests(Dataset& data) {
   data.first_row = std::move(first);
   reorder(data.experiments, order);
   reorder(data.filed, order);
+  reorder(data.file_of, order);
 }
 
 // ---- clocks ----
@@ -90,13 +91,15 @@ public:
     return tests;
   }
 
-  // Median gap between tests that follow each other, in durations of a test; nothing where they do
-  // not, as where each starts at its own zero.
+  // Median gap between tests that follow each other beyond a row's usual step, in durations of a
+  // test; nothing where they do not, as where each starts at its own zero.
   std::optional<double> gap(const Tests& tests) const {
     if (!time_ || tests.size() < 2) return {};
-    std::vector<double> gaps, durations;
+    std::vector<double> gaps, durations, steps;
     for (std::size_t i = 0; i < tests.size(); ++i) {
       durations.push_back(end(tests[i]) - start(tests[i]));
+      const std::size_t rows = data_.first_row[tests[i] + 1] - data_.first_row[tests[i]];
+      steps.push_back(durations.back() / static_cast<double>(std::max<std::size_t>(rows - 1, 1)));
       if (i > 0) gaps.push_back(start(tests[i]) - end(tests[i - 1]));
     }
     const double duration = median(durations);
@@ -104,7 +107,7 @@ public:
     const auto follow = std::count_if(gaps.begin(), gaps.end(),
                                       [&](double g) { return g > -few_steps * duration; });
     if (static_cast<double>(follow) < mostly * static_cast<double>(gaps.size())) return {};
-    return median(gaps) / duration;
+    return std::max(median(gaps) - median(steps), 0.0) / duration;
   }
 
 private:

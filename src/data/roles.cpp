@@ -115,11 +115,13 @@ class RoleFinder {
 public:
   RoleFinder(std::span<Dataset* const> parts, const DataOptions& options)
       : parts_(parts), options_(options) {
-    std::set<std::string> known;
+    std::set<std::string> known, of_states;
     for (const Column& column : parts.front()->columns)
-      if (!said_before_looking(column.name).why.empty()) known.insert(column.name);
+      if (const Given said = said_before_looking(column.name); !said.why.empty())
+        (said.role == Role::state || said.role == Role::setting ? of_states : known)
+            .insert(column.name);
     const std::vector<const Dataset*> all(parts.begin(), parts.end());
-    if (parts.front()->has("tau_R_MPa")) disguises_ = find_disguises(all, known);
+    if (parts.front()->has("tau_R_MPa")) disguises_ = find_disguises(all, known, of_states);
   }
 
   Given of(const Column& column) {

@@ -381,10 +381,10 @@ public:
     if (cut < 2 || 2 * cut < sorted_.size()) return std::nullopt;
     const Span own{sorted_[cut].first, sorted_.back().first},
         others{sorted_[0].first, sorted_[cut - 1].first};
-    constexpr double near = 3, equal = 1, least_gap = 150, larger = 1.5, setting = 300, about = 1.6;
+    constexpr double near = 3, equal = 1, least_gap = 100, larger = 1.5, setting = 300, about = 1.6;
     double off = 0; // from the nearest of the others
     for (std::size_t i = cut; i < sorted_.size(); ++i) {
-      double nearest = least_gap;
+      double nearest = own.high;
       for (std::size_t k = 0; k < cut; ++k)
         nearest = std::min(nearest, std::abs(sorted_[i].first - kelvin - sorted_[k].first));
       off = std::max(off, nearest);
@@ -658,7 +658,7 @@ Implausible mixed_units(std::span<const Dataset* const> parts) {
   std::size_t said = 0;
   for (const auto& [name, odd] : found)
     if (odd.tests == first.tests && said++ < 3)
-      what += fmt::format("{} {} {}, of the others {} (in {}?)", said == 1 ? ":" : ",", name,
+      what += fmt::format("{} {} {}, of the others {} ({}?)", said == 1 ? ":" : ",", name,
                           shown(odd.own), shown(odd.others), odd.unit);
   Implausible out{"",
                   0,

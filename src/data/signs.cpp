@@ -48,7 +48,7 @@ struct Middle {
 };
 
 // The median and its standard error, were the rows Gaussian and independent.
-Middle middle_of(const std::vector<double>& values) {
+Middle middle_with_error(const std::vector<double>& values) {
   Middle out{finite_median(values), 0, values.size()};
   std::vector<double> off;
   for (const double x : values)
@@ -91,7 +91,7 @@ public:
     });
     if (unloaded.size() >= unloaded_rows) found.unloaded = finite_median(unloaded);
     if (test_.both_directions() && take_both_directions(keeps_offset, found)) return;
-    const Middle all = middle_of(fitted(0, friction_.size(), 0));
+    const Middle all = middle_with_error(fitted(0, friction_.size(), 0));
     if (!(all.value < -2 * all.error)) return;
     for (double& x : friction_)
       x = -x;
@@ -114,8 +114,8 @@ private:
 
   // Half of what the two directions differ by beyond their sign; none where rows are too few.
   std::optional<Middle> offset(std::size_t begin, std::size_t end, std::size_t least) const {
-    const Middle forward = middle_of(fitted(begin, end, 1)),
-                 backward = middle_of(fitted(begin, end, -1));
+    const Middle forward = middle_with_error(fitted(begin, end, 1)),
+                 backward = middle_with_error(fitted(begin, end, -1));
     if (forward.rows < least || backward.rows < least) return {};
     return Middle{(forward.value + backward.value) / 2,
                   std::hypot(forward.error, backward.error) / 2, forward.rows + backward.rows};
@@ -241,11 +241,8 @@ private:
     for (const auto& [reading, how] :
          {std::pair(SpeedReading::coarse, "coarse"), std::pair(SpeedReading::noisy, "noisy")})
       if (const std::size_t tests = count(reading); tests > 0)
-        add_counted(part_,
-                    fmt::format("v_rel_mm_s is read too {} in ROWS of the tests to say what is at "
-                                "rest or turning there",
-                                how),
-                    tests);
+        add_counted(part_, fmt::format("v_rel_mm_s is read too {} in ", how),
+                    " of the tests to say what is at rest or turning there", tests);
   }
 
   Part& part_;
@@ -285,11 +282,8 @@ void turn_loads(Part& part) {
         x = -x;
     }
     if (turned > 0)
-      add_counted(part,
-                  fmt::format("{} is negative all along in ROWS of the tests: a convention, taken "
-                              "as compression",
-                              name),
-                  turned);
+      add_counted(part, fmt::format("{} is negative all along in ", name),
+                  " of the tests: a convention, taken as compression", turned);
   }
 }
 

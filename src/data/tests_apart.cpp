@@ -15,12 +15,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double level = 0.05, least_factor = 1.5;
+constexpr double false_rate = 0.05, least_factor = 1.5;
 constexpr Index spare = 5;              // tests beyond the terms of the regression
 constexpr double least_sd = 0.02;       // of a term between tests: below, nothing was varied
 constexpr double most_leverage = 0.999; // of a test that alone has its state: nothing to compare
 
-double median(std::vector<double> values) {
+double middle_value(std::vector<double> values) {
   if (values.empty()) return std::nan("");
   const auto at = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), at, values.end());
@@ -28,7 +28,7 @@ double median(std::vector<double> values) {
 }
 
 // Per test; of rows under load that rub.
-VectorXd medians(const Dataset& data, const char* name, double (*term)(double)) {
+VectorXd middles_of_tests(const Dataset& data, const char* name, double (*term)(double)) {
   const auto values = data.values(name), tau = data.values("tau_R_MPa"),
              load = data.values("sigma_n_MPa");
   VectorXd out(Index(data.experiments.size()));
@@ -36,29 +36,29 @@ VectorXd medians(const Dataset& data, const char* name, double (*term)(double)) 
     std::vector<double> in_test;
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
       if (load[i] > 0 && tau[i] > 0 && std::isfinite(values[i])) in_test.push_back(values[i]);
-    out(Index(e)) = term(median(std::move(in_test)));
+    out(Index(e)) = term(middle_value(std::move(in_test)));
   }
   return out;
 }
 
-double logarithm(double x) {
+double log_of_size(double x) {
   return std::log(std::abs(x) + 1e-12);
 }
 
 // Of unit spread, those that tests differ in most first.
-std::vector<VectorXd> terms_of(const Dataset& data) {
+std::vector<VectorXd> terms_of_tests(const Dataset& data) {
   std::vector<std::pair<double, VectorXd>> spread;
   const auto add = [&](const char* name, double (*term)(double)) {
     if (!data.has(name)) return;
-    VectorXd x = medians(data, name, term);
+    VectorXd x = middles_of_tests(data, name, term);
     x.array() -= x.mean();
     const double sd = std::sqrt(x.squaredNorm() / double(x.size()));
     if (x.allFinite() && sd > least_sd) spread.emplace_back(sd, x / sd);
   };
-  add("sigma_n_MPa", logarithm);
-  add("v_rel_mm_s", logarithm);
+  add("sigma_n_MPa", log_of_size);
+  add("v_rel_mm_s", log_of_size);
   add("T_contact_C", [](double x) { return x / 100; });
-  add("psi", logarithm);
+  add("psi", log_of_size);
   std::stable_sort(spread.begin(), spread.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<VectorXd> terms;
@@ -67,14 +67,14 @@ std::vector<VectorXd> terms_of(const Dataset& data) {
   return terms;
 }
 
-VectorXd coefficients(const Dataset& data) {
+VectorXd coefficients_of_tests(const Dataset& data) {
   VectorXd y(Index(data.experiments.size()));
   const auto tau = data.values("tau_R_MPa"), load = data.values("sigma_n_MPa");
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     std::vector<double> mu;
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
       if (load[i] > 0 && tau[i] > 0) mu.push_back(tau[i] / load[i]);
-    y(Index(e)) = std::log(median(std::move(mu)));
+    y(Index(e)) = std::log(middle_value(std::move(mu)));
   }
   return y;
 }
@@ -91,7 +91,7 @@ Worst worst_of(const VectorXd& y, const MatrixXd& x) {
   const VectorXd residual = y - hat * y;
   const auto free = double(y.size() - fit.rank() - 1);
   Worst worst;
-  double least_p = level;
+  double least_p = false_rate;
   for (Index i = 0; i < y.size(); ++i) {
     const double rest = 1 - std::min(hat(i, i), most_leverage);
     const double off = residual(i) / rest;
@@ -108,8 +108,8 @@ Worst worst_of(const VectorXd& y, const MatrixXd& x) {
 } // namespace
 
 std::vector<TestApart> find_tests_apart(const Dataset& data) {
-  const VectorXd y = coefficients(data);
-  const std::vector<VectorXd> terms = terms_of(data);
+  const VectorXd y = coefficients_of_tests(data);
+  const std::vector<VectorXd> terms = terms_of_tests(data);
   std::vector<std::size_t> left;
   for (Index e = 0; e < y.size(); ++e)
     if (std::isfinite(y(e))) left.push_back(std::size_t(e));

@@ -759,6 +759,15 @@ std::vector<CsvTable> CsvPieces::next(FaultList& faults) {
   return tables;
 }
 
+void reserve(CsvTable& table, std::size_t rows) {
+  for (CsvColumn& column : table.columns) {
+    column.numbers.reserve(rows);
+    if (column.texts.size() == table.rows()) column.texts.reserve(rows);
+  }
+  table.line.reserve(rows);
+  table.interval.reserve(rows);
+}
+
 void append(CsvTable& to, CsvTable&& more) {
   const std::size_t rows = to.rows();
   if (to.columns.size() < more.columns.size()) // that have no name, and held nothing so far

@@ -64,6 +64,7 @@ public:
   std::size_t first_from(std::size_t row) const; // size() where there is none
   void push_back(const Text& cell);
   void pop_back() { cells_.pop_back(); }
+  void reserve(std::size_t cells) { cells_.reserve(cells); }
 
 private:
   struct Cell {
@@ -137,6 +138,8 @@ private:
   std::unique_ptr<Data> data_;
 };
 
+// Makes room for so many rows.
+void reserve(CsvTable& table, std::size_t rows);
 // Adds the rows of `more`, of the same file.
 void append(CsvTable& to, CsvTable&& more);
 // Rows first .. end-1.

@@ -229,7 +229,7 @@ std::vector<KeyRule> file_keys() {
       key<std::optional<std::vector<std::string>>>(
           "data.bystanders", [](Job & job) -> auto& { return job.data.bystanders; },
           "columns of the files to keep that no law uses; those of tests, join, labels and "
-          "constants, and origin, are kept in any case",
+          "constants, origin and the direction of signed tests, are kept in any case",
           "all other columns are kept", "[\"room_C\"]"),
   };
 }

@@ -51,7 +51,8 @@ struct LawText {
 // In formulas stand parameters, named parts, states by their canonical names, k_MPa (the shear
 // yield stress by the job's convention), pi, and columns that the data record, by their names
 // (signs that are no letter or digit as _) or histories (data/derived.h). Functions: exp, ln, log
-// (natural), sqrt, sin, tanh, atan, arccos, abs, sign, min, max, where(a <= b, x, y); powers are written **.
+// (natural), sqrt, sin, tanh, atan, arccos, abs, sign, min, max, where(a <= b, x, y); powers are
+// written **.
 //
 // Faults (an unknown function, an unused parameter, two meanings of one name, ...) are added with
 // their places within the formulas; then the law is of no use.

@@ -46,8 +46,9 @@ std::string data_text(const Pipeline& p) {
   for (const data::Dataset* data : {&training, &validation})
     for (const std::string& line : data->interventions)
       out += "  " + line + "\n";
-  for (const std::string& line : data->unit_questions)
-    out += "  unit not given: " + line + "\n";
+  for (const data::Dataset* data : {&training, &validation})
+    for (const std::string& line : data->unit_questions)
+      out += "  unit not given: " + line + "\n";
   for (const data::Dataset* data : {&training, &validation})
     for (const std::string& line : data->implausible)
       out += "  implausible: " + line + "\n";

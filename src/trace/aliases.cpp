@@ -20,14 +20,14 @@ using data::Role;
 namespace {
 
 constexpr double tied = 0.9;        // share of a state's variance between tests
-constexpr double held = 1e-3;       // of its range: a number varies less within tests
+constexpr double held_share = 1e-3; // of its range: a number varies less within tests
 constexpr double same_value = 0.05; // of a level's tests: told as one value
-constexpr std::size_t least_tests = 4;
+constexpr std::size_t least_to_tell = 4;
 
 // Per test: of a column that tests hold. Empty where they do not.
 std::vector<double> setting_of(const Column& column, const Dataset& data) {
   const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
-  const double allowed = column.levels.empty() ? held * (*high - *low) : 0;
+  const double allowed = column.levels.empty() ? held_share * (*high - *low) : 0;
   std::vector<double> values;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const double first = column.values[data.first_row[e]];
@@ -126,11 +126,13 @@ double explained_by_line(const std::vector<double>& setting, const std::vector<d
   return xx > 0 ? corrected(yy - xy * xy / xx, yy, at.size(), 2) : 0;
 }
 
-// Three digits: "800" of 799.6.
+// As a rig is set: "800" of 801.3, "1530" of 1532.
 std::string figure(double value) {
   if (value == 0) return "0";
-  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
-  return fmt::format("{:g}", step * std::round(value / step));
+  const double two = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1);
+  const double short_value = two * std::round(value / two);
+  const bool near = std::abs(short_value - value) < 0.01 * std::abs(value);
+  return fmt::format("{:g}", near ? short_value : 0.1 * two * std::round(10 * value / two));
 }
 
 std::string values_text(const std::vector<double>& values) {
@@ -178,7 +180,7 @@ std::vector<Alias> find_aliases(const Dataset& training, const models::Model& mo
                                 const TraceOptions& options) {
   std::vector<Alias> aliases;
   const std::size_t tests = training.experiments.size();
-  if (tests < least_tests) return aliases;
+  if (tests < least_to_tell) return aliases;
   const std::vector<State> states = states_of(training, model);
   for (const Column& column : training.columns) {
     if (!may_act(column, options)) continue;

@@ -40,7 +40,7 @@ void time_law(const models::Law& law, const data::Dataset& data, Loss loss, int 
     fit = problem.fit(loss, 10);
     fit_ms = std::min(fit_ms, milliseconds_since(prepared));
     const auto fitted = std::chrono::steady_clock::now();
-    problem.add_uncertainty(fit, loss, 10, data.first_row);
+    problem.add_uncertainty(fit, loss, 10, data);
     errors_ms = std::min(errors_ms, milliseconds_since(fitted));
   }
   std::printf("%s %s %.3f %.3f %.3f", law.name.c_str(), loss == Loss::l2 ? "L2" : "L1", prepare_ms,
@@ -61,7 +61,7 @@ void time_all(const data::Dataset& data, Loss loss, int rounds) {
     parallel_for(laws.size(), [&](std::size_t l) {
       const calibrate::LawProblem problem(*laws[l], {}, data);
       calibrate::LawFit fit = problem.fit(loss, 10);
-      problem.add_uncertainty(fit, loss, 10, data.first_row);
+      problem.add_uncertainty(fit, loss, 10, data);
     });
     ms = std::min(ms, milliseconds_since(begin));
   }

@@ -70,8 +70,15 @@ TEST_F(DataCommand, ShowsEachTestAndWhatWasDoneToIt) {
             "read: v_rel_mm_s = rpm*2*pi*5/60\n"
             "read: tau_R_MPa = F_R_N/F_N_N * sigma_n_MPa (eq. 1)\n"
             "read: s_mm integrated from v_rel_mm_s and time_s\n"
+            "unit not given: no unit is given for 'p', taken as MPa: sigma_n_MPa is 121; in kPa "
+            "0.121, in kgf/mm2 1,190, in bar 12.1. Say which one where it is mapped: sigma_n_MPa = "
+            "{ column = \"p\", unit = \"MPa\", ... }\n"
             "in none of the data: tests.csv: K4\n"
-            "other columns: rpm, batch\n"
+            "\n"
+            "column  role   why\n"
+            "rpm     state  v_rel_mm_s is computed from it\n"
+            "batch   label  2 levels\n"
+            "\n"
             "82 rows of 2 experiments to train, 41 rows of 1 experiment to validate\n");
   const std::string page = directory.read("out/data.html");
   for (const char* text : {"test K1", "test K3", "F_N_N: kN as the file says", "tests.csv: K4"})

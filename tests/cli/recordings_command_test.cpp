@@ -66,7 +66,7 @@ directory = "out"
   EXPECT_THAT(told, HasSubstr("32 tests are intervals of 16 recordings (intervals of one file)"));
   EXPECT_THAT(told, HasSubstr("each of 16 recordings judged by laws fitted without it"));
   EXPECT_THAT(run({"trace", "job.toml", "-q"}), HasSubstr("+ interval"));
-  const auto trace = json("out/trace.json").at("traces").at(0);
+  const auto trace = json("out/trace.json");
   EXPECT_LT(trace.at("after").at("validation").at("mae_MPa").get<double>(), 0.1);
   EXPECT_GT(trace.at("before").at("validation").at("mae_MPa").get<double>(), 0.2);
   EXPECT_EQ(json("out/calibration.json").at("recordings"), 16);
@@ -88,7 +88,7 @@ TEST_F(RecordingsCommand, ACampaignSortedOtherwiseGivesTheSameFits) {
     directory.write(std::string(name) + ".csv", text);
     directory.write(std::string(name) + ".toml",
                     fmt::format("[data]\ntraining = \"{0}.csv\"\n[models]\nuse = [\"coulomb\", "
-                                "\"exp_coulomb\", \"polynomial\"]\n[output]\ndirectory = \"{0}\"\n",
+                                "\"polynomial\"]\n[output]\ndirectory = \"{0}\"\n",
                                 name));
     run({"calibrate", std::string(name) + ".toml", "-q"});
     return directory.read(std::string(name) + "/calibration.json");

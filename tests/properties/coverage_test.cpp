@@ -51,7 +51,7 @@ TEST_P(SlowCoverage, Of95PercentIntervalsIs90To98PercentIn200Campaigns) {
     const data::Dataset data = campaign(truth, r);
     const calibrate::LawProblem problem(*truth.law, {}, data);
     calibrate::LawFit fit = problem.fit(loss, 10);
-    problem.add_uncertainty(fit, loss, 10, data.first_row);
+    problem.add_uncertainty(fit, loss, 10, data);
     for (std::size_t p = 0; p < size; ++p)
       covered[r * size + p] = std::abs(fit.result.parameters[p] - truth.parameters[p]) <=
                               t_975_of_29 * fit.uncertainty.std_error[p];

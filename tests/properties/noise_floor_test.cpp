@@ -74,6 +74,39 @@ TEST(Replicates, AreNotClaimedWhereNothingTellsExperimentsApart) {
   EXPECT_TRUE(replicate_groups(data).empty());
 }
 
+TEST(NoiseFloor, IsNotAboveWhatTheBestLawErrs) {
+  calibrate::Calibration calibration;
+  calibration.judged_by = calibrate::JudgedBy::leave_one_out;
+  calibration.fits.resize(2);
+  calibration.fits[0].validation.mae_MPa = 0.03;
+  calibration.fits[0].validation.rmse_MPa = 0.04;
+  calibration.fits[1].validation.mae_MPa = 0.9;
+  for (const char* method : {"oracle", "replicates"}) {
+    calibrate::NoiseFloor floor;
+    floor.method = method;
+    floor.mae_MPa = 0.059;
+    floor.rmse_MPa = 0.07;
+    floor.mae_interval = {0.05, 0.07};
+    floor.n_experiments = 22;
+    floor.n_groups = 2;
+    calibration.noise_floors.push_back(floor);
+  }
+  calibrate::lower_noise_floors(calibration);
+  calibrate::lower_noise_floors(calibration); // traced laws were added
+  EXPECT_EQ(calibration.noise_floors[0].mae_MPa, 0.059) << "the twin's own truth is known";
+  const calibrate::NoiseFloor& lowered = calibration.noise_floors[1];
+  EXPECT_EQ(lowered.mae_MPa, 0.03);
+  EXPECT_EQ(lowered.rmse_MPa, 0.04);
+  EXPECT_EQ(lowered.measured_MPa, 0.059);
+  EXPECT_EQ(lowered.mae_interval.high, 0.03);
+  EXPECT_EQ(calibrate::noise_floor_name(lowered),
+            "22 repeated tests in 2 groups (0.059 MPa, more than the best law errs)");
+  calibration.noise_floors.erase(calibration.noise_floors.begin());
+  EXPECT_EQ(calibrate::noise_floor_sentence(calibration, 3),
+            "noise floor below 0.030 MPa: 22 repeated tests in 2 groups (0.059 MPa, more than the "
+            "best law errs)");
+}
+
 TEST(NoiseFloor, OfThreeReplicatesIsTheirStandardDeviation) {
   const auto floor = replicate_floor(levels({10, 13, 19, 50}, {500, 500, 500, 2000}), 100, 1);
   ASSERT_TRUE(floor);

@@ -113,7 +113,7 @@ TEST_P(SlowRigHabits, LeaveTheLawOfTheCleanCampaignAndAreSaid) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, SlowRigHabits, testing::ValuesIn(test::habits()),
-                         [](const auto& info) { return std::string(test::name_of(info.param)); });
+                         [](const auto& each) { return std::string(test::name_of(each.param)); });
 
 } // namespace
 } // namespace frictab::rig_habits_test

@@ -319,7 +319,7 @@ TEST_F(Fric, EndsTheAnalysisBeyondAnErrorSideAndNamesIt) {
   const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_fric");
   codegen::BuildVariant variant = exporter.variants(request)[0];
   test::keep_what_is_told(variant);
-  TemporaryDirectory work;
+  frictab::TemporaryDirectory work;
   const Library library(codegen::compile_library(exporter.generate(request), variant, work.path()));
   const test::Told& told = test::told(library);
   auto c = call(1);

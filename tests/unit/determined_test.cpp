@@ -178,8 +178,8 @@ TEST(Influence, OneStepIsTheFitWithoutATestWhereTheLawIsLinear) {
   for (const char* law : {"coulomb", "coulomb_mean"}) {
     const ModelFit fit = calibrate::fit_law(*models::find_law(law), free, data, {});
     for (std::size_t e = 0; e < 9; ++e) {
-      const ModelFit without = calibrate::fit_law(*models::find_law(law), free,
-                                                  calibrate::without_experiment(data, e), {});
+      const ModelFit without =
+          calibrate::fit_law(*models::find_law(law), free, calibrate::without_kin(data, e), {});
       EXPECT_NEAR(fit.uncertainty->moved_without(0, Eigen::Index(e)),
                   without.model.parameters[0] - fit.model.parameters[0],
                   1e-9 * fit.model.parameters[0])
@@ -189,7 +189,7 @@ TEST(Influence, OneStepIsTheFitWithoutATestWhereTheLawIsLinear) {
   const ModelFit curved = calibrate::fit_law(*models::find_law("exp_coulomb"), free, data, {});
   for (std::size_t e = 0; e < 9; ++e) {
     const ModelFit without = calibrate::fit_law(*models::find_law("exp_coulomb"), free,
-                                                calibrate::without_experiment(data, e), {});
+                                                calibrate::without_kin(data, e), {});
     for (Eigen::Index p = 0; p < 3; ++p)
       EXPECT_NEAR(curved.uncertainty->moved_without(p, Eigen::Index(e)),
                   without.model.parameters[std::size_t(p)] -
@@ -214,8 +214,7 @@ TEST(Influence, OfATestAtHalfItsStressIsNamedWithTheLawWithoutIt) {
     ASSERT_FALSE(named->moved.empty());
     const models::Law& of = *models::find_law(law);
     const models::Model alone =
-        calibrate::fit_law(of, {.shear_limit = false}, calibrate::without_experiment(data, 4), {})
-            .model;
+        calibrate::fit_law(of, {.shear_limit = false}, calibrate::without_kin(data, 4), {}).model;
     for (const auto& moved : named->moved)
       for (std::size_t p = 0; p < of.parameters.size(); ++p)
         if (of.parameters[p].name == moved.parameter) {
@@ -244,7 +243,7 @@ TEST(Influence, IsFoundWhereTestsWereHeldOutToo) {
   ASSERT_EQ(found.influence.size(), 1U);
   EXPECT_EQ(found.influence[0].experiment, "t11");
   const double without = calibrate::fit_law(*models::find_law("coulomb"), {.shear_limit = false},
-                                            calibrate::without_experiment(parts.training, 11), {})
+                                            calibrate::without_kin(parts.training, 11), {})
                              .model.parameters[0];
   EXPECT_DOUBLE_EQ(found.influence[0].moved[0].without, without);
 }

@@ -46,9 +46,10 @@ TEST(JobMessages, NameTheNearestKnownKey) {
   EXPECT_EQ(
       with("zzzzzzzz = 1"),
       "job.toml:3:1: error: unknown key 'zzzzzzzz' in [data]\n"
-      "  hint: known: drop, columns, constants, files, wide, join, training, validation, oracle, "
+      "  hint: known: drop, columns, constants, roles, files, wide, join, training, validation, "
+      "oracle, "
       "holdout, delimiter, decimal, thousands, sheet, tests, skip_rows, skip_footer, units_row, "
-      "missing, allow_implausible, experiment, condense, bystanders");
+      "missing, rows, force_zero, allow_implausible, experiment, recording, condense, bystanders");
 }
 
 TEST(JobMessages, NameTheRuleOfSomeFiles) {
@@ -358,7 +359,7 @@ TEST(JobMessages, NameTheNearestLawTargetAndQuantity) {
                  "tau_R_MPa = 1"),
             "job.toml:4:1: error: tau_R_MPa cannot stand in [data.constants]\n"
             "  hint: possible: sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, T_tool_C, s_mm, "
-            "sigma_f_MPa, F_N_N");
+            "sigma_f_MPa, tau_R_error_MPa, F_N_N");
   EXPECT_EQ(with("[data.columns]\n"
                  "tau_R_MPa = { times = \"sigma_n\" }"),
             "job.toml:4:23: error: unknown quantity 'sigma_n' in data.columns.tau_R_MPa.times\n"

@@ -1,5 +1,7 @@
 // Folders as rigs leave them: which files, what is special about some of them, where the header
 // stands, what names and headers say.
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "data/file_list.h"
@@ -68,7 +70,7 @@ TEST_F(LoadFiles, OfTheSameNameAreToldApartByTheirFolders) {
   file("a/1.csv", rows);
   file("b/1.csv", rows);
   file("b/2.csv", rows);
-  EXPECT_THAT(load_dataset({"*/*.csv"}, options).experiments, ElementsAre("a/1", "b/1", "2"));
+  EXPECT_THAT(load_dataset({"*/*.csv"}, options).experiments, ElementsAre("2", "a/1", "b/1"));
   for (const char* name : {"rig/x/a/1.csv", "rig/x/b/1.csv", "rig/y/b/1.csv"})
     file(name, rows);
   EXPECT_THAT(load_dataset({"rig/*/*/*.csv"}, options).experiments,
@@ -121,9 +123,40 @@ TEST_F(LoadFiles, TakeQuantitiesFromTheirNamesAndCheckThem) {
   file("v50.csv", rows);
   file("v200.csv", rows);
   rule("*").from_name = R"(v(?<v_rel_mm_s>\w+)\.)";
-  EXPECT_EQ(value_of(load_dataset({"*.csv"}, options), "v_rel_mm_s", 0), 200);
+  EXPECT_EQ(value_of(load_dataset({"*.csv"}, options), "v_rel_mm_s", 0), 50);
   file("vfast.csv", rows);
   EXPECT_THAT(fault_of({"*.csv"}), HasSubstr("v_rel_mm_s is 'fast' in the name of vfast.csv"));
+}
+
+TEST_F(LoadFiles, SayDecimalsInTheirNames) {
+  for (const char* name : {"0-1rps0-5N", "2p5rps10N", "10rps2-5N"})
+    file(std::string(name) + ".csv", rows);
+  rule("*").from_name = R"((?<rps>[\dp-]+)rps(?<load>[\d-]+)N)";
+  Dataset data = load_dataset({"*.csv"}, options);
+  EXPECT_THAT(data.experiments, ElementsAre("0-1rps0-5N", "2p5rps10N", "10rps2-5N"));
+  for (const auto& [name, values] : {std::pair("rps", std::vector{0.1, 2.5, 10.0}),
+                                     std::pair("load", std::vector{0.5, 10.0, 2.5})})
+    for (std::size_t e = 0; e < 3; ++e)
+      EXPECT_EQ(value_of(data, name, e), values[e]) << name;
+  EXPECT_THAT(data.notes, testing::Contains(HasSubstr("load (3: 0-5 = 0.5, 10, 2-5 = 2.5)")));
+  file("m1-2.txt", rows);
+  file("m2-3.txt", rows);
+  options.files[0].from_name = R"(m(?<range>[\d-]+))";
+  data = load_dataset({"*.txt"}, options);
+  EXPECT_EQ(text_of(data, "range", 1), "2-3") << "no number says that - is a decimal sign";
+}
+
+TEST_F(LoadFiles, MayLackAGroupOfTheirNames) {
+  file("steel_5N.csv", rows);
+  file("brass_5N_oil.csv", rows);
+  file("tin.csv", rows);
+  rule("*").from_name = R"((?<mate>[a-z]+)(_(?<load>\d+)N)?(_(?<wet>\w+))?\.csv)";
+  const Dataset data = load_dataset({"*.csv"}, options);
+  EXPECT_EQ(text_of(data, "wet", 0), "oil");
+  EXPECT_EQ(text_of(data, "wet", 1), "");
+  EXPECT_EQ(value_of(data, "load", 0), 5);
+  EXPECT_TRUE(std::isnan(value_of(data, "load", 2)));
+  EXPECT_THAT(data.notes, testing::Contains(HasSubstr("load (1: 5, none in some names)")));
 }
 
 TEST_F(LoadFiles, AreToldWhereAPatternDoesNotFitThem) {
@@ -131,7 +164,7 @@ TEST_F(LoadFiles, AreToldWhereAPatternDoesNotFitThem) {
   rule("*").from_name = R"(_(?<run>\d+))";
   EXPECT_THAT(fault_of({"a.csv"}), HasSubstr("does not fit 'a.csv'"));
   options.files[0].from_name = R"((?<run>\d*)a)";
-  EXPECT_THAT(fault_of({"a.csv"}), HasSubstr("finds nothing for run in 'a.csv'"));
+  EXPECT_THAT(fault_of({"a.csv"}), HasSubstr("finds run in no name, as in 'a.csv'"));
   options.files[0].from_name = "(?<run>a";
   EXPECT_THAT(fault_of({"a.csv"}), HasSubstr("no regular expression: missing closing parenthesis"));
   options.files[0].from_name = R"((?<run>(a+)+)$)";

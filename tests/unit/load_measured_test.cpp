@@ -72,6 +72,9 @@ TEST(LoadMeasured, ReadsPinOnDiscFilesWithDecimalCommaPreambleAndFooter) {
   options.columns["sigma_n_MPa"].area_mm2 = 50;
   options.columns["F_R_N"].number = 15;
   options.drop.push_back({"F_R_N", 0.0, {}, {}});
+  // The drive stands still in the first row that is kept.
+  EXPECT_EQ(load_dataset({"PPS_60N_1.tsv"}, options).values("time_s")[0], 8);
+  options.rows = data::UsedRows::all;
   const data::Dataset data = load_dataset({"PPS_60N_1.tsv"}, options);
   EXPECT_EQ(data.rows() + data.dropped[0].rows, 1801u); // 1818 line ends, less preamble and footer
   EXPECT_EQ(data.dropped[0].rows, 1u);

@@ -10,7 +10,7 @@
 #include "core/random.h"
 #include "data/phases.h"
 
-namespace frictab {
+namespace frictab::phases_test {
 namespace {
 
 using data::Phase;
@@ -252,4 +252,4 @@ TEST(Phases, WhatIsNoNumberIsSkipped) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::phases_test

@@ -119,11 +119,40 @@ TEST(Plausibility, FindsUnitsOfStressesByTheCoefficient) {
   EXPECT_THAT(found_after([](Dataset& d) { scale(d, "sigma_n_MPa", 1e6); }),
               HasSubstr("pressure! sigma_n_MPa is above 20,000; contact normal stress in Pa"));
   EXPECT_THAT(found_after([](Dataset& d) { scale(d, "sigma_n_MPa", 1e-3); }),
-              HasSubstr("friction_coefficient! tau_R_MPa/sigma_n_MPa is outside 0.001 to 1"));
+              HasSubstr("friction_coefficient! tau_R_MPa/sigma_n_MPa is outside 0.001 to 3.6"));
   EXPECT_THAT(found_after([](Dataset& d) { scale(d, "tau_R_MPa", 1e-3); }),
               HasSubstr("shear stress in GPa?"));
   EXPECT_THAT(found_after([](Dataset& d) { scale(d, "tau_R_MPa", 1e6); }),
               HasSubstr("shear stress in Pa or kPa?"));
+}
+
+TEST(Plausibility, RemarksCoefficientsOfRubberAndOfAMeanThatIsNone) {
+  const auto told = [](const std::function<void(Dataset&)>& change) {
+    Dataset data = campaign();
+    change(data);
+    FaultList faults;
+    data::check_plausibility(data, {"shear_yield"}, {}, faults);
+    std::string text;
+    for (const Fault& fault : faults.all())
+      text += "ERROR " + fault.what;
+    for (const std::string& one : data.implausible)
+      text += one + "\n";
+    return text;
+  };
+  const auto coefficient = [](double mu) {
+    return [mu](Dataset& d) {
+      const std::vector<double> sigma = values(d, "sigma_n_MPa");
+      for (std::size_t i = 0; i < sigma.size(); ++i)
+        values(d, "tau_R_MPa")[i] = mu * sigma[i] * (1 + 1e-3 * static_cast<double>(i % 7));
+    };
+  };
+  EXPECT_THAT(told(coefficient(0.9)), testing::Not(HasSubstr("is above 1")));
+  EXPECT_THAT(told(coefficient(2)), HasSubstr("is above 1, 2.01 in the middle of these rows"));
+  EXPECT_THAT(told(coefficient(2)), testing::Not(HasSubstr("ERROR")));
+  EXPECT_THAT(told(coefficient(3.7)), HasSubstr("ERROR tau_R_MPa/sigma_n_MPa is outside 0.001"));
+  EXPECT_THAT(told(coefficient(-0.1)),
+              HasSubstr("the mean of tau_R_MPa/sigma_n_MPa is -0.1 in test '"));
+  EXPECT_THAT(told(coefficient(-0.1)), testing::Not(HasSubstr("ERROR")));
 }
 
 TEST(Plausibility, FindsALoadChannelThatIsDeadOrDropsOut) {

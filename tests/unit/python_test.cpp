@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

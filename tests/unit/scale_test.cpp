@@ -377,6 +377,8 @@ TEST(Scale, ClaimsNothingOfTestsOfAnotherLubricant) {
 TEST(Scale, ComparesValidationFilesWithTrainingFiles) {
   Dataset training = campaign(rigs()[0], 1), validation = campaign(rigs()[0], 2, 4);
   make(validation, mistakes()[1], 0, 4);
+  for (std::string& file : validation.file_of)
+    file = "validation/" + file;
   FaultList faults;
   data::check_units_between(training, validation, {}, {}, faults);
   ASSERT_EQ(faults.size(), 1U);

@@ -87,7 +87,7 @@ TEST_F(ToldData, AColumnThatIsEmptyInOneFileIsOfTheKindOfTheOthers) {
     const data::Dataset data = data::load_dataset(files, options);
     EXPECT_THAT(data.find("tool")->levels, ElementsAre("", "a", "b"));
     EXPECT_TRUE(data.find("room")->levels.empty());
-    const std::size_t first = files.front() == empty ? 0 : 2;
+    const std::size_t first = 0; // tests are sorted by name
     EXPECT_EQ(data.values("tool")[first], 0);
     EXPECT_EQ(data.values("tool")[first + 1], 0);
   }

@@ -352,7 +352,7 @@ TEST(Trace, ALeadSaysWhyASmallPValueWasNotEnough) {
                          humidity = shape_of("humidity_pct");
   search->doubtful = {{roughness, {}, 0.03, true}, {tool, {roughness, humidity}, 0.04, false}};
   Trace found;
-  trace::add_leads(found, *search);
+  trace::add_leads(found, *search, search->base);
   ASSERT_GE(found.leads.size(), 2u);
   EXPECT_EQ(found.leads[0].name, "Ra_um");
   EXPECT_EQ(found.leads[0].why, "p = 0.03 over all columns between tests, but few tests, which "

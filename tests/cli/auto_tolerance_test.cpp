@@ -10,7 +10,7 @@
 #include "support/run_command.h"
 #include "table/tolerance.h"
 
-namespace frictab::tolerance_command_test {
+namespace frictab::auto_tolerance_test {
 namespace {
 
 using test::CommandResult;
@@ -200,4 +200,4 @@ TEST(AutoTolerance, IsTheSmallerOfHalfAMPaAndATwentiethOfTheError) {
 }
 
 } // namespace
-} // namespace frictab::tolerance_command_test
+} // namespace frictab::auto_tolerance_test

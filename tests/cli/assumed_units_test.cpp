@@ -6,7 +6,7 @@
 #include "support/json.h"
 #include "support/run_command.h"
 
-namespace frictab::units_cli_test {
+namespace frictab::assumed_units_test {
 namespace {
 
 using test::CommandResult;
@@ -16,7 +16,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-class Units : public testing::Test {
+class AssumedUnits : public testing::Test {
 protected:
   // Ten tests of a rig that writes forces, the normal one `scale` times as large in some files.
   void write(const std::string& job, const std::string& force, double factor, double scale = 1,
@@ -49,7 +49,7 @@ protected:
 };
 
 // A friction force in N beside it tells that the load is in N as well.
-TEST_F(Units, AreNotAskedForWhereTheCoefficientTells) {
+TEST_F(AssumedUnits, AreNotAskedForWhereTheCoefficientTells) {
   write(columns, "Load", 1);
   const CommandResult result = data();
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -57,7 +57,7 @@ TEST_F(Units, AreNotAskedForWhereTheCoefficientTells) {
                                 Not(HasSubstr("unit not given"))));
 }
 
-TEST_F(Units, AreAnErrorBesideTheFlowStressWhereAnotherOneFits) {
+TEST_F(AssumedUnits, AreAnErrorBesideTheFlowStressWhereAnotherOneFits) {
   std::string job = columns + "[data.constants]\nsigma_f_MPa = 400\n";
   write(job, "Load", 1e-3);
   for (int test = 1; test <= 10; ++test) { // nobody gave the friction force's either
@@ -85,14 +85,14 @@ TEST_F(Units, AreAnErrorBesideTheFlowStressWhereAnotherOneFits) {
   EXPECT_THAT(allowed.out, HasSubstr("implausible: sigma_n_MPa is 0.5"));
 }
 
-TEST_F(Units, AreGivenByTheJob) {
+TEST_F(AssumedUnits, AreGivenByTheJob) {
   std::string job = columns;
   job.replace(job.find("\"Load\", area"), 6, "\"Load\", unit = \"N\"");
   write(job, "Load", 1);
   EXPECT_THAT(data().out, Not(HasSubstr("unit not given")));
 }
 
-TEST_F(Units, OfAFileAmongOthersAreNamed) {
+TEST_F(AssumedUnits, OfAFileAmongOthersAreNamed) {
   write(columns, "Load [N]", 1, 1e-3, 4, 4);
   const CommandResult one = data();
   EXPECT_EQ(one.exit_code, 2);
@@ -104,7 +104,7 @@ TEST_F(Units, OfAFileAmongOthersAreNamed) {
                                 HasSubstr("F_N_N in kN"), HasSubstr("(205 of 410 rows)")));
 }
 
-TEST_F(Units, OfValidationFilesAreComparedWithTrainingFiles) {
+TEST_F(AssumedUnits, OfValidationFilesAreComparedWithTrainingFiles) {
   write(columns, "Load [N]", 1, 1e-3, 8, 10);
   directory.write("job.toml",
                   "[data]\ntraining = \"rig/K[1-7].csv\"\nvalidation = [\"rig/K8.csv\", "
@@ -115,14 +115,14 @@ TEST_F(Units, OfValidationFilesAreComparedWithTrainingFiles) {
   EXPECT_THAT(result.err, HasSubstr("'K8'"));
 }
 
-TEST_F(Units, AreAskedForByInit) {
+TEST_F(AssumedUnits, AreAskedForByInit) {
   write("", "Normal force", 1);
-  const CommandResult result = run_frictab(
-      {"init", "--from", "rig/K1.csv", "rig/K2.csv", "-o", "guess.toml"}, directory.path());
-  const std::string all = result.out + result.err + directory.read("guess.toml");
+  const CommandResult result =
+      run_frictab({"init", "--from", "rig/K1.csv", "rig/K2.csv", "--force"}, directory.path());
+  const std::string all = result.out + result.err + directory.read("job.toml");
   EXPECT_THAT(all, AllOf(HasSubstr("? In which units?"), HasSubstr("Normal force (N)"),
                          HasSubstr("unit = \"kN\" }"), HasSubstr("or N, kgf, lbf, mN")));
 }
 
 } // namespace
-} // namespace frictab::units_cli_test
+} // namespace frictab::assumed_units_test
