@@ -210,7 +210,9 @@ SpeedReading reading_of(Values speed) {
   if (!(middle > 0)) return SpeedReading::still;
   if (is_held(speed)) return SpeedReading::usable;
   if (reading_step(speed) > coarse_step * middle) return SpeedReading::coarse;
-  return row_scatter(speed) > noisy_speed * middle ? SpeedReading::noisy : SpeedReading::usable;
+  // Of a speed that turns from row to row, without its sign.
+  const double scatter = std::min(row_scatter(speed), row_scatter(sizes(speed)));
+  return scatter > noisy_speed * middle ? SpeedReading::noisy : SpeedReading::usable;
 }
 
 bool goes_both_ways(Values values, double reference) {
@@ -261,7 +263,10 @@ public:
     if (!test.speed.empty()) out.speed = reading_of(test.speed);
     if (out.speed == SpeedReading::still) mark(0, rows, Phase::rest);
     if (out.speed == SpeedReading::usable) {
-      speed_ = median_of_five(test.speed);
+      // One that turns from row to row is taken as it is.
+      const bool turns = row_scatter(test.speed) > noisy_speed * median_of(sizes(test.speed));
+      speed_ = turns ? std::vector<double>(test.speed.begin(), test.speed.end())
+                     : median_of_five(test.speed);
       size_ = speed_;
       for (double& v : size_)
         v = std::abs(v);
