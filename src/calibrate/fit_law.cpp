@@ -42,7 +42,7 @@ data::RatioSum ratio_in(const Dataset& data, std::size_t e, std::span<const doub
 
 void keep(ModelFit& fit, Uncertainty uncertainty) {
   fit.std_error = uncertainty.std_error;
-  fit.model.covariance = row_by_row(uncertainty.covariance);
+  fit.model.covariance = row_by_row(known_covariance(uncertainty));
   fit.uncertainty = std::make_shared<const Uncertainty>(std::move(uncertainty));
 }
 
@@ -254,7 +254,7 @@ ModelFit fit_at_slip_distance(const models::Law& law, std::size_t parameter,
   joint.std_error.erase(joint.std_error.begin() + at);
   if (std::isfinite(error)) {
     fit.std_error = std::move(joint.std_error);
-    fit.model.covariance = row_by_row(without_row(joint.covariance, parameter));
+    fit.model.covariance = row_by_row(without_row(known_covariance(joint), parameter));
     fit.std_error_method += ", " + distance.name + " among the parameters";
   } else
     fit.std_error_method += ", at the " + distance.name + " found";

@@ -56,6 +56,7 @@ struct Scaled {
   }
 };
 
+constexpr const char* at_its_bound = "at its bound";
 constexpr double undetermined = 1e-10; // of the scaled curvature: below, a direction is flat
 
 Scaled scale_by(const MatrixXd& hessian, std::vector<Index> used) {
@@ -214,7 +215,7 @@ private:
       } else if (values_[i] <= p.lower || values_[i] >= p.upper) {
         result_.remarks.push_back(
             fmt::format("{} is at its bound {}{}", p.name, values_[i], settled_by({&p})));
-        result_.why_none[i] = "at its bound";
+        result_.why_none[i] = at_its_bound;
       } else
         used.push_back(at);
     }
@@ -290,6 +291,16 @@ private:
 };
 
 } // namespace
+
+MatrixXd known_covariance(const Uncertainty& uncertainty) {
+  MatrixXd known = uncertainty.covariance;
+  for (std::size_t p = 0; p < uncertainty.why_none.size(); ++p) {
+    if (uncertainty.why_none[p] != at_its_bound) continue;
+    known.row(static_cast<Index>(p)).setConstant(no_value);
+    known.col(static_cast<Index>(p)).setConstant(no_value);
+  }
+  return known;
+}
 
 std::vector<double> row_by_row(const MatrixXd& matrix) {
   const MatrixXd turned = matrix.transpose();

@@ -53,6 +53,9 @@ struct Uncertainty {
   Eigen::MatrixXd moved_without, error_without;
 };
 
+// What is known of a law's stress: the covariance, but NaN for parameters at a bound. There they
+// have no scatter, and nothing says where they would be without it.
+Eigen::MatrixXd known_covariance(const Uncertainty& uncertainty);
 // As models::Model::covariance has it.
 std::vector<double> row_by_row(const Eigen::MatrixXd& matrix);
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "core/no_value.h"
+
 namespace frictab::calibrate {
 
 using Eigen::Index;
@@ -25,7 +27,7 @@ StressError::StressError(const models::Model& model, const std::vector<std::stri
   const auto size = static_cast<Index>(parameters_.size());
   if (model.covariance.size() != parameters_.size() * parameters_.size()) return;
   covariance_ = Eigen::Map<const Eigen::MatrixXd>(model.covariance.data(), size, size); // symmetric
-  known_ = covariance_.allFinite();
+  known_ = true;
 }
 
 std::optional<VectorXd> StressError::slope(std::span<const double> state) const {
@@ -40,14 +42,25 @@ std::optional<VectorXd> StressError::slope(std::span<const double> state) const 
   return slope;
 }
 
+VectorXd StressError::with(const VectorXd& slope) const {
+  VectorXd sum = VectorXd::Zero(slope.size());
+  for (Index p = 0; p < slope.size(); ++p)
+    if (slope(p) != 0) sum += slope(p) * covariance_.col(p);
+  return sum;
+}
+
 double StressError::of(const VectorXd& slope) const {
-  return std::sqrt(std::max(0.0, slope.dot(covariance_ * slope)));
+  const VectorXd covariances = with(slope);
+  double square = 0;
+  for (Index p = 0; p < slope.size(); ++p)
+    if (slope(p) != 0) square += slope(p) * covariances(p);
+  return std::isnan(square) ? square : std::sqrt(std::max(0.0, square));
 }
 
 std::optional<double> StressError::at(std::span<const double> state) const {
   const auto g = known_ ? slope(state) : std::nullopt;
-  if (!g) return std::nullopt;
-  return of(*g);
+  const double error = g ? of(*g) : no_value;
+  return std::isnan(error) ? std::nullopt : std::optional(error);
 }
 
 } // namespace frictab::calibrate

@@ -26,17 +26,17 @@ public:
   // `inputs`: those of the model's law, and any others.
   StressError(const models::Model& model, const std::vector<std::string>& inputs);
 
-  // Whether the model has a covariance, without a parameter that one experiment determines.
+  // Whether the model has a covariance.
   bool known() const { return known_; }
   // Derivatives of ln tau_R by the parameters at a state in the order of `inputs`; nothing where
   // the law has no stress there.
   std::optional<Eigen::VectorXd> slope(std::span<const double> state) const;
-  // Standard error of what changes with `slope`.
+  // Standard error of what changes with `slope`, and its covariance with each parameter. NaN where
+  // a parameter of no known error (at a bound, determined by one experiment) has a part in it.
+  Eigen::VectorXd with(const Eigen::VectorXd& slope) const;
   double of(const Eigen::VectorXd& slope) const;
   // Relative to the stress. Nothing where it is not known.
   std::optional<double> at(std::span<const double> state) const;
-
-  const Eigen::MatrixXd& covariance() const { return covariance_; }
 
 private:
   std::vector<double> parameters_;

@@ -58,7 +58,7 @@ public:
       calibrate::Uncertainty found = uncertainty_of(part.campaign(), fit);
       uncertain->std_error = std::move(found.std_error);
       uncertain->remarks = std::move(found.remarks);
-      model.covariance = calibrate::row_by_row(found.covariance);
+      model.covariance = calibrate::row_by_row(calibrate::known_covariance(found));
     }
     return model;
   }

@@ -107,7 +107,7 @@ private:
     calibrate::ModelFit& fit = trace.extended;
     fit.model = search_.model_of(rival);
     fit.std_error = uncertainty_.std_error;
-    fit.model.covariance = calibrate::row_by_row(uncertainty_.covariance);
+    fit.model.covariance = calibrate::row_by_row(calibrate::known_covariance(uncertainty_));
     fit.remarks = uncertainty_.remarks;
     fit.std_error_method = "cluster sandwich by experiment";
     fit.termination = rival.weights.gain > 0
