@@ -269,7 +269,9 @@ std::string noise_floor_sentence(const Calibration& calibration, int decimals) {
 
 std::string noise_floor_advice(const Calibration& calibration) {
   const auto& floors = calibration.noise_floors;
-  if (!floors.empty() && floors.front().measured_MPa > 0 && !floors.front().lower_bound)
+  // An end of the interval that was lowered as well: more than chance.
+  if (!floors.empty() && floors.front().measured_MPa > 0 && !floors.front().lower_bound &&
+      floors.front().mae_interval.low == floors.front().mae_MPa)
     return "the repeated tests differ in something that no column tells";
   const bool known = !floors.empty() && !floors.front().lower_bound;
   return known ? "" : "repeat some tests at the same set levels to know it";

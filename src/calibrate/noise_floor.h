@@ -47,8 +47,9 @@ void add_noise_floors(Calibration& calibration, const CalibrationInput& input,
                       const ScatterWithin& known = {});
 
 // Lowers what repeats and neighbouring rows say to the error of the best law on unseen tests, where
-// that is less: nothing can err less than the noise, so the repeats differ in something that no
-// column tells. What is known of synthetic data stays. (Again where laws are added.)
+// that is less: nothing can err less than the noise. Where that error is below the floor's interval
+// too, the repeats differ in something that no column tells. What is known of synthetic data stays.
+// (Again where laws are added.)
 void lower_noise_floors(Calibration& calibration);
 
 // "> " of a lower bound, "< " of one that was lowered.

@@ -148,7 +148,8 @@ TEST_F(Judgement, WithoutOracleAndRepeatsSaysWhatWouldGiveTheFloor) {
 TEST_F(Judgement, RepeatedTestsGiveTheFloorOfTheirPart) {
   design = "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=40;validation=6;replicates=3";
   const std::string out = calibrate({"--no-bystanders"}, {two_laws});
-  EXPECT_THAT(out, HasSubstr("48 repeated tests in 16 groups, training data\n"));
+  EXPECT_THAT(out, HasSubstr("48 repeated tests in 16 groups (8.26 MPa, more than the best law "
+                             "errs), training data\n"));
   EXPECT_THAT(out, Not(HasSubstr("the noise floor is not known")));
 }
 

@@ -105,6 +105,10 @@ TEST(NoiseFloor, IsNotAboveWhatTheBestLawErrs) {
   EXPECT_EQ(calibrate::noise_floor_sentence(calibration, 3),
             "noise floor below 0.030 MPa: 22 repeated tests in 2 groups (0.059 MPa, more than the "
             "best law errs)");
+  EXPECT_EQ(calibrate::noise_floor_advice(calibration),
+            "the repeated tests differ in something that no column tells");
+  calibration.noise_floors[0].mae_interval.low = 0.02;
+  EXPECT_EQ(calibrate::noise_floor_advice(calibration), "") << "it may be chance";
 }
 
 TEST(NoiseFloor, OfThreeReplicatesIsTheirStandardDeviation) {
