@@ -9,6 +9,7 @@
 
 #include "data/options.h"
 #include "data/quantity.h"
+#include "data/roles.h"
 
 namespace frictab::calibrate {
 
@@ -59,19 +60,8 @@ struct Setting {
 };
 
 bool may_be_set(const data::Column& column) {
-  if (data::find_quantity(column.name) || column.name == data::origin_column) return false;
-  switch (column.role) {
-  case data::Role::response:
-  case data::Role::channel:
-  case data::Role::outcome:
-  case data::Role::ignore:
-  case data::Role::test:
-  case data::Role::order:
-  case data::Role::clock:
-    return false;
-  default:
-    return true;
-  }
+  return data::may_be_cause(column.role) && !data::find_quantity(column.name) &&
+         column.name != data::origin_column;
 }
 
 // The step in which a column is written: 1, 0.1, ... 1e-6; 0 for finer ones.

@@ -41,6 +41,16 @@ std::size_t Dataset::rows_behind(std::size_t experiment) const {
                    : first_row[experiment + 1] - first_row[experiment];
 }
 
+std::optional<std::string> Dataset::level_of_test(const Column& column,
+                                                  std::size_t experiment) const {
+  const std::size_t first = first_row[experiment];
+  const double value = column.values[first];
+  for (std::size_t i = first; i < first_row[experiment + 1]; ++i)
+    if (column.values[i] != value) return std::nullopt; // NaN as well
+  return column.levels.empty() ? fmt::format("{:.6g}", value)
+                               : column.levels[static_cast<std::size_t>(value)];
+}
+
 std::span<const double> Dataset::row_weights() const {
   return condensed ? std::span<const double>(condensed->rows) : std::span<const double>();
 }

@@ -190,6 +190,10 @@ public:
   // Throws std::logic_error where the column is absent: ask has() first.
   std::span<const double> values(std::string_view name) const;
 
+  // What a test was set to: the text, or the number with six digits. Nothing where the column
+  // varies within the test, or has no value there.
+  std::optional<std::string> level_of_test(const Column& column, std::size_t experiment) const;
+
   // The experiments listed in `keep` (indices, ascending), whole.
   Dataset subset(std::span<const std::size_t> keep) const;
 };

@@ -14,6 +14,8 @@
 
 #include "core/no_value.h"
 #include "core/parallel.h"
+#include "data/middle.h"
+#include "data/options.h"
 #include "data/quantity.h"
 
 namespace frictab::data {
@@ -24,8 +26,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Limits: with these, 0 of 120 synthetic campaigns without a disguise had one named (825 columns),
-// and 166 of 185 disguises were; consequences of friction with 5 % of scatter leave 0.2 and more.
+// Limits, by a prototype of the same rules: 0 of 120 synthetic campaigns without a disguise had one
+// named, and 166 of 185 disguises were. What this code calls is in tests/unit/roles_test.cpp.
 constexpr double sure_share = 0.05, ask_share = 0.2; // of y's mean square
 constexpr double own_scatter = 0.5;                  // from row to row
 constexpr double sure_direct = 0.02;                 // of the best formula of states alone
@@ -43,18 +45,11 @@ constexpr Index most_rows_of_test = 20000;
 constexpr double floor_share = 0.05, floor_share_tau = 0.1;
 constexpr double trimmed = 0.97, infinite = std::numeric_limits<double>::infinity();
 
-double middle(std::vector<double> values) {
-  if (values.empty()) return no_value;
-  const auto at = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 VectorXd logarithm(const VectorXd& x, double share) {
   std::vector<double> sizes;
   for (const double value : x)
     if (std::abs(value) > 0) sizes.push_back(std::abs(value)); // NaN is not
-  const double floor = share * middle(std::move(sizes));
+  const double floor = share * upper_median(std::move(sizes));
   return x.unaryExpr([floor](double value) {
     return std::abs(value) > floor ? std::log(std::abs(value)) : no_value;
   });
@@ -194,8 +189,13 @@ public:
   VectorXd spreads_in_tests(const VectorXd& x) const {
     VectorXd out(tests());
     for (Index t = 0; t < tests(); ++t) {
-      const auto part = x.segment(at(t).first, at(t).rows);
-      out[t] = part.maxCoeff() - part.minCoeff();
+      double low = infinite,
+             high = -infinite; // of known values: where there are none, it is below 0
+      for (const double value : x.segment(at(t).first, at(t).rows)) {
+        if (value < low) low = value;
+        if (value > high) high = value;
+      }
+      out[t] = std::max(high - low, 0.0);
     }
     return out;
   }
@@ -295,7 +295,6 @@ public:
   }
   Index count() const { return static_cast<Index>(at_.size()); }
   Index states() const { return basis_.cols(); }
-  const std::vector<Index>& at() const { return at_; }
 
 private:
   // Unless it is made of those that are there.
@@ -334,12 +333,18 @@ public:
     read_states(*parts.front());
     log_tau_ = logarithm(tau_, floor_share_tau);
     tau_levels_ = cut_.levels(log_tau_);
-    const double usual = middle({tau_.data(), tau_.data() + tau_.size()});
-    digit_ = std::max(resolution(tau_) / (3.5 * usual), 1e-9);
+    const double usual = upper_median({tau_.data(), tau_.data() + tau_.size()});
+    step_MPa_ = resolution(tau_);
+    digit_ = std::max(step_MPa_ / (3.5 * usual), 1e-9);
+    tau_steps_ = cut_.steps(tau_);
+    for (const VectorXd& x : state_values_)
+      state_steps_.push_back(cut_.steps(x));
+    make_formulas();
+    make_targets();
     for (std::size_t level = 0; level < 3; ++level)
       screened_[level] = thinned(whole_[level] = places(level));
     for (const Column& column : parts.front()->columns)
-      if (!find_quantity(column.name) && !known.count(column.name) && column.name != "origin")
+      if (!find_quantity(column.name) && !known.count(column.name) && column.name != origin_column)
         read(column, of_states.count(column.name) == 0);
   }
 
@@ -421,7 +426,7 @@ private:
     if (cut_.rows() == cut_.tests()) return count >= std::min(0.3 * tests, 12.0) && count >= 4;
     const VectorXd spreads = cut_.spreads_in_tests(one.values);
     const double largest = one.values.cwiseAbs().maxCoeff<Eigen::PropagateNumbers>();
-    one.inside = middle({spreads.data(), spreads.data() + spreads.size()}) > 1e-9 * largest;
+    one.inside = upper_median({spreads.data(), spreads.data() + spreads.size()}) > 1e-9 * largest;
     return one.inside || (count > 0.5 * tests && count >= 4);
   }
 
@@ -589,93 +594,97 @@ private:
     for (const double value : x)
       if (is_known(value)) known.push_back(value);
     if (static_cast<Index>(known.size()) < least_direct) return infinite;
-    const double centre = middle(known);
+    const double centre = upper_median(known);
     return trimmed_mean_square(
         Eigen::Map<const VectorXd>(known.data(), static_cast<Index>(known.size())).array() -
         centre);
   }
 
-  // Whole powers of pressure, load and speed, and nothing fitted: a dozen rows are enough.
+  // tau over whole powers of pressure, load and speed, and the least that one of them leaves.
+  void make_formulas() {
+    formulas_ = {{log_tau_, ""}};
+    for (const auto& [name, x] : powers_)
+      for (std::size_t i = 0, count = formulas_.size(); i < count; ++i) {
+        const auto [y, text] = formulas_[i];
+        formulas_.emplace_back(y - x, text + " * " + name);
+        formulas_.emplace_back(y + x, text + "/" + name);
+      }
+    for (const auto& [y, text] : formulas_)
+      of_states_ = std::min(of_states_, about_middle(y));
+  }
+
+  // Nothing is fitted: a dozen rows are enough.
   Best direct(const Recorded& one) const {
     const VectorXd z = logarithm(one.values, floor_share);
-    std::vector<std::pair<VectorXd, std::string>> left = {{log_tau_, ""}};
-    for (const auto& [name, x] : powers_)
-      for (std::size_t i = 0, count = left.size(); i < count; ++i) {
-        const auto [y, text] = left[i];
-        left.emplace_back(y - x, text + " * " + name);
-        left.emplace_back(y + x, text + "/" + name);
-      }
-    double of_states = infinite;
-    for (const auto& [y, text] : left)
-      of_states = std::min(of_states, about_middle(y));
     Best best;
-    if (!(of_states >= 1e-7) || !std::isfinite(of_states)) return best; // nothing is left by states
-    for (const auto& [y, text] : left)
+    if (!(of_states_ >= 1e-7) || !std::isfinite(of_states_)) return best; // nothing is left
+    for (const auto& [y, text] : formulas_)
       for (const double sign : {1.0, -1.0}) {
         const VectorXd rest = y - sign * z;
         if (static_cast<double>(rest.array().isFinite().count()) <
             0.7 * static_cast<double>(rest.size()))
           continue;
-        if (const double share = about_middle(rest) / of_states; share < best.share)
+        if (const double share = about_middle(rest) / of_states_; share < best.share)
           best = {share, fmt::format("tau_R_MPa = constant {} {}{}", sign > 0 ? "*" : "/", one.name,
                                      text)};
       }
     return best;
   }
 
-  // tau or mu as a monotone function of the column, where it is of no state.
-  std::string function_of(const Recorded& one) const {
-    if (one.values.size() < least_rank || !one.values.allFinite()) return "";
-    const std::vector<Index> at = rows_to_compare();
-    for (const bool over_pressure : {false, true}) {
-      if (over_pressure && pressure_.size() == 0) continue;
-      const VectorXd all =
-          over_pressure ? VectorXd(tau_.cwiseQuotient(pressure_.cwiseAbs())) : tau_;
-      const VectorXd of_all = all(at);
-      if (!of_all.allFinite()) continue;
-      const VectorXd target = ranks(of_all);
-      const auto goes_with = [&](const VectorXd& x, double limit) {
-        const VectorXd some = x(at);
-        return some.allFinite() && squared_correlation(ranks(some), target) > limit * limit;
-      };
-      if (std::any_of(state_values_.begin(), state_values_.end(),
-                      [&](const VectorXd& x) { return goes_with(x.cwiseAbs(), state_rank); }))
-        continue;
-      if (goes_with(one.values, sure_rank) || goes_with(one.values.cwiseAbs(), sure_rank))
-        return fmt::format("{} is a function of {} alone",
-                           over_pressure ? "tau_R_MPa/sigma_n_MPa" : "tau_R_MPa", one.name);
-    }
-    return "";
+  VectorXd compared_ranks(const VectorXd& x) const {
+    const VectorXd some = x(compared_);
+    return some.allFinite() ? ranks(some) : VectorXd();
   }
 
-  std::vector<Index> rows_to_compare() const {
-    std::vector<Index> at;
+  static bool goes_with(const VectorXd& a, const VectorXd& b, double limit) {
+    return a.size() > 0 && squared_correlation(a, b) > limit * limit;
+  }
+
+  // Of tau and mu those that are no monotone function of a state.
+  void make_targets() {
     for (Index i = 0; i < cut_.rows(); i += 1 + cut_.rows() / rows_to_rank)
-      at.push_back(i);
-    return at;
+      compared_.push_back(i);
+    const auto add = [&](const char* what, const VectorXd& values) {
+      const VectorXd target = compared_ranks(values);
+      if (target.size() == 0) return;
+      const bool is_of_state =
+          std::any_of(state_values_.begin(), state_values_.end(), [&](const VectorXd& x) {
+            return goes_with(compared_ranks(x.cwiseAbs()), target, state_rank);
+          });
+      if (!is_of_state) targets_.emplace_back(what, target);
+    };
+    add("tau_R_MPa", tau_);
+    if (pressure_.size() > 0)
+      add("tau_R_MPa/sigma_n_MPa", tau_.cwiseQuotient(pressure_.cwiseAbs()));
+  }
+
+  std::string function_of(const Recorded& one) const {
+    if (one.values.size() < least_rank || !one.values.allFinite()) return "";
+    const VectorXd own = compared_ranks(one.values), size = compared_ranks(one.values.cwiseAbs());
+    for (const auto& [what, target] : targets_)
+      if (goes_with(own, target, sure_rank) || goes_with(size, target, sure_rank))
+        return fmt::format("{} is a function of {} alone", what, one.name);
+    return "";
   }
 
   // A copy with another zero: it has the scatter from row to row.
   Best linear(const Recorded& one) const {
     Best best;
-    std::vector<VectorXd> states;
-    for (const VectorXd& x : state_values_)
-      states.push_back(cut_.steps(x));
     const auto look_at = [&](const VectorXd& x, const char* what) {
-      const VectorXd y = cut_.steps(tau_), z = cut_.steps(x);
+      const VectorXd z = cut_.steps(x);
       std::vector<Index> at;
-      for (Index i = 0; i < y.size(); ++i)
-        if (is_known(y[i]) && is_known(z[i]) &&
-            std::all_of(states.begin(), states.end(),
+      for (Index i = 0; i < z.size(); ++i)
+        if (is_known(z[i]) && is_known(tau_steps_[i]) &&
+            std::all_of(state_steps_.begin(), state_steps_.end(),
                         [i](const VectorXd& s) { return is_known(s[i]); }))
           at.push_back(i);
       if (static_cast<Index>(at.size()) < least_linear) return;
-      std::vector<const VectorXd*> all;
-      for (const VectorXd& s : states)
-        all.push_back(&s);
-      const Rest rest(std::move(at), all, false);
-      VectorXd of_y = rest.of(y), of_z = rest.of(z);
-      if (spread_of(of_y) < 3 * resolution(tau_)) return;
+      std::vector<const VectorXd*> states;
+      for (const VectorXd& s : state_steps_)
+        states.push_back(&s);
+      const Rest rest(std::move(at), states, false);
+      VectorXd of_y = rest.of(tau_steps_), of_z = rest.of(z);
+      if (spread_of(of_y) < 3 * step_MPa_) return;
       trim(of_y, of_z);
       const double left = 1 - squared_correlation(of_y, of_z);
       if (left < best.share)
@@ -705,9 +714,14 @@ private:
   Cut cut_;
   VectorXd tau_, log_tau_, pressure_;
   std::array<VectorXd, 3> tau_levels_;
-  double digit_ = 0;
+  double step_MPa_ = 0, digit_ = 0; // of the last digit; the same of the logarithm
   std::vector<std::array<VectorXd, 3>> states_;
-  std::vector<VectorXd> state_values_;
+  std::vector<VectorXd> state_values_, state_steps_;
+  VectorXd tau_steps_;
+  std::vector<std::pair<VectorXd, std::string>> formulas_; // logarithms
+  double of_states_ = infinite;
+  std::vector<Index> compared_; // rows whose ranks are compared
+  std::vector<std::pair<const char*, VectorXd>> targets_;
   std::vector<std::pair<std::string, VectorXd>> powers_, clocks_;
   std::array<std::vector<Index>, 3> whole_, screened_;
   std::vector<Recorded> recorded_;

@@ -147,8 +147,8 @@ void leave_out_impossible(Part& part, const DataOptions& options) {
   if (!options.measured || !part.faults.empty() || !data.has("tau_R_MPa") ||
       !data.has("sigma_n_MPa"))
     return;
-  std::set<std::string> allowed = options.keep_apart;
-  allowed.insert(options.allow_implausible.begin(), options.allow_implausible.end());
+  std::set<std::string> allowed(options.allow_implausible.begin(), options.allow_implausible.end());
+  if (options.keep_spikes) allowed.insert("spike");
   std::vector<char> keep(part.row.size(), 1);
   std::size_t e = 0;
   for (const ImpossibleRow& found : impossible_rows(data, part.row, allowed)) {
@@ -177,14 +177,10 @@ void tell(Dataset& data, std::string intervention) {
 }
 
 bool look_again(const Dataset& data, DataOptions& options) {
-  constexpr double most = 0.05; // of the rows of a campaign
   bool again = false;
-  double rows = static_cast<double>(data.rows_behind());
   for (const RowsApart& one : data.apart)
-    rows += static_cast<double>(one.rows);
-  for (const RowsApart& one : data.apart)
-    if (static_cast<double>(one.rows) > most * rows) {
-      options.keep_apart.insert(one.check);
+    if (one.check == "spike" && is_more_than_few(one, data)) {
+      options.keep_spikes = true;
       again = true;
     }
   if (data.rows() == 0 && !data.at_rest.empty()) {

@@ -21,8 +21,8 @@ void leave_out_phases(Part& part, const std::vector<Phase>& phases, const DataOp
 void leave_out_impossible(Part& part, const DataOptions& options);
 
 // Whether a campaign as a whole says that rows were left out which should not have been, or offsets
-// taken off: `options` are then those with which it is to be read once more. More than 5 % of its
-// rows are no single bad readings; where nothing slides, the speed says nothing.
+// taken off: `options` are then those with which it is to be read once more. Spikes in more than
+// few rows are the scatter of its rows; where nothing slides, the speed says nothing.
 bool look_again(const Dataset& data, DataOptions& options);
 
 // A note of a whole campaign that its summary says as well.

@@ -111,7 +111,7 @@ struct DataOptions {
   std::map<std::string, RoleWish> roles; // by the column's name: overrule what is inferred
   UsedRows rows = UsedRows::sliding;
   ForceZero force_zero = ForceZero::automatic;
-  std::set<std::string> keep_apart; // checks whose rows are too many to be left out; no job key
+  bool keep_spikes = false;                   // too many to be single bad readings; no job key
   std::vector<std::string> allow_implausible; // names of checks (data/plausibility.h)
   std::vector<FileRule> files;
   std::string tests; // a file with one row per experiment

@@ -14,7 +14,7 @@ namespace {
 
 using Values = std::span<const double>;
 
-// Shares of the typical load, speed or path of a test (facts/roles: phases).
+// Shares of the typical load, speed or path of a test.
 constexpr double unloaded_share = 0.05, full_share = 0.9, steady_share = 0.3, ramp_share = 0.15;
 constexpr double slow = 0.02, nearly_zero = 1e-3, turning_speed = 0.2, turning_path = 0.05;
 // A force that builds up the other way: over so much of the stroke's path, from half of its later

@@ -1,21 +1,18 @@
 // What the rows of a test show of friction, from its load, speed and path. All limits are shares of
 // what the test itself shows.
 //
-//   unloaded: less than 5 % of the typical load, unless what rubs there rubs as it does under load
-//             (a low level that is held);
-//   rest:     the speed is zero (also all along), or below 2 % of the typical one and its mean over
-//   the run not to be
-//             told from zero;
-//   turning:  of a test that goes back and forth: below 20 % of its stroke's speed, in the first
-//   and
-//             last 5 % of its path, and while the force still builds up the other way;
-//   closing,  opening: before and after a load that is steady, where it builds up or falls away:
-//             sliding friction like any other, counted only;
-//   sliding:  all else. A campaign without a speed, or with one too coarse or too noisy to say,
-//             has no rest and no turning.
+//   unloaded:  less than 5 % of the typical load, unless what rubs there rubs as it does under load
+//              (a low level that is held);
+//   rest:      the speed is zero (also all along), or below 2 % of the typical one with a mean over
+//              the run that cannot be told from zero;
+//   turning:   of a test that goes back and forth: below 20 % of its stroke's speed, in the first
+//              and last 5 % of its path, and while the force still builds up the other way;
+//   closing,   opening: before and after a load that is steady, where it builds up or falls away:
+//              sliding friction like any other, counted only;
+//   sliding:   all else. A campaign without a speed, or with one too coarse or too noisy to say,
+//              has no rest and no turning.
 //
-// Measured (tests/unit/phases_test.cpp; docs/measurements.md): no row of 100 campaigns of the twin,
-// of the measured sets and the examples is called at rest, turning or unloaded that is not.
+// tests/unit/phases_test.cpp counts right and wrong calls on an invented rig (synthetic).
 #pragma once
 
 #include <span>

@@ -782,6 +782,13 @@ std::string impossible_text(const std::string& check) {
 
 namespace {
 
+std::size_t rows_with_apart(const Dataset& data) {
+  std::size_t rows = data.rows_behind();
+  for (const RowsApart& one : data.apart)
+    rows += one.rows;
+  return rows;
+}
+
 void tell(const Implausible& one, Dataset& data, const std::vector<std::string>& allowed,
           const Place& place, FaultList& faults) {
   const std::string text =
@@ -797,11 +804,25 @@ void tell(const Implausible& one, Dataset& data, const std::vector<std::string>&
 
 } // namespace
 
+bool is_more_than_few(const RowsApart& apart, const Dataset& data) {
+  constexpr double few = 0.05;
+  return static_cast<double>(apart.rows) > few * static_cast<double>(rows_with_apart(data));
+}
+
 void check_plausibility(Dataset& data, const std::vector<std::string>& allowed, const Place& place,
                         FaultList& faults) {
   ask_for_units(data);
   for (const Implausible& one : find_implausible(data))
     tell(one, data, allowed, place, faults);
+  for (const RowsApart& one : data.apart)
+    if (is_more_than_few(one, data))
+      faults.add(place,
+                 fmt::format("{}: {} of {} rows, too many to leave out: {}", one.what,
+                             thousands(one.rows), thousands(rows_with_apart(data)),
+                             join(one.first, ", ")),
+                 fmt::format("a stress or a force in another unit, or another column? If they are "
+                             "right: data.allow_implausible = [\"{}\"]",
+                             one.check));
 }
 
 void check_units_between(Dataset& training, const Dataset& validation,

@@ -47,11 +47,14 @@ std::vector<ImpossibleRow> impossible_rows(const Dataset& data, std::span<const 
                                            const std::set<std::string>& allowed);
 // What rows are that a check calls so.
 std::string impossible_text(const std::string& check);
+// Whether such rows are more than 5 % of a campaign, and no single bad readings.
+bool is_more_than_few(const RowsApart& apart, const Dataset& data);
 
 // Counts what is wrong with forces where nothing is pressed, before such rows are left out.
 void count_unloaded(Dataset& data);
 
 // Sets data.implausible to what some rows fail, or what is allowed; the rest is added to `faults`.
+// More than a few rows that no rig can measure are a fault as well.
 // Asks for units that nobody gave (data/scale.h).
 void check_plausibility(Dataset& data, const std::vector<std::string>& allowed, const Place& place,
                         FaultList& faults);

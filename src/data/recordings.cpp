@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "data/middle.h"
 #include "data/quantity.h"
 
 namespace frictab::data {
@@ -21,7 +22,7 @@ namespace {
 using Tests = std::vector<std::size_t>;
 using TestsByName = std::map<std::string, Tests>; // by the recording's name
 
-// MEASURE
+// Set by hand; how often they are wrong has not been measured.
 constexpr double few_steps = 0.05;    // of a test's duration: a gap between intervals
 constexpr double mostly = 0.9;        // of successive tests go on from the one before
 constexpr double same_setting = 0.05; // of its mean: what was not set differently
@@ -102,21 +103,15 @@ public:
       steps.push_back(durations.back() / static_cast<double>(std::max<std::size_t>(rows - 1, 1)));
       if (i > 0) gaps.push_back(start(tests[i]) - end(tests[i - 1]));
     }
-    const double duration = median(durations);
+    const double duration = upper_median(durations);
     if (!(duration > 0)) return {};
     const auto follow = std::count_if(gaps.begin(), gaps.end(),
                                       [&](double g) { return g > -few_steps * duration; });
     if (static_cast<double>(follow) < mostly * static_cast<double>(gaps.size())) return {};
-    return std::max(median(gaps) - median(steps), 0.0) / duration;
+    return std::max(upper_median(gaps) - upper_median(steps), 0.0) / duration;
   }
 
 private:
-  static double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-  }
-
   const Dataset& data_;
   const Column* time_;
 };

@@ -15,6 +15,8 @@
 #include "data/computed.h"
 #include "data/disguise.h"
 #include "data/quantity.h"
+#include "data/recordings.h"
+#include "data/signs.h"
 
 namespace frictab::data {
 
@@ -66,6 +68,14 @@ bool fits(const char* pattern, const std::string& name) {
   for (char& c : plain)
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
   return Pattern(pattern, {}).search(plain).has_value();
+}
+
+Given role_by_name(const std::string& name, bool within) {
+  for (const NameRule& rule : name_rules)
+    if ((rule.when == When::any || (rule.when == When::within) == within) &&
+        fits(rule.pattern, name))
+      return {rule.role, "by its name"};
+  return {};
 }
 
 // A column over all parts, as far as roles ask.
@@ -141,8 +151,6 @@ public:
     return given;
   }
 
-  const std::map<std::string, Disguise>& disguises() const { return disguises_; }
-
 private:
   // By the job or by what a quantity is.
   Given said_before_looking(const std::string& name) const {
@@ -152,9 +160,9 @@ private:
     if (name == "time_s") return {Role::clock, "the time"};
     if (find_quantity(name)) return {Role::state, "a quantity that laws or routines take"};
     if (name == origin_column) return {Role::ignore, "says where rows come from"};
-    if (name == "interval") return {Role::setting, "number of the interval in its recording"};
-    if (name == "recording") return {Role::label, "the recording that tests are intervals of"};
-    if (name == "direction") return {Role::setting, "sense of the motion"};
+    if (name == interval_column) return {Role::setting, "number of the interval in its recording"};
+    if (name == recording_column) return {Role::label, "the recording that tests are intervals of"};
+    if (name == direction_column) return {Role::setting, "sense of the motion"};
     return by_formula(name);
   }
 
@@ -175,17 +183,9 @@ private:
                        why, name);
   }
 
-  static Given by_name(const std::string& name, bool within) {
-    for (const NameRule& rule : name_rules)
-      if ((rule.when == When::any || (rule.when == When::within) == within) &&
-          fits(rule.pattern, name))
-        return {rule.role, "by its name"};
-    return {};
-  }
-
   static Given of_text(const std::string& name, const Look& look) {
-    if (const Given named = by_name(name, look.within); named.role == Role::ignore) return named;
-    if (const Given named = by_name(name, look.within); named.role == Role::order) return named;
+    if (const Given named = role_by_name(name, look.within); named.role == Role::ignore) return named;
+    if (const Given named = role_by_name(name, look.within); named.role == Role::order) return named;
     const std::size_t words = look.words.size() - look.words.count("");
     if (look.is_constant()) return {Role::label, "one value in all tests"};
     const std::size_t usable = std::max<std::size_t>(2, look.tests / 2);
@@ -200,7 +200,7 @@ private:
 
   static Given of_numbers(const std::string& name, const Look& look) {
     if (look.is_constant()) return {Role::setting, "one value in all rows"};
-    if (const Given named = by_name(name, look.within); !named.why.empty()) return named;
+    if (const Given named = role_by_name(name, look.within); !named.why.empty()) return named;
     const bool one_row_each = look.rows == look.tests;
     if (!look.within && one_row_each && look.values.size() > look.tests / 2)
       return {Role::setting, "one value per test; known before it, not measured in it?"};
@@ -247,8 +247,17 @@ bool may_be_cause(Role role) {
          role == Role::label;
 }
 
+bool may_be_searched(Role role) {
+  return may_be_cause(role) || role == Role::order;
+}
+
 bool may_follow_friction(Role role) {
   return role == Role::channel || role == Role::outcome;
+}
+
+bool is_order(const Column& column) {
+  return column.role == Role::order ||
+         (column.role == Role::undecided && role_by_name(column.name, false).role == Role::order);
 }
 
 void find_roles(std::span<Dataset* const> parts, const DataOptions& options, FaultList& faults) {

@@ -21,8 +21,14 @@ inline constexpr const char* said_by_job = "the job says so";
 
 // Whether what friction follows may be looked for in a column of this role.
 bool may_be_cause(Role role);
+// The same, and of an order of tests, which a trace looks at in its own way.
+bool may_be_searched(Role role);
 // Whether it may follow from friction, and is shown as a lead only.
 bool may_follow_friction(Role role);
+
+// Whether a column says by its role, or by its name where none was decided, in which order tests
+// were made.
+bool is_order(const Column& column);
 
 // Sets role and why of every column, alike in all parts (training and validation of one campaign),
 // and adds a note to the first where a column is the measured friction once more, or may be.

@@ -13,6 +13,7 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "data/condense.h"
+#include "data/middle.h"
 #include "data/quantity.h"
 
 namespace frictab::data {
@@ -73,13 +74,6 @@ namespace {
 
 // ---- typical values ----
 
-double middle_of(std::vector<double> values) {
-  if (values.empty()) return no_value;
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // How far a clock or a path runs, where a temperature starts, the middle of what else is above 0.
 double typical(const Dataset& data, const std::string& name, std::size_t e) {
   if (!data.has(name)) return no_value;
@@ -97,7 +91,7 @@ double typical(const Dataset& data, const std::string& name, std::size_t e) {
   std::vector<double> above;
   std::copy_if(values.begin(), values.end(), std::back_inserter(above),
                [](double x) { return x > 0; });
-  return middle_of(std::move(above));
+  return upper_median(std::move(above));
 }
 
 // A quantity, or a product of powers of several: "s_mm / v_rel_mm_s / time_s".
@@ -204,21 +198,6 @@ bool path_agrees(const Dataset& data) {
   return !integrated && ratio.known() && ratio.low > 1 / same && ratio.high < same;
 }
 
-// Whether what this unit decides is asked for elsewhere, or cancels.
-bool is_settled(const Dataset& data, const AssumedUnit& unit) {
-  const std::string& quantity = unit.quantity;
-  const AssumedUnit* const pressure = assumed(data, "sigma_n_MPa");
-  const bool both_forces = assumed(data, "F_R_N") && assumed(data, "F_N_N");
-  if (quantity == "F_R_N" || quantity == "F_N_N") return both_forces;
-  if (quantity == "tau_R_MPa") return pressure != nullptr;
-  // A force over an area: beside a friction force whose unit is known, the coefficient tells.
-  if (quantity == "sigma_n_MPa" && unit.unit == "N")
-    return assumed(data, "F_N_N") && data.has("F_R_N") && !both_forces;
-  if (!path_agrees(data)) return false;
-  if (quantity == "v_rel_mm_s") return !assumed(data, "s_mm") && !assumed(data, "time_s");
-  return (quantity == "s_mm" || quantity == "time_s") && data.has("v_rel_mm_s");
-}
-
 struct Others {
   std::vector<std::string> units; // that would be usual, and what they give: "kN 500 to 2,050"
   bool usual_as_read = false;
@@ -241,6 +220,22 @@ Others others_of(const Dataset& data, const AssumedUnit& unit) {
       out.units.push_back(name + " " + shown(there));
   }
   return out;
+}
+
+// Whether what this unit decides is asked for elsewhere, cancels, or is told by the coefficient:
+// one that is usual with the other force in the unit that it says.
+bool is_settled(const Dataset& data, const AssumedUnit& unit, const Others& others) {
+  const std::string& quantity = unit.quantity;
+  const AssumedUnit* const pressure = assumed(data, "sigma_n_MPa");
+  const bool both_forces = assumed(data, "F_R_N") && assumed(data, "F_N_N");
+  if (quantity == "F_R_N" || quantity == "F_N_N") return both_forces || others.usual_as_read;
+  if (quantity == "tau_R_MPa") return pressure || others.usual_as_read;
+  // A force over an area: beside a friction force whose unit is known, the coefficient tells.
+  if (quantity == "sigma_n_MPa" && unit.unit == "N")
+    return assumed(data, "F_N_N") && data.has("F_R_N") && !both_forces;
+  if (!path_agrees(data)) return false;
+  if (quantity == "v_rel_mm_s") return !assumed(data, "s_mm") && !assumed(data, "time_s");
+  return (quantity == "s_mm" || quantity == "time_s") && data.has("v_rel_mm_s");
 }
 
 std::string question(const AssumedUnit& unit, const Others& others) {
@@ -272,10 +267,11 @@ struct Series {
   std::string what() const { return fmt::format("{}", fmt::join(of, " / ")); }
 };
 constexpr double cannot_be_design = 900; // 1,000 but for rounding
-const Series all_series[] = {{{"sigma_n_MPa"}, 5, 2, cannot_be_design, true},
-                             {{"tau_R_MPa"}, 5, 2, cannot_be_design, true},
-                             {{"F_N_N"}, 5, 2, cannot_be_design, true},
+// Forces first: what is measured is told before the stresses that come from it.
+const Series all_series[] = {{{"F_N_N"}, 5, 2, cannot_be_design, true},
                              {{"F_R_N"}, 5, 2, cannot_be_design, true},
+                             {{"sigma_n_MPa"}, 5, 2, cannot_be_design, true},
+                             {{"tau_R_MPa"}, 5, 2, cannot_be_design, true},
                              {{"sigma_f_MPa"}, 1.5, 1.05, 4, true},
                              {{"F_N_N", "sigma_n_MPa"}, 1.3, 1.15, 4, true},
                              {{"F_R_N", "tau_R_MPa"}, 1.3, 1.15, 4, true},
@@ -319,7 +315,7 @@ public:
       if (unit.empty() || place >= best_place) continue;
       Odd odd = side(cut, high, own, others, unit);
       odd.certain = series.may_be_certain && factor > cannot_be_design;
-      const bool may_be = odd.certain || (3 * count <= sorted_.size() && !differs_by_label(odd));
+      const bool may_be = odd.certain || (3 * count <= sorted_.size() && !is_set_otherwise(odd));
       if (!are_whole_files(odd) || !may_be) continue;
       best = odd;
       best_place = place;
@@ -360,7 +356,7 @@ public:
         Odd odd = side(cut, high, {own.front().first, own.back().first},
                        {others.front().first, others.back().first},
                        fmt::format("{} in {}", quantity, other));
-        if (are_whole_files(odd) && !differs_by_label(odd)) return odd;
+        if (are_whole_files(odd) && !is_set_otherwise(odd)) return odd;
       }
     }
     return std::nullopt;
@@ -485,21 +481,22 @@ private:
                                     [&](const auto& file) { return others.count(file) > 0; });
   }
 
-  // Another lubricant, material or rig.
-  bool differs_by_label(const Odd& odd) const {
+  // Another lubricant, material, mixture or rig.
+  bool is_set_otherwise(const Odd& odd) const {
     for (const Column& column : places.front().data->columns) {
-      if (column.levels.empty()) continue;
-      std::set<std::string> own, others;
-      for (std::size_t i = 0; i < places.size(); ++i) {
-        const Column* const here = places[i].data->find(column.name);
-        if (!here || here->levels.empty()) continue;
-        const double level = here->values[places[i].data->first_row[places[i].test]];
-        (is_odd(odd, i) ? own : others).insert(here->levels[std::size_t(level)]);
-      }
-      const bool names_tests = 2 * (own.size() + others.size()) > places.size();
-      if (!own.empty() && !names_tests &&
+      if (find_quantity(column.name)) continue;
+      std::map<std::string, std::size_t> own, others; // tests of each level
+      for (std::size_t i = 0; i < places.size(); ++i)
+        if (const Column* const here = places[i].data->find(column.name))
+          if (const auto level = places[i].data->level_of_test(*here, places[i].test))
+            ++(is_odd(odd, i) ? own : others)[*level];
+      std::size_t shared = 0; // where hardly a test shares its level, they name tests
+      for (const auto* levels : {&own, &others})
+        for (const auto& [level, tests] : *levels)
+          if (tests > 1) shared += tests;
+      if (!own.empty() && 2 * shared >= places.size() &&
           std::none_of(own.begin(), own.end(),
-                       [&](const auto& level) { return others.count(level) > 0; }))
+                       [&](const auto& level) { return others.count(level.first) > 0; }))
         return true;
     }
     return false;
@@ -546,7 +543,8 @@ Implausible normal_to_flow(const Dataset& data) {
   if (!far_below) return out;
   out.certain = false;
   if (const AssumedUnit* const unit = assumed(data, "sigma_n_MPa"))
-    if (const Others others = others_of(data, *unit); !others.units.empty()) {
+    if (const Others others = others_of(data, *unit);
+        !others.units.empty() && !is_settled(data, *unit, others)) {
       out.certain = true;
       out.hint = question(*unit, others);
     }
@@ -561,7 +559,7 @@ Implausible sliding_speed(const Dataset& data) {
                [](double v) { return v > fastest_mm_s; });
   return {"", fast.size(), values.size(),
           fmt::format("v_rel_mm_s is {}, above {} mm/s, where no rig and no process slides",
-                      shown(middle_of(fast)), thousands(std::size_t(fastest_mm_s))),
+                      shown(upper_median(fast)), thousands(std::size_t(fastest_mm_s))),
           "a speed in um/s, or over a clock in days, as spreadsheets hold it? `unit` where it is "
           "mapped"};
 }
@@ -604,7 +602,7 @@ Implausible elapsed_time(const Dataset& data) {
     wrong = {std::fmin(wrong.low, lasts), std::fmax(wrong.high, lasts)};
     out.rows += rows;
   }
-  const double step = middle_of(steps);
+  const double step = upper_median(steps);
   if (out.rows > 0) {
     out.what = fmt::format("a test lasts {} s by time_s", shown(wrong));
   } else if (all.high < short_s || step < fast_row_s) {
@@ -676,12 +674,14 @@ Implausible mixed_units(std::span<const Dataset* const> parts) {
 }
 
 void ask_for_units(Dataset& data) {
-  std::vector<std::string> asked, quiet;
+  std::vector<std::string> asked;
+  std::set<std::string> quiet; // a force and its stress may be of one column
   for (const AssumedUnit& unit : data.assumed) {
     const bool is_other = !unit.from_name.empty();
     const Others others = others_of(data, unit);
-    if (!is_other && (others.units.empty() || is_settled(data, unit)))
-      quiet.push_back(fmt::format("{} ({})", unit.column, unit.unit));
+    std::string as = fmt::format("{} ({})", unit.column, unit.unit);
+    if (!is_other && (others.units.empty() || is_settled(data, unit, others)))
+      quiet.insert(std::move(as));
     else if (is_other || !others.usual_as_read)
       data.unit_questions.push_back(question(unit, others));
     else
@@ -689,7 +689,7 @@ void ask_for_units(Dataset& data) {
   }
   data.unit_questions.insert(data.unit_questions.end(), asked.begin(), asked.end());
   if (!quiet.empty())
-    data.notes.push_back("no unit is given for " + join(quiet, ", ") + ": taken so");
+    data.notes.push_back(fmt::format("no unit is given for {}: taken so", fmt::join(quiet, ", ")));
 }
 
 } // namespace frictab::data

@@ -242,7 +242,7 @@ private:
          {std::pair(SpeedReading::coarse, "coarse"), std::pair(SpeedReading::noisy, "noisy")})
       if (const std::size_t tests = count(reading); tests > 0)
         add_counted(part_, fmt::format("v_rel_mm_s is read too {} in ", how),
-                    " of the tests to say what is at rest or turning there", tests);
+                    " of the tests to say by it what is at rest or turning", tests);
   }
 
   Part& part_;

@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include <Eigen/Dense>
 #include <gsl/gsl_cdf.h>
+
+#include "data/middle.h"
+#include "data/quantity.h"
 
 namespace frictab::data {
 
@@ -20,13 +25,6 @@ constexpr Index spare = 5;              // tests beyond the terms of the regress
 constexpr double least_sd = 0.02;       // of a term between tests: below, nothing was varied
 constexpr double most_leverage = 0.999; // of a test that alone has its state: nothing to compare
 
-double middle_value(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  const auto at = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 // Per test; of rows under load that rub.
 VectorXd middles_of_tests(const Dataset& data, const char* name, double (*term)(double)) {
   const auto values = data.values(name), tau = data.values("tau_R_MPa"),
@@ -36,7 +34,7 @@ VectorXd middles_of_tests(const Dataset& data, const char* name, double (*term)(
     std::vector<double> in_test;
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
       if (load[i] > 0 && tau[i] > 0 && std::isfinite(values[i])) in_test.push_back(values[i]);
-    out(Index(e)) = term(middle_value(std::move(in_test)));
+    out(Index(e)) = term(upper_median(std::move(in_test)));
   }
   return out;
 }
@@ -74,7 +72,7 @@ VectorXd coefficients_of_tests(const Dataset& data) {
     std::vector<double> mu;
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
       if (load[i] > 0 && tau[i] > 0) mu.push_back(tau[i] / load[i]);
-    y(Index(e)) = std::log(middle_value(std::move(mu)));
+    y(Index(e)) = std::log(upper_median(std::move(mu)));
   }
   return y;
 }
@@ -105,6 +103,22 @@ Worst worst_of(const VectorXd& y, const MatrixXd& x) {
   return worst;
 }
 
+// Whether a recorded column has a level in this test alone, and most tests share theirs: a mixture
+// or a lubricant of its own is a reason.
+bool is_set_otherwise(const Dataset& data, std::size_t test) {
+  return std::any_of(data.columns.begin(), data.columns.end(), [&](const Column& column) {
+    if (find_quantity(column.name)) return false;
+    std::map<std::string, std::size_t> tests_of;
+    for (std::size_t e = 0; e < data.experiments.size(); ++e)
+      if (const auto level = data.level_of_test(column, e)) ++tests_of[*level];
+    std::size_t shared = 0;
+    for (const auto& [level, tests] : tests_of)
+      if (tests > 1) shared += tests;
+    const auto own = data.level_of_test(column, test);
+    return own && tests_of[*own] == 1 && 2 * shared >= data.experiments.size();
+  });
+}
+
 } // namespace
 
 std::vector<TestApart> find_tests_apart(const Dataset& data) {
@@ -128,7 +142,8 @@ std::vector<TestApart> find_tests_apart(const Dataset& data) {
     }
     const Worst worst = worst_of(measured, x);
     if (worst.at < 0) break;
-    apart.push_back({left[std::size_t(worst.at)], std::exp(worst.off)});
+    const std::size_t test = left[std::size_t(worst.at)];
+    if (!is_set_otherwise(data, test)) apart.push_back({test, std::exp(worst.off)});
     left.erase(left.begin() + worst.at);
   }
   return apart;

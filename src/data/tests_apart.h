@@ -6,6 +6,9 @@
 // Beckman and Trussell 1974), is one of 20 such campaigns' largest at most (Bonferroni, 5 %), and
 // the test is off by a factor of 1.5 and more. Then again without it, up to a tenth of the tests.
 //
+// A test that alone has its level of a recorded column (a mixture, a lubricant) is not called
+// apart: that level may be the reason.
+//
 // That a test is not named does not say that it is like the others: of tests off by 1.5 half are
 // found, and of two alike half.
 #pragma once

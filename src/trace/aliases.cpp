@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "data/options.h"
 #include "data/quantity.h"
+#include "data/roles.h"
 
 namespace frictab::trace {
 
@@ -39,10 +40,8 @@ std::vector<double> setting_of(const Column& column, const Dataset& data) {
 }
 
 bool may_act(const Column& column, const TraceOptions& options) {
-  const bool no_cause = column.role == Role::response || column.role == Role::channel ||
-                        column.role == Role::outcome || column.role == Role::ignore ||
-                        column.role == Role::test || column.role == Role::clock;
-  return !no_cause && !data::find_quantity(column.name) && column.name != data::origin_column &&
+  return data::may_be_searched(column.role) && !data::find_quantity(column.name) &&
+         column.name != data::origin_column &&
          std::find(options.ignore.begin(), options.ignore.end(), column.name) ==
              options.ignore.end();
 }
@@ -117,13 +116,23 @@ double explained_by_levels(const std::vector<double>& setting, const std::vector
   return corrected(left, squares_about(at, mean_of(at)), at.size(), levels.size());
 }
 
-double explained_by_line(const std::vector<double>& setting, const std::vector<double>& at) {
+double explained_by_one_line(const std::vector<double>& setting, const std::vector<double>& at) {
   const double x0 = mean_of(setting), y0 = mean_of(at);
   double xy = 0;
   for (std::size_t e = 0; e < at.size(); ++e)
     xy += (setting[e] - x0) * (at[e] - y0);
   const double xx = squares_about(setting, x0), yy = squares_about(at, y0);
   return xx > 0 ? corrected(yy - xy * xy / xx, yy, at.size(), 2) : 0;
+}
+
+// In the number or its logarithm.
+double explained_by_line(const std::vector<double>& setting, const std::vector<double>& at) {
+  std::vector<double> logarithms;
+  for (const double value : setting)
+    if (value > 0) logarithms.push_back(std::log(value));
+  const double plain = explained_by_one_line(setting, at);
+  if (logarithms.size() < setting.size()) return plain;
+  return std::max(plain, explained_by_one_line(logarithms, at));
 }
 
 // As a rig is set: "800" of 801.3, "1530" of 1532.
@@ -188,7 +197,7 @@ std::vector<Alias> find_aliases(const Dataset& training, const models::Model& mo
     if (setting.empty()) continue;
     const std::size_t levels = by_level(setting, setting).size();
     const bool few = 2 * levels <= tests;
-    if (levels < 2 || (!few && (!column.levels.empty() || levels == tests))) continue;
+    if (levels < 2 || (!few && !column.levels.empty())) continue;
     for (const State& state : states) {
       const double by_levels = few ? explained_by_levels(setting, state.at) : 0;
       const double by_line = column.levels.empty() ? explained_by_line(setting, state.at) : 0;

@@ -59,35 +59,6 @@ bool varies_within(Rows values, const Dataset& data) {
   return false;
 }
 
-// Whole numbers from 1 on, constant within experiments, no two alike. (Of a part of the tests some
-// are missing.)
-bool numbers_experiments(const Column& column, const Dataset& data) {
-  if (!column.levels.empty() || varies_within(column.values, data)) return false;
-  std::set<double> seen;
-  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-    const double value = column.values[data.first_row[e]];
-    if (value < 1 || value != std::round(value) || !seen.insert(value).second) return false;
-  }
-  return true;
-}
-
-// Names under which rigs write the order of tests, and when a test was made.
-bool is_called(const std::string& name, std::initializer_list<std::string_view> names) {
-  const std::string lower = lower_case(name);
-  return std::any_of(names.begin(), names.end(), [&](std::string_view n) { return lower == n; });
-}
-
-bool is_called_order(const std::string& name) {
-  return is_called(name, {"run_order", "test_order", "order", "run", "run_no", "run_nr",
-                          "run_number", "test_no", "test_nr", "test_number", "sequence", "seq"});
-}
-
-bool is_time_stamp(const Column& column, const Dataset& data) {
-  return !varies_within(column.values, data) && !is_constant(column.values) &&
-         is_called(column.name, {"timestamp", "time_stamp", "date", "datetime", "date_time",
-                                 "start_time", "started", "started_at", "test_date"});
-}
-
 // Squared correlation; 0 where one of them does not vary.
 double likeness(const VectorXd& a, const VectorXd& b) {
   const VectorXd x = a.array() - a.mean(), y = b.array() - b.mean();
@@ -208,12 +179,12 @@ private:
   // Only what was declared, or what says so by its name: files are often sorted by condition.
   void find_order() {
     const Column* order = nullptr;
-    for (const Column& column : training_.columns) {
-      const bool says_so = is_called_order(column.name) && numbers_experiments(column, training_);
-      if (options_.order.empty() ? says_so || (!order && is_time_stamp(column, training_))
-                                 : column.name == options_.order)
+    int best = 0;
+    for (const Column& column : training_.columns)
+      if (const int rank = order_rank(column); rank > best) {
         order = &column;
-    }
+        best = rank;
+      }
     if (!order || order_has_gaps(*order) || orders_nothing(*order)) return;
     const TestDates dates = sort_dates(order->levels); // time stamps are text
     if (!dates.fault.empty()) {
@@ -227,6 +198,17 @@ private:
     }
     part_equals(found_.order);
     found_.order_column = order->name;
+  }
+
+  // 0: it is none. A number counts the tests only where no two have the same.
+  int order_rank(const Column& column) const {
+    if (!options_.order.empty()) return column.name == options_.order ? 1 : 0;
+    if (!data::is_order(column) || varies_within(column.values, training_) ||
+        is_constant(column.values))
+      return 0;
+    if (column.why == data::said_by_job) return 3;
+    if (!column.levels.empty()) return 1; // a time stamp
+    return values_of_tests(column, training_) == training_.experiments.size() ? 2 : 0;
   }
 
   // Tests of one day, say: in an order that has nothing to do with their names, which often follow
@@ -284,8 +266,8 @@ private:
     if (data::is_measured(column.name) || column.name == data::origin_column ||
         column.role == data::Role::test || ignored(column.name))
       return false;
-    const bool is_apart = !data::may_be_cause(column.role) && column.role != data::Role::order;
-    if (is_apart && !data::find_quantity(column.name)) return left_out_by_role(column);
+    if (!data::may_be_searched(column.role) && !data::find_quantity(column.name))
+      return left_out_by_role(column);
     if (column.name == found_.order_column) {
       if (column.name != "run_order" && column.levels.empty())
         add_column(column.name, {column.name}, false, column.values);

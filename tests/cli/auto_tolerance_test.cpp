@@ -1,4 +1,5 @@
 // How far a table may drift where the job does not say it: a share of what its law errs by.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -51,13 +52,15 @@ struct Tolerance : testing::Test {
 };
 
 TEST_F(Tolerance, IsATwentiethOfTheLawsErrorOnUnseenTestsWhateverTheUnitOfStress) {
-  for (const double scale : {1.0, 1e-5}) {
+  for (const double scale : {0.1, 1e-5}) {
     write_campaign(scale, laws + "[table]\nmodel = \"polynomial\"\n");
     const CommandResult run = frictab({"run", "job.toml"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    const auto fit = json("calibration.json").at("models").at(0);
-    ASSERT_EQ(fit.at("name"), "polynomial");
-    const double error = fit.at("validation").at("mae_MPa");
+    const auto calibration = json("calibration.json");
+    const auto fit = std::find_if(calibration.at("models").begin(), calibration.at("models").end(),
+                                  [](const auto& one) { return one.at("name") == "polynomial"; });
+    ASSERT_NE(fit, calibration.at("models").end());
+    const double error = fit->at("validation").at("mae_MPa");
     const auto record = json("verify.json").at("records").at(0);
     EXPECT_DOUBLE_EQ(record.at("allowed_MPa"), std::min(0.5, error / 20));
     EXPECT_DOUBLE_EQ(record.at("law_error_MPa"), error);
@@ -107,9 +110,9 @@ TEST_F(Tolerance, OfEachLawIsItsOwn) {
   write_campaign(0.1, laws + "[table]\nmodel = \"all\"\n");
   const CommandResult run = frictab({"run", "job.toml"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto verify = json("verify.json");
+  const auto verify = json("verify.json"), calibration = json("calibration.json");
   double largest = 0;
-  for (const auto& fit : json("calibration.json").at("models"))
+  for (const auto& fit : calibration.at("models"))
     for (const auto& record : verify.at("records"))
       if (record.at("model") == fit.at("name")) {
         const double allowed = std::min(0.5, fit.at("validation").at("mae_MPa").get<double>() / 20);
@@ -140,10 +143,10 @@ TEST_F(Tolerance, StressesAreShownWithThreeDigits) {
   const CommandResult run = frictab({"calibrate", "job.toml"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out,
-              ContainsRegex("\n  polynomial +0\\.0000[1-9][0-9][0-9]  0\\.0000[0-9]+ \\.\\. "
-                            "0\\.0000[0-9]+ +0\\.0000[0-9]+ "));
+              ContainsRegex("\n  polynomial +0\\.000[1-9][0-9][0-9]  0\\.000[0-9]+ \\.\\. "
+                            "0\\.000[0-9]+ +0\\.000[0-9]+ "));
   EXPECT_THAT(directory.read("out/benchmark.md"),
-              ContainsRegex("polynomial \\| 0\\.0000[1-9][0-9][0-9] \\|"));
+              ContainsRegex("polynomial \\| 0\\.000[1-9][0-9][0-9] \\|"));
 }
 
 TEST_F(Tolerance, TakesAutoAndANumber) {

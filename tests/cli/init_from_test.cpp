@@ -347,6 +347,8 @@ TEST_F(InitFrom, AsksForWhatIsMissing) {
   EXPECT_EQ(result.err,
             "to be answered in it: Which column names the tests? None was found: the file is taken "
             "as one test.\n"
+            "to be answered in it: In which units? The file does not say, and these are taken: FF "
+            "(N). A line here replaces the one above.\n"
             "to be answered in it: Where does the contact normal stress come from? None was "
             "found.\n"
             "to be answered in it: Which normal force belongs to the friction force? None was "
@@ -366,6 +368,8 @@ training = "a.csv"                           # 1 file
 time_s = "Time"                              # first values: 0, 1, 0; in s, as the file says
 F_R_N = "FF"                                 # first values: 100.5, 101.5, 99.5; no unit is given: N is assumed
 # kept as recorded; what changes friction may be among them: Batch
+# ? In which units? The file does not say, and these are taken: FF (N). A line here replaces the one above.
+# F_R_N = { column = "FF", unit = "kN" }     # or N, kgf, lbf, mN
 # ? Where does the contact normal stress come from? None was found.
 # sigma_n_MPa = "COLUMN"
 # sigma_n_MPa = { column = "FORCE", area_mm2 = 78.5 } # a force over the nominal contact area

@@ -122,7 +122,9 @@ from_name = '(?<steel>[^/_]+)_(?<radius_mm>\d+)mm'
   EXPECT_NEAR(span(test, "v_rel_mm_s")[0], 90 * 2 * M_PI / 60 * 10, 1e-9);
   EXPECT_THAT(span(test, "sigma_n_MPa"), ElementsAre(18.75, 18.75));
   EXPECT_THAT(span(test, "time_s"), ElementsAre(0, 149.5));
-  EXPECT_THAT(said, HasSubstr("steel        label  2 levels"));
+  EXPECT_THAT(said,
+              HasSubstr("Speed [rpm]  state  v_rel_mm_s is computed from it\nradius_mm    state  "
+                        "v_rel_mm_s is computed from it\nsteel        label  2 levels\n"));
   calibrate();
 }
 
@@ -165,7 +167,11 @@ sigma_n_MPa = 40
   EXPECT_EQ(test["rows"], 321);
   EXPECT_THAT(span(test, "v_rel_mm_s"), ElementsAre(50, 50));
   EXPECT_NEAR(test["mean_mu"].get<double>(), (0.94 * (1 - 0.06 * 321 / cycles)) / 8, 1e-3);
-  EXPECT_THAT(said, HasSubstr("Cycle         channel  varies within tests"));
+  EXPECT_THAT(
+      said,
+      HasSubstr(
+          "Cycle         channel  varies within tests, measured along with friction\nadditive_pct  "
+          "setting  one value per test, 4 of them\nchip          label    3 levels\n"));
   calibrate();
 }
 

@@ -74,13 +74,13 @@ Expected expected(Habit habit) {
   case Habit::coefficient_beside:
     return {"COF is the measured friction"};
   case Habit::torque:
-    return {"Torque is the measured friction"};
+    return {"Torque [Nmm] is the measured friction"};
   case Habit::rest:
     return {"rest"};
   case Habit::reversals:
     return {"direction"};
   case Habit::offset:
-    return {"offset"};
+    return {"as the zero of the force cell"};
   case Habit::intervals:
     return {"interval"};
   case Habit::kilonewtons:

@@ -141,7 +141,7 @@ bootstrap = 0
 directory = "out"
 )",
       habit == Habit::intervals ? "interval" : "file",
-      from_torque ? "{ formula = \"Torque/Arm\" }" : "\"Friction\"", area_mm2,
+      from_torque ? "{ formula = \"Torque__Nmm_/Arm\" }" : "\"Friction\"", area_mm2,
       is_reciprocating(habit) ? "{ column = \"Position\", slope_rows = 3 }" : "\"Speed\"");
 }
 
