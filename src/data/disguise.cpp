@@ -38,9 +38,9 @@ constexpr Index least_direct = 12, least_rank = 20, least_linear = 200;
 constexpr Index rows_of_test = 250, steps_of_campaign = 60000, rows_to_rank = 20000;
 constexpr Index pieces = 20, rows_for_blocks = 40, to_screen = 2000;
 constexpr std::size_t most_in_pairs = 40;
-// Of a large campaign some tests, and of long tests every other row or fewer.
-constexpr Index values_to_hold = 20'000'000, least_rows = 20000, most_rows = 1'000'000;
-constexpr Index most_rows_of_test = 20000;
+// Of a large campaign every other row or fewer, and where that is not enough, some of the tests.
+constexpr Index values_to_hold = 2'000'000, least_rows = 20000, least_rows_of_test = 200,
+                most_rows_of_test = 20000;
 // What hardly is there has no logarithm: of the median.
 constexpr double floor_share = 0.05, floor_share_tau = 0.1;
 constexpr double trimmed = 0.97, infinite = std::numeric_limits<double>::infinity();
@@ -132,12 +132,17 @@ bool is_known(double value) {
 class Cut {
 public:
   explicit Cut(std::span<const Dataset* const> parts) : parts_(parts) {
-    Index all = 0;
-    for (const Dataset* part : parts)
-      all += static_cast<Index>(part->rows());
     const auto columns = static_cast<Index>(parts.front()->columns.size());
-    const Index budget = std::clamp(values_to_hold / columns, least_rows, most_rows);
-    const Index every = 1 + all / budget;
+    const Index budget = std::max(values_to_hold / columns, least_rows);
+    Index tests = 0, rows = 0;
+    for (const Dataset* part : parts)
+      tests += static_cast<Index>(part->experiments.size());
+    rows_of_test_ = std::clamp(budget / tests, least_rows_of_test, most_rows_of_test);
+    for (const Dataset* part : parts)
+      for (std::size_t e = 0; e < part->experiments.size(); ++e)
+        rows += std::min(static_cast<Index>(part->first_row[e + 1] - part->first_row[e]),
+                         rows_of_test_);
+    const Index every = 1 + (rows - 1) / budget;
     Index number = 0;
     for (std::size_t p = 0; p < parts.size(); ++p)
       for (std::size_t e = 0; e < parts[p]->experiments.size(); ++e)
@@ -216,7 +221,7 @@ private:
   };
 
   void take(std::size_t part, std::size_t begin, std::size_t end) {
-    const std::size_t every = 1 + (end - begin) / static_cast<std::size_t>(most_rows_of_test);
+    const std::size_t every = 1 + (end - begin - 1) / static_cast<std::size_t>(rows_of_test_);
     const auto rows = static_cast<Index>((end - begin + every - 1) / every);
     tests_.push_back({rows_, rows, part, begin, every});
     rows_ += rows;
@@ -267,7 +272,7 @@ private:
   std::span<const Dataset* const> parts_;
   std::vector<Test> tests_;
   std::vector<Index> steps_; // row before each
-  Index rows_ = 0;
+  Index rows_ = 0, rows_of_test_ = most_rows_of_test;
 };
 
 // What regression on the states leaves, over the places where everything is known.

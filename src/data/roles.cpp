@@ -184,8 +184,8 @@ private:
   }
 
   static Given of_text(const std::string& name, const Look& look) {
-    if (const Given named = role_by_name(name, look.within); named.role == Role::ignore) return named;
-    if (const Given named = role_by_name(name, look.within); named.role == Role::order) return named;
+    const Given named = role_by_name(name, look.within);
+    if (named.role == Role::ignore || named.role == Role::order) return named;
     const std::size_t words = look.words.size() - look.words.count("");
     if (look.is_constant()) return {Role::label, "one value in all tests"};
     const std::size_t usable = std::max<std::size_t>(2, look.tests / 2);

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <gsl/gsl_cdf.h>
@@ -22,6 +24,7 @@ using Eigen::VectorXd;
 
 constexpr double false_rate = 0.05, least_factor = 1.5;
 constexpr Index spare = 5;              // tests beyond the terms of the regression
+constexpr double least_gap = 2;         // over the next test, in standard errors
 constexpr double least_sd = 0.02;       // of a term between tests: below, nothing was varied
 constexpr double most_leverage = 0.999; // of a test that alone has its state: nothing to compare
 
@@ -77,28 +80,54 @@ VectorXd coefficients_of_tests(const Dataset& data) {
   return y;
 }
 
-struct Worst {
-  Index at = -1;
-  double off = 0; // ln of its factor
+// A regression over tests, in their order: how far each is off the fit of the others.
+class FitOfTests {
+public:
+  FitOfTests(VectorXd y, MatrixXd x) : y_(std::move(y)), x_(std::move(x)), fit_(x_) {
+    const MatrixXd inverse = fit_.pseudoInverse();
+    spread_ = inverse * inverse.transpose();
+    coefficients_ = inverse * y_;
+    residual_ = y_ - x_ * coefficients_;
+  }
+
+  double free() const { return double(y_.size() - fit_.rank() - 1); }
+  double rest(Index i) const {
+    return 1 - std::min(x_.row(i).dot(spread_ * x_.row(i).transpose()), most_leverage);
+  }
+  double off(Index i) const { return residual_(i) / rest(i); } // ln of its factor
+  double t(Index i) const {                                    // that, over its standard error
+    const double others = (residual_.squaredNorm() - residual_(i) * off(i)) / free();
+    return std::abs(off(i)) / std::sqrt(std::max(others, 1e-16) / rest(i));
+  }
+  double largest_t() const {
+    double most = 0;
+    for (Index i = 0; i < y_.size(); ++i)
+      most = std::max(most, t(i));
+    return most;
+  }
+  // Of a test that is none of them.
+  double t(double y, const VectorXd& x) const {
+    const double variance = residual_.squaredNorm() / (free() + 1) * (1 + x.dot(spread_ * x));
+    return std::abs(y - x.dot(coefficients_)) / std::sqrt(std::max(variance, 1e-16));
+  }
+
+private:
+  VectorXd y_;
+  MatrixXd x_;
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> fit_;
+  MatrixXd spread_;
+  VectorXd coefficients_, residual_;
 };
 
-// Of these tests the one furthest off the fit of all others, if it is apart.
-Worst worst_of(const VectorXd& y, const MatrixXd& x) {
-  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> fit(x);
-  const MatrixXd hat = x * fit.pseudoInverse();
-  const VectorXd residual = y - hat * y;
-  const auto free = double(y.size() - fit.rank() - 1);
-  Worst worst;
+// Of these tests the one furthest off the fit of all others, if it is apart; else none.
+std::optional<Index> worst_of(const FitOfTests& fit, Index tests) {
+  std::optional<Index> worst;
   double least_p = false_rate;
-  for (Index i = 0; i < y.size(); ++i) {
-    const double rest = 1 - std::min(hat(i, i), most_leverage);
-    const double off = residual(i) / rest;
-    const double others = (residual.squaredNorm() - residual(i) * off) / free;
-    const double t = std::abs(off) / std::sqrt(std::max(others, 1e-16) / rest);
-    const double p = double(y.size()) * 2 * gsl_cdf_tdist_Q(t, free);
-    if (!(p < least_p) || !(std::abs(off) > std::log(least_factor))) continue;
+  for (Index i = 0; i < tests; ++i) {
+    const double p = double(tests) * 2 * gsl_cdf_tdist_Q(fit.t(i), fit.free());
+    if (!(p < least_p) || !(std::abs(fit.off(i)) > std::log(least_factor))) continue;
     least_p = p;
-    worst = {i, off};
+    worst = i;
   }
   return worst;
 }
@@ -124,28 +153,40 @@ bool is_set_otherwise(const Dataset& data, std::size_t test) {
 std::vector<TestApart> find_tests_apart(const Dataset& data) {
   const VectorXd y = coefficients_of_tests(data);
   const std::vector<VectorXd> terms = terms_of_tests(data);
-  std::vector<std::size_t> left;
+  std::vector<Index> left;
   for (Index e = 0; e < y.size(); ++e)
-    if (std::isfinite(y(e))) left.push_back(std::size_t(e));
-  std::vector<TestApart> apart;
+    if (std::isfinite(y(e))) left.push_back(e);
   const std::size_t most = std::max<std::size_t>(1, left.size() / 10);
+  // As many as their number bears.
+  const auto terms_of = [&](Index e, Index tests) {
+    VectorXd x = VectorXd::Ones(std::clamp(tests - spare, Index(1), Index(terms.size()) + 1));
+    for (Index c = 1; c < x.size(); ++c)
+      x(c) = terms[std::size_t(c - 1)](e);
+    return x;
+  };
+  const auto fit_of = [&](const std::vector<Index>& tests) {
+    MatrixXd x(Index(tests.size()), terms_of(0, Index(tests.size())).size());
+    for (std::size_t i = 0; i < tests.size(); ++i)
+      x.row(Index(i)) = terms_of(tests[i], Index(tests.size())).transpose();
+    return FitOfTests(y(tests), std::move(x));
+  };
+  std::vector<TestApart> apart;
   while (apart.size() < most && Index(left.size()) > spare) {
-    const Index tests = Index(left.size());
-    const Index columns = std::min(Index(terms.size()) + 1, tests - spare);
-    VectorXd measured(tests);
-    MatrixXd x = MatrixXd::Ones(tests, columns);
-    for (Index i = 0; i < tests; ++i) {
-      const Index e = Index(left[std::size_t(i)]);
-      measured(i) = y(e);
-      for (Index c = 1; c < columns; ++c)
-        x(i, c) = terms[std::size_t(c - 1)](e);
-    }
-    const Worst worst = worst_of(measured, x);
-    if (worst.at < 0) break;
-    const std::size_t test = left[std::size_t(worst.at)];
-    if (!is_set_otherwise(data, test)) apart.push_back({test, std::exp(worst.off)});
-    left.erase(left.begin() + worst.at);
+    const FitOfTests fit = fit_of(left);
+    const auto worst = worst_of(fit, Index(left.size()));
+    if (!worst) break;
+    apart.push_back({std::size_t(left[std::size_t(*worst)]), std::exp(fit.off(*worst))});
+    left.erase(left.begin() + *worst);
   }
+  // Of long tails the last one is hardly further off than the next.
+  while (!apart.empty()) {
+    const Index last = Index(apart.back().test);
+    const FitOfTests fit = fit_of(left);
+    if (fit.t(y(last), terms_of(last, Index(left.size()))) > least_gap * fit.largest_t()) break;
+    left.push_back(last);
+    apart.pop_back();
+  }
+  std::erase_if(apart, [&](const TestApart& one) { return is_set_otherwise(data, one.test); });
   return apart;
 }
 

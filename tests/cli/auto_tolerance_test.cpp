@@ -142,9 +142,8 @@ TEST_F(Tolerance, StressesAreShownWithThreeDigits) {
   write_campaign(1e-5, laws + "[table]\nmodel = \"polynomial\"\n");
   const CommandResult run = frictab({"calibrate", "job.toml"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out,
-              ContainsRegex("\n  polynomial +0\\.000[1-9][0-9][0-9]  0\\.000[0-9]+ \\.\\. "
-                            "0\\.000[0-9]+ +0\\.000[0-9]+ "));
+  EXPECT_THAT(run.out, ContainsRegex("\n  polynomial +0\\.000[1-9][0-9][0-9]  0\\.000[0-9]+ \\.\\. "
+                                     "0\\.000[0-9]+ +0\\.000[0-9]+ "));
   EXPECT_THAT(directory.read("out/benchmark.md"),
               ContainsRegex("polynomial \\| 0\\.000[1-9][0-9][0-9] \\|"));
 }
