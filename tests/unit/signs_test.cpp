@@ -10,6 +10,7 @@
 
 #include "core/random.h"
 #include "data/load_condensed.h"
+#include "data/plausibility.h"
 #include "unit/load_case.h"
 
 namespace frictab::signs_test {
@@ -276,12 +277,27 @@ TEST_F(Signs, OneRowThatNoRigCanMeasureIsNamedAndLeftOut) {
   EXPECT_EQ(read(with_row(0)).rows(), 100u);   // upwards only
 }
 
-TEST_F(Signs, MoreThanATwentiethOfTheRowsStay) {
+TEST_F(Signs, MoreThanATwentiethOfImpossibleStressesIsAnErrorAndOfSpikesTheyStay) {
+  const auto with_eight_rows = [](double force) {
+    std::string text = "F_N,F_T,v\n";
+    for (int i = 0; i < 100; ++i)
+      text += fmt::format("5000,{},20\n", i % 12 == 5 ? force : 600 + i % 7);
+    return text;
+  };
   options.constants["sigma_f_MPa"] = 480;
-  std::string text = "F_N,F_T,v\n";
-  for (int i = 0; i < 100; ++i)
-    text += fmt::format("5000,{},20\n", i % 16 == 3 ? 7000 : 600 + i % 7);
-  const Dataset data = read(text);
+  Dataset data = read(with_eight_rows(7000));
+  FaultList faults;
+  data::check_plausibility(data, {}, {"job.toml", 2, 1}, faults);
+  ASSERT_EQ(faults.size(), 1u);
+  const std::string said = format_faults(faults.all());
+  EXPECT_THAT(said, HasSubstr("job.toml:2:1: error: tau_R_MPa above the shear yield stress"));
+  EXPECT_THAT(said, HasSubstr("8 of 100 rows, too many to leave out: a.csv:7 in test 'a' ("));
+  EXPECT_THAT(said, HasSubstr("data.allow_implausible = [\"shear_yield\"]"));
+  options.allow_implausible = {"shear_yield", "friction_coefficient", "spike"};
+  EXPECT_EQ(read(with_eight_rows(7000)).rows(), 100u);
+
+  options.allow_implausible.clear();
+  data = read(with_eight_rows(1250)); // of noise, not of a reading that failed
   EXPECT_EQ(data.rows(), 100u);
   EXPECT_TRUE(data.apart.empty());
   EXPECT_TRUE(data.dropped.empty());
