@@ -48,7 +48,8 @@ struct Tolerance : testing::Test {
     return test::parse_json(directory.read("out/" + file));
   }
   const TemporaryDirectory directory;
-  const std::string laws = "[models]\nuse = [\"coulomb\", \"polynomial\"]\n";
+  const std::string laws =
+      "[models]\nuse = [\"coulomb\", \"polynomial\"]\n[export]\ntargets = [\"c\"]\n";
 };
 
 TEST_F(Tolerance, IsATwentiethOfTheLawsErrorOnUnseenTestsWhateverTheUnitOfStress) {
