@@ -10,6 +10,7 @@
 #include "calibrate/input_columns.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "data/roles.h"
 #include "trace/leads.h"
 #include "trace/search.h"
 #include "trace/trace.h"
@@ -294,6 +295,15 @@ TEST(Trace, AColumnCalledLikeAnOrderThatNumbersTheTestsIsOne) {
   EXPECT_TRUE(t.order.found) << trace_text(t);
   EXPECT_EQ(t.order.column, "Test_No");
   EXPECT_EQ(t.verdict, Verdict::unexplained_structure);
+
+  for (Dataset* part : {&data.training, &data.validation})
+    column(*part, "Test_No").name = "K";
+  EXPECT_EQ(traced(data, "log_coulomb").order.column, "");
+  for (Dataset* part : {&data.training, &data.validation}) {
+    column(*part, "K").role = data::Role::order;
+    column(*part, "K").why = data::said_by_job;
+  }
+  EXPECT_EQ(traced(data, "log_coulomb").order.column, "K");
 }
 
 // Also where a search sees a part of the tests only, which are not numbered without gaps.
