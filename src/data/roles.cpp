@@ -50,7 +50,9 @@ constexpr NameRule name_rules[] = {
     {"^(test|specimen|sample|probe|versuch|exp(eriment)?)_?(id|no|nr|number|name)?$",
      When::per_test, Role::test},
     {"remark|comment|bemerkung|kommentar|^notes?$", When::any, Role::ignore},
-    {"wear|worn|mass_?loss|weight_?loss|debris|scar", When::within, Role::channel},
+    {"wear|worn|mass_?loss|weight_?loss|debris|scar|acoustic|vibration|"
+     "contact_?(potential|resistance|voltage)",
+     When::within, Role::channel},
     {"^wear(_(um|mm|mm2|mm3|mg|g))?$|wear_?(rate|loss|depth|volume|mass|scar|track_?(depth|width))|"
      "mass_?loss|weight_?loss|"
      "verschlei|debris|(mass|weight|ra|rz|sa|roughness)\\w*_?(after|end|final)|"

@@ -225,6 +225,7 @@ TEST(Roles, FollowFromTheJobTheDataAndNamesInThatOrder) {
   rig.add("rpm", [&](auto, auto i) { return 10 * rig.at("v_rel_mm_s", i); });
   rig.add("Mass loss [mg]", [](auto e, auto) { return 1.0 + double(e * e % 7); });
   rig.add("step_pct", [](auto, auto i) { return double(i / 20 % 3); });
+  rig.add("Contact Potential", [](auto, auto i) { return double(i / 20 % 3); });
   data::DataOptions options;
   options.columns["tau_R_MPa"].formula = "torque/0.3";
   options.columns["v_rel_mm_s"].formula = "rpm/10";
@@ -240,6 +241,7 @@ TEST(Roles, FollowFromTheJobTheDataAndNamesInThatOrder) {
   EXPECT_EQ(role_of(data, "film_nm"), Role::setting);
   EXPECT_EQ(role_of(data, "Mass loss [mg]"), Role::outcome);
   EXPECT_EQ(role_of(data, "step_pct"), Role::setting);
+  EXPECT_EQ(role_of(data, "Contact Potential"), Role::channel) << "at three values, set by nobody";
   EXPECT_EQ(role_of(data, "time_s"), Role::clock);
   EXPECT_THAT(data.notes, Contains(HasSubstr("torque is the measured friction")));
 }
