@@ -5,8 +5,8 @@
 // where the residual from the fit of the others, over its standard error (studentised and deleted:
 // Beckman and Trussell 1974), is one of 20 such campaigns' largest at most (Bonferroni, 5 %), and
 // the test is off by a factor of 1.5 and more. Then again without it, up to a tenth of the tests.
-// The last of them has to be twice as far off, in standard errors, as the furthest of the rest:
-// where tests scatter with long tails there is always a furthest one, and no gap behind it.
+// The last of them has to be 2.5 times as far off, in standard errors, as the furthest of the rest:
+// where tests scatter with long tails there is always a furthest one, and rarely such a gap.
 //
 // A test that alone has its level of a recorded column (a mixture, a lubricant) is not called
 // apart: that level may be the reason.
