@@ -96,14 +96,15 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
 }
 
 const Registered<Command> registered{[] {
-  return Command{"explain",
-                 81,
-                 "Explain a law, an effect, a target, a quantity, a job key or a topic",
-                 declare,
-                 uses_json | uses_set,
-                 {{"frictab explain wanheim_bay", "formula, parameters, source"},
-                  {"frictab explain tolerance_MPa", "a key of the job, by its last part"},
-                  {"frictab explain exit-codes", "a topic; units, csv, experiment are others"}}};
+  return Command{
+      "explain",
+      81,
+      "Explain a law, an effect, a target, a quantity, a job key or a topic",
+      declare,
+      uses_json | uses_set,
+      {{"frictab explain wanheim_bay", "formula, parameters, source"},
+       {"frictab explain tolerance_MPa", "a key of the job, by its last part"},
+       {"frictab explain exit-codes", "a topic; units, csv, rules, experiment are others"}}};
 }};
 
 } // namespace

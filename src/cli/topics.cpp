@@ -5,6 +5,7 @@
 
 #include "core/text.h"
 #include "data/quantity.h"
+#include "data/rules.h"
 
 namespace frictab::cli {
 
@@ -65,6 +66,29 @@ Explanation about_csv() {
           {}};
 }
 
+Explanation about_rules() {
+  Explanation out{"rules",
+                  "topic",
+                  "what reading takes columns, rows and tests for, what it does then, and how the "
+                  "job overrules it; frictab data JOB shows each call",
+                  {{"called wrongly", "where there was nothing of the kind, in synthetic data: "
+                                      "docs/measurements.md, Reading"}},
+                  "rules",
+                  {}};
+  for (const data::Rule& rule : data::rules()) {
+    std::string wrong = "not measured";
+    if (rule.wrong.of > 0)
+      wrong = fmt::format("{} of {} {}", thousands(rule.wrong.calls), thousands(rule.wrong.of),
+                          rule.wrong.chances);
+    out.items.push_back({fmt::format("{}: {}", rule.about, rule.name),
+                         rule.when,
+                         {{"then", rule.then},
+                          {"overruled by", rule.overruled_by},
+                          {"called wrongly", std::move(wrong)}}});
+  }
+  return out;
+}
+
 Explanation about_exit_codes() {
   return {"exit-codes",
           "topic",
@@ -96,6 +120,7 @@ const std::vector<Topic>& topics() {
   static const std::vector<Topic> all = {{"experiment", about_experiment},
                                          {"units", about_units},
                                          {"csv", about_csv},
+                                         {"rules", about_rules},
                                          {"exit-codes", about_exit_codes}};
   return all;
 }

@@ -275,7 +275,7 @@ void find_roles(std::span<Dataset* const> parts, const DataOptions& options, Fau
         }
     if (given.role == Role::response && !find_quantity(column.name))
       parts.front()->notes.push_back(
-          fmt::format("{} is the measured friction, no cause of it: {}", column.name, given.why));
+          fmt::format("{} belongs to the measured friction, no cause of it: {}", column.name, given.why));
   }
 }
 

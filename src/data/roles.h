@@ -31,7 +31,7 @@ bool may_follow_friction(Role role);
 bool is_order(const Column& column);
 
 // Sets role and why of every column, alike in all parts (training and validation of one campaign),
-// and adds a note to the first where a column is the measured friction once more, or may be.
+// and adds a note to the first where a column belongs to the measured friction.
 // What the job says in options.roles holds; a name there that no column has is a fault.
 void find_roles(std::span<Dataset* const> parts, const DataOptions& options, FaultList& faults);
 

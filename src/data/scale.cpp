@@ -15,6 +15,7 @@
 #include "data/condense.h"
 #include "data/middle.h"
 #include "data/quantity.h"
+#include "data/tests_apart.h"
 
 namespace frictab::data {
 
@@ -251,12 +252,6 @@ std::string question(const AssumedUnit& unit, const Others& others) {
 
 // ---- tests beside each other ----
 
-struct TestPlace {
-  const Dataset* data;
-  std::size_t test;
-  std::string file() const { return data->file_of.empty() ? "" : data->file_of[test]; }
-};
-
 // A quantity, or the first over the others: how far it may vary between tests of one unit, how well
 // the odd ones have to come among the others, and from which factor on they are called odd, or are
 // certain to be.
@@ -394,7 +389,7 @@ public:
     return odd;
   }
 
-  std::vector<TestPlace> places;
+  std::vector<TestOf> places;
 
 private:
   void sort_by(const std::string& what) const {
@@ -481,25 +476,8 @@ private:
                                     [&](const auto& file) { return others.count(file) > 0; });
   }
 
-  // Another lubricant, material, mixture or rig.
   bool is_set_otherwise(const Odd& odd) const {
-    for (const Column& column : places.front().data->columns) {
-      if (find_quantity(column.name)) continue;
-      std::map<std::string, std::size_t> own, others; // tests of each level
-      for (std::size_t i = 0; i < places.size(); ++i)
-        if (const Column* const here = places[i].data->find(column.name))
-          if (const auto level = places[i].data->level_of_test(*here, places[i].test))
-            ++(is_odd(odd, i) ? own : others)[*level];
-      std::size_t shared = 0; // where hardly a test shares its level, they name tests
-      for (const auto* levels : {&own, &others})
-        for (const auto& [level, tests] : *levels)
-          if (tests > 1) shared += tests;
-      if (!own.empty() && 2 * shared >= places.size() &&
-          std::none_of(own.begin(), own.end(),
-                       [&](const auto& level) { return others.count(level.first) > 0; }))
-        return true;
-    }
-    return false;
+    return are_set_otherwise(places, [&](std::size_t place) { return is_odd(odd, place); });
   }
 
   mutable std::map<std::string, std::vector<double>> typical_; // of quantities, by place
@@ -510,7 +488,7 @@ std::string names_of(const Compared& compared, const Odd& odd) {
   std::vector<std::string> tests;
   std::set<std::string> files;
   for (const std::size_t i : odd.tests) {
-    const TestPlace& place = compared.places[i];
+    const TestOf& place = compared.places[i];
     tests.push_back("'" + place.data->experiments[place.test] + "'");
     if (!place.file().empty()) files.insert(place.file());
   }

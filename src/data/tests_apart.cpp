@@ -134,23 +134,32 @@ std::optional<Index> worst_of(const FitOfTests& fit, Index tests) {
   return worst;
 }
 
-// Whether a recorded column has a level in this test alone, and most tests share theirs: a mixture
-// or a lubricant of its own is a reason.
-bool is_set_otherwise(const Dataset& data, std::size_t test) {
-  return std::any_of(data.columns.begin(), data.columns.end(), [&](const Column& column) {
-    if (find_quantity(column.name)) return false;
-    std::map<std::string, std::size_t> tests_of;
-    for (std::size_t e = 0; e < data.experiments.size(); ++e)
-      if (const auto level = data.level_of_test(column, e)) ++tests_of[*level];
-    std::size_t shared = 0;
-    for (const auto& [level, tests] : tests_of)
-      if (tests > 1) shared += tests;
-    const auto own = data.level_of_test(column, test);
-    return own && tests_of[*own] == 1 && 2 * shared >= data.experiments.size();
-  });
+} // namespace
+
+std::string TestOf::file() const {
+  return data->file_of.empty() ? "" : data->file_of[test];
 }
 
-} // namespace
+bool are_set_otherwise(std::span<const TestOf> tests,
+                       const std::function<bool(std::size_t test)>& is_odd) {
+  for (const Column& column : tests.front().data->columns) {
+    if (find_quantity(column.name)) continue;
+    std::map<std::string, std::size_t> own, others; // tests of each level
+    for (std::size_t i = 0; i < tests.size(); ++i)
+      if (const Column* const here = tests[i].data->find(column.name))
+        if (const auto level = tests[i].data->level_of_test(*here, tests[i].test))
+          ++(is_odd(i) ? own : others)[*level];
+    std::size_t shared = 0;
+    for (const auto* levels : {&own, &others})
+      for (const auto& [level, count] : *levels)
+        if (count > 1) shared += count;
+    if (!own.empty() && 2 * shared >= tests.size() &&
+        std::none_of(own.begin(), own.end(),
+                     [&](const auto& level) { return others.count(level.first) > 0; }))
+      return true;
+  }
+  return false;
+}
 
 std::vector<TestApart> find_tests_apart(const Dataset& data) {
   const VectorXd y = coefficients_of_tests(data);
@@ -188,7 +197,12 @@ std::vector<TestApart> find_tests_apart(const Dataset& data) {
     left.push_back(last);
     apart.pop_back();
   }
-  std::erase_if(apart, [&](const TestApart& one) { return is_set_otherwise(data, one.test); });
+  std::vector<TestOf> tests;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    tests.push_back({&data, e});
+  std::erase_if(apart, [&](const TestApart& one) {
+    return are_set_otherwise(tests, [&](std::size_t test) { return test == one.test; });
+  });
   return apart;
 }
 

@@ -16,6 +16,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "data/dataset.h"
@@ -26,6 +29,18 @@ struct TestApart {
   std::size_t test; // index
   double factor;    // of its friction, over what the others say
 };
+
+struct TestOf {
+  const Dataset* data;
+  std::size_t test;
+  std::string file() const; // empty where it is not known
+};
+
+// Whether a recorded column has other levels in the odd tests than in all others (a lubricant, a
+// material, a rig), which may be the reason why they differ. A column of which most tests do not
+// share their level names tests.
+bool are_set_otherwise(std::span<const TestOf> tests,
+                       const std::function<bool(std::size_t test)>& is_odd);
 
 // The furthest first. With fewer than 6 tests nothing can be said.
 std::vector<TestApart> find_tests_apart(const Dataset& data);

@@ -295,7 +295,7 @@ private:
   bool left_out_by_role(const Column& column) {
     if (column.role == data::Role::response)
       found_.notes.push_back(
-          fmt::format("{} is the measured friction ({}){}", column.name, column.why, not_searched));
+          fmt::format("{} belongs to the measured friction ({}){}", column.name, column.why, not_searched));
     return false;
   }
 

@@ -2,7 +2,7 @@
 campaigns of the twin with every kind of noise, profile, design and parameter set.
 
 Usage: reading_rates.py FRICTAB [CAMPAIGNS]
-Prints rows by phase, columns by role, and every row, test or column that is called something."""
+Prints rows by phase, columns by role with their count, and every row, test or column that is called something."""
 import collections
 import json
 import random
@@ -13,7 +13,7 @@ import tempfile
 
 frictab = sys.argv[1]
 campaigns = int(sys.argv[2]) if len(sys.argv) > 2 else 100
-PHASES, ROLES, CALLED = collections.Counter(), collections.Counter(), []
+PHASES, ROLES, CALLED = collections.Counter(), collections.defaultdict(collections.Counter), []
 REMARKS = ("left out", "implausible", "unit not given", "read: intervals")
 
 
@@ -45,10 +45,12 @@ for seed in range(1, campaigns + 1):
         if line.startswith("rows read:"):
             for rows, phase in re.findall(r"(\d[\d,]*) (\w+)", line):
                 PHASES[phase] += int(rows.replace(",", ""))
-        elif line.startswith(REMARKS) or "is the measured friction" in line:
+        elif line.startswith(REMARKS) or "belongs to the measured friction" in line:
             CALLED.append(f"{' '.join(options(seed))}: {line}")
-    ROLES.update(column["role"] for column in columns)
+    for column in columns:
+        ROLES[column["role"]][column["column"]] += 1
 
 print(f"SYNTHETIC data, {campaigns} campaigns. Rows:", dict(PHASES))
-print("Columns:", dict(ROLES))
+for role, names in ROLES.items():
+    print(f"  {role}:", ", ".join(f"{name} {count}" for name, count in sorted(names.items())))
 print(f"Called, {len(CALLED)}:", *CALLED, sep="\n  ")

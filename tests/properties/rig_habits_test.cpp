@@ -70,11 +70,11 @@ struct Expected {
 Expected expected(Habit habit) {
   switch (habit) {
   case Habit::raw_channels:
-    return {"is the measured friction"};
+    return {"belongs to the measured friction"};
   case Habit::coefficient_beside:
-    return {"COF is the measured friction"};
+    return {"COF belongs to the measured friction"};
   case Habit::torque:
-    return {"Torque [Nmm] is the measured friction"};
+    return {"Torque [Nmm] belongs to the measured friction"};
   case Habit::rest:
     return {"rest"};
   case Habit::reversals:

@@ -243,7 +243,7 @@ TEST(Roles, FollowFromTheJobTheDataAndNamesInThatOrder) {
   EXPECT_EQ(role_of(data, "step_pct"), Role::setting);
   EXPECT_EQ(role_of(data, "Contact Potential"), Role::channel) << "at three values, set by nobody";
   EXPECT_EQ(role_of(data, "time_s"), Role::clock);
-  EXPECT_THAT(data.notes, Contains(HasSubstr("torque is the measured friction")));
+  EXPECT_THAT(data.notes, Contains(HasSubstr("torque belongs to the measured friction")));
 }
 
 TEST(Roles, FreeTextIsNoLabel) {
