@@ -30,7 +30,10 @@ using Eigen::VectorXd;
 // named, and 166 of 185 disguises were. What this code calls is in tests/unit/roles_test.cpp.
 constexpr double sure_share = 0.05, ask_share = 0.2; // of y's mean square
 constexpr double own_scatter = 0.5;                  // from row to row
-constexpr double sure_direct = 0.02;                 // of the best formula of states alone
+constexpr std::size_t few_levels = 8;                // of a number that tests share
+constexpr double shared_values = 0.3;                // of tests, that have a value of others
+constexpr double of_factor = 0.5;    // of what a factor leaves alone, that a reading leaves with it
+constexpr double sure_direct = 0.02; // of the best formula of states alone
 constexpr double sure_rank = 0.999, state_rank = 0.99;
 constexpr double sure_linear = 0.95, ask_linear = 0.85; // R squared from row to row
 constexpr std::array<Index, 3> least_of_level = {40, 60, 10};
@@ -105,6 +108,22 @@ double resolution(const VectorXd& x) {
     if (const double step = sorted[i] - sorted[i - 1]; step > nothing)
       least = std::min(least, step);
   return std::isfinite(least) ? least : 0;
+}
+
+// The step in which values are written, over their median: 0.115, 0.12 and 0.13 in steps of 0.005.
+double written_step(const std::vector<double>& values) {
+  double decimal = 1;
+  const auto is_whole = [&](double value) {
+    return std::abs(value / decimal - std::round(value / decimal)) < 1e-6;
+  };
+  while (decimal > 1e-9 && !std::all_of(values.begin(), values.end(), is_whole))
+    decimal /= 10;
+  long long step = 0;
+  for (const double value : values) {
+    if (!(std::abs(value / decimal) < 1e15)) return 0; // more digits than a double holds
+    step = std::gcd(step, std::llround(value / decimal));
+  }
+  return static_cast<double>(step) * decimal / std::max(std::abs(upper_median(values)), 1e-300);
 }
 
 // Mean of the numbers in a text: "0.10-0.12" is 0.11.
@@ -323,6 +342,7 @@ struct Recorded {
   std::array<VectorXd, 3> logarithms;
   bool inside = false;
   bool is_reading = true; // else a factor only
+  double step = 0;        // of values that tests share, over their median
 };
 
 struct Best {
@@ -408,6 +428,8 @@ private:
     one.is_reading = is_reading(one) && may_be_called;
     if (!one.is_reading && !column.levels.empty()) return; // numbers of levels
     one.logarithms = cut_.levels(logarithm(one.values, floor_share));
+    one.step = shared_step(one);
+    one.is_reading = one.is_reading && std::isfinite(one.step);
     const VectorXd values = one.values;
     const bool called = one.is_reading;
     recorded_.push_back(std::move(one));
@@ -433,6 +455,30 @@ private:
     const double largest = one.values.cwiseAbs().maxCoeff<Eigen::PropagateNumbers>();
     one.inside = upper_median({spreads.data(), spreads.data() + spreads.size()}) > 1e-9 * largest;
     return one.inside || (count > 0.5 * tests && count >= 4);
+  }
+
+  // Where tests share values of it: the step in which these are written; infinite where there are
+  // so few that they were set; 0: they do not.
+  double shared_step(const Recorded& one) const {
+    if (one.inside) return 0;
+    std::map<double, std::size_t> tests_of;
+    for (const double value : cut_.means_of_tests(one.values))
+      if (is_known(value)) ++tests_of[value];
+    std::size_t tests = 0, shared = 0;
+    std::vector<double> values;
+    for (const auto& [value, count] : tests_of) {
+      values.push_back(value);
+      tests += count;
+      if (count > 1) shared += count;
+    }
+    if (static_cast<double>(shared) < shared_values * static_cast<double>(tests)) return 0;
+    return tests_of.size() < few_levels ? infinite : written_step(values);
+  }
+
+  // Whether tests that share a value of it differ in friction by more than its digits hide: a dose
+  // that friction goes with, and no reading. (Rounding makes less than a third of a step.)
+  static bool is_set_again(const Recorded& one, std::size_t level, const VectorXd& apart) {
+    return level == 2 && one.step > 0 && spread_of(apart) > one.step;
   }
 
   // What only grows or only falls within tests: a sum, a work.
@@ -499,7 +545,8 @@ private:
       if (!says_something(level, rest, y)) continue;
       for (const double sign : {1.0, -1.0}) {
         const double share = share_left(y, sign * z) * of_freedom(rest);
-        if (share < best.share) best = {share, text_of(one.name, sign, "", 0, share)};
+        if (share < best.share && !is_set_again(one, level, y - sign * z))
+          best = {share, text_of(one.name, sign, "", 0, share)};
       }
       if (!std::isfinite(finest)) finest = best.share;
     }
@@ -556,6 +603,11 @@ private:
         const Rest all(known_of(whole_[level], level, one, other), states_of(level), level == 2);
         if (!says_something(level, all, all.of(tau_levels_[level]))) return;
         const double left = share(all, e, f);
+        const VectorXd apart = all.of(tau_levels_[level]) -
+                               all.of(e * one.logarithms[level] + f * other.logarithms[level]);
+        if (left > of_factor * share(all, 0, f) || // the factor does it alone: a cause
+            is_set_again(one, level, apart))
+          continue;
         if (left < std::min(best.share, sure_share))
           best = {left, text_of(one.name, e, other.name, f, left)};
       }

@@ -185,9 +185,32 @@ TEST(Roles, AReadingOfOneRowPerTestIsCalledOne) {
   Rig rig(1, 27, 1);
   rig.add("pull", [&](auto, auto i) { return 0.37 * rig.at("tau_R_MPa", i); });
   rig.add("humidity", [&](auto, auto) { return 45 + 8 * rig.normal(); });
+  rig.add("cof", [&](auto, auto i) { // read in five thousandths: tests share its values
+    return std::round(200 * rig.at("tau_R_MPa", i) / rig.at("sigma_n_MPa", i)) / 200;
+  });
   EXPECT_TRUE(is_called(rig.data, "pull"));
+  EXPECT_TRUE(is_called(rig.data, "cof"));
   EXPECT_FALSE(is_called(rig.data, "humidity"));
   EXPECT_FALSE(is_called(rig.data, "film_nm"));
+}
+
+// A dose in five steps, and friction in proportion to it: nothing is left beside the dose, but
+// tests of one dose differ in friction and not in it. What hardly varies is no reading times the
+// dose either.
+TEST(Roles, ADoseThatFrictionGoesWithIsNoReading) {
+  constexpr double doses[] = {0.3, 0.975, 1.65, 2.325, 3};
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Rig rig(5000 + seed, 12 + seed, 1);
+    const auto dose = rig.of_tests([&] { return doses[std::size_t(5 * rig.uniform())]; });
+    rig.add("dose", [&](auto e, auto) { return dose[e]; });
+    rig.add("air_hPa", [&](auto, auto) { return std::round(1000 + 10 * rig.normal()); });
+    for (Column& column : rig.data.columns)
+      if (column.name == "tau_R_MPa")
+        for (std::size_t i = 0; i < column.values.size(); ++i)
+          column.values[i] *= dose[i];
+    EXPECT_FALSE(is_called(rig.data, "dose")) << "seed " << seed;
+    EXPECT_FALSE(is_called(rig.data, "air_hPa")) << "seed " << seed;
+  }
 }
 
 TEST(Roles, TextWhoseNumbersAreTheFrictionIsAReading) {
