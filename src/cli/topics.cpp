@@ -75,7 +75,7 @@ Explanation about_rules() {
                                       "docs/measurements.md, Reading"}},
                   "rules",
                   {}};
-  for (const data::Rule& rule : data::rules()) {
+  for (const data::ReadingRule& rule : data::reading_rules()) {
     std::string wrong = "not measured";
     if (rule.wrong.of > 0)
       wrong = fmt::format("{} of {} {}", thousands(rule.wrong.calls), thousands(rule.wrong.of),

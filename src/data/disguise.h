@@ -23,9 +23,10 @@ struct Disguise {
 };
 
 // By the column's name, over the rows of all parts together. Settings (few values, each of whole
-// tests) are never called: what was set is no reading of what came of it. They may be the other
-// column, a radius or an area, as may those that states are computed from, `of_states`. Not looked
-// at are columns whose role is known otherwise, `known`.
+// tests, or values shared by tests that differ in friction by more than their digits hide) are
+// never called: what was set is no reading of what came of it. They may be the other column, a
+// radius or an area, as may those that states are computed from, `of_states`. Not looked at are
+// columns whose role is known otherwise, `known`.
 std::map<std::string, Disguise> find_disguises(std::span<const Dataset* const> parts,
                                                const std::set<std::string>& known,
                                                const std::set<std::string>& of_states = {});

@@ -274,8 +274,8 @@ void find_roles(std::span<Dataset* const> parts, const DataOptions& options, Fau
           same.why = given.why;
         }
     if (given.role == Role::response && !find_quantity(column.name))
-      parts.front()->notes.push_back(
-          fmt::format("{} belongs to the measured friction, no cause of it: {}", column.name, given.why));
+      parts.front()->notes.push_back(fmt::format(
+          "{} belongs to the measured friction, no cause of it: {}", column.name, given.why));
   }
 }
 

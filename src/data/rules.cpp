@@ -16,7 +16,7 @@ constexpr const char *not_a_cause = "no cause of friction",
 constexpr FalseCalls of_columns = {0, 788, "columns"}, of_rows = {0, 425940, "rows"},
                      of_campaigns = {0, 100, "campaigns"}, not_measured = {0, 0, ""};
 
-constexpr Rule all_rules[] = {
+constexpr ReadingRule all_rules[] = {
     {"columns", "state", "a quantity of frictab's, or what one is computed from",
      "laws may take it", by_roles, not_measured},
     {"columns",
@@ -107,7 +107,7 @@ constexpr Rule all_rules[] = {
 
 } // namespace
 
-std::span<const Rule> rules() {
+std::span<const ReadingRule> reading_rules() {
   return all_rules;
 }
 

@@ -14,7 +14,7 @@ struct FalseCalls {
   const char* chances; // "columns"
 };
 
-struct Rule {
+struct ReadingRule {
   const char* about; // "columns", "rows", "tests", "campaign"
   const char* name;  // of a role, a phase, or a check for data.allow_implausible
   const char* when;
@@ -24,6 +24,6 @@ struct Rule {
 };
 
 // In the order in which they are applied.
-std::span<const Rule> rules();
+std::span<const ReadingRule> reading_rules();
 
 } // namespace frictab::data

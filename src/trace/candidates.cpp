@@ -294,8 +294,8 @@ private:
   // What the measured stress comes from is told where it was read; channels and outcomes are leads.
   bool left_out_by_role(const Column& column) {
     if (column.role == data::Role::response)
-      found_.notes.push_back(
-          fmt::format("{} belongs to the measured friction ({}){}", column.name, column.why, not_searched));
+      found_.notes.push_back(fmt::format("{} belongs to the measured friction ({}){}", column.name,
+                                         column.why, not_searched));
     return false;
   }
 

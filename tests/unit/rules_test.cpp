@@ -14,16 +14,17 @@
 
 namespace frictab::rules_test {
 
-using data::Rule;
-using data::rules;
+using data::reading_rules;
+using data::ReadingRule;
 
 namespace {
 
 std::set<std::string> names_of(const std::string& about, const std::string& key) {
   std::set<std::string> names;
-  for (const Rule& rule : rules())
-    if ((about.empty() || rule.about == about) && rule.overruled_by == key)
+  for (const ReadingRule& rule : reading_rules())
+    if ((about.empty() || rule.about == about) && rule.overruled_by == key) {
       EXPECT_TRUE(names.insert(rule.name).second) << rule.name << " stands there twice";
+    }
   return names;
 }
 
@@ -48,7 +49,7 @@ TEST(Rules, EveryPlausibilityCheckHasARow) {
 }
 
 TEST(Rules, NoRateIsClaimedWithoutItsChances) {
-  for (const Rule& rule : rules()) {
+  for (const ReadingRule& rule : reading_rules()) {
     EXPECT_LE(rule.wrong.calls, rule.wrong.of) << rule.name;
     EXPECT_EQ(rule.wrong.of > 0, std::string(rule.wrong.chances) != "") << rule.name;
   }
