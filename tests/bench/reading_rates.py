@@ -15,6 +15,7 @@ frictab = sys.argv[1]
 campaigns = int(sys.argv[2]) if len(sys.argv) > 2 else 100
 PHASES, ROLES, CALLED = collections.Counter(), collections.defaultdict(collections.Counter), []
 REMARKS = ("left out", "implausible", "unit not given", "read: intervals")
+CALLS = ("belongs to the measured friction", "both signs", "is negative in")
 
 
 def options(seed):
@@ -45,7 +46,7 @@ for seed in range(1, campaigns + 1):
         if line.startswith("rows read:"):
             for rows, phase in re.findall(r"(\d[\d,]*) (\w+)", line):
                 PHASES[phase] += int(rows.replace(",", ""))
-        elif line.startswith(REMARKS) or "belongs to the measured friction" in line:
+        elif line.startswith(REMARKS) or any(words in line for words in CALLS):
             CALLED.append(f"{' '.join(options(seed))}: {line}")
     for column in columns:
         ROLES[column["role"]][column["column"]] += 1
