@@ -1,7 +1,6 @@
 """Runs frictab on a job folder and reads what it wrote."""
 import json
 import os
-import resource
 import subprocess
 import tomllib
 from pathlib import Path
@@ -14,16 +13,13 @@ DISTANCE_HISTORIES = {"sliding_distance", "time_since_start", "friction_work", "
 
 class Frictab:
     def __init__(self, binary, folder, job="job.toml"):
-        self.binary, self.folder, self.job, self.seconds = str(Path(binary).resolve()), Path(folder), job, 0.0
+        self.binary, self.folder, self.job = str(Path(binary).resolve()), Path(folder), job
         settings = tomllib.loads((self.folder / job).read_text())
         self.out = self.folder / settings.get("output", {}).get("directory", "out")
 
     def run(self, *arguments):
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
         done = subprocess.run([self.binary, *arguments], cwd=self.folder, capture_output=True, text=True,
                               env={**os.environ, "OMP_NUM_THREADS": "1"})
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        self.seconds += after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         if done.returncode:
             said = (done.stderr.strip() or done.stdout.strip())[-500:]
             raise RuntimeError(f"frictab {' '.join(arguments)} ended with {done.returncode}: {said}")
