@@ -74,6 +74,10 @@ PlacedEffect start_effect(const effects::EffectForm& form, const Cause& cause,
 
 namespace {
 
+bool is_angle(const std::string& name) {
+  return name.ends_with("_deg") || name.find("angle") != std::string::npos;
+}
+
 // Distance or time: along anything else a wave is a way to bend.
 bool is_along(const std::string& name) {
   return name == "s_mm" || name == "time_s" || name == "sliding_distance" ||
@@ -92,6 +96,7 @@ bool has_meaning(const effects::EffectForm& form, const CandidateColumn& x) {
     return x.spread.minimum >= 0 && x.spread.minimum < 0.5 * x.spread.maximum;
   // A wave is seen along an experiment; from test to test it imitates whatever lies between.
   if (form.name == "periodic") return x.reach > 0.5 && is_along(x.name);
+  if (form.name == "cosine") return is_angle(x.name);
   if (form.name == "hysteresis") return x.name == "load_ratio";
   return true;
 }

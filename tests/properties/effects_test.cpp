@@ -198,7 +198,7 @@ TEST(Effects, HoldEveryFormOnce) {
   EXPECT_EQ(join(effects::effect_names(), " "),
             "power exponential linear logarithmic arrhenius saturation hinge step bump stribeck "
             "periodic category product parabola hysteresis category_slope threshold2 recovery "
-            "product3 spline surface spline_by_level");
+            "product3 cosine ramp spline surface spline_by_level");
 }
 
 TEST(Effects, SpreadIgnoresWhatIsNotFinite) {
