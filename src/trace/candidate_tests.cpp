@@ -66,10 +66,20 @@ struct Range {
   double width() const { return high - low; }
   Range widened() const {
     const double end = range_widened * width();
-    // A range of positive values is not widened to 0 or below.
-    return {low > 0 ? std::max(low - end, 0.5 * low) : low - end, high + end};
+    // What is never negative stays so, and what is positive does not come near 0.
+    return {low > 0 ? std::max(low - end, 0.5 * low) : low == 0 ? 0 : low - end, high + end};
   }
 };
+
+// Values that tests share: of a switch, of grades. No others can be set. Empty: it has many.
+std::vector<double> levels_of(std::vector<double> values) {
+  constexpr std::size_t most_levels = 5, tests_each = 2;
+  std::sort(values.begin(), values.end());
+  const std::size_t tests = values.size();
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  if (values.size() > most_levels || values.size() * tests_each > tests) values.clear();
+  return values;
+}
 
 Range range_of(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -193,6 +203,11 @@ private:
   std::size_t begin_ = 0, rows_ = 0;
 };
 
+// Whether it is the order of tests, which nobody sets: 1, 2, 3, ...
+bool numbers_tests(const Column& column) {
+  return column.name == "test_order" || column.name == "run_order" || column.name == "test_number";
+}
+
 } // namespace
 
 std::vector<Setting> settings_of(const Dataset& data, const std::vector<std::string>& columns) {
@@ -201,7 +216,7 @@ std::vector<Setting> settings_of(const Dataset& data, const std::vector<std::str
     const Column* column = data.find(name);
     const bool known = std::any_of(settings.begin(), settings.end(),
                                    [&](const Setting& s) { return s.column == name; });
-    if (known || !column) return;
+    if (known || !column || numbers_tests(*column)) return;
     Setting setting{name, {}, column->levels};
     if (!column->levels.empty()) {
       for (std::size_t level = 0; level < column->levels.size(); ++level)
@@ -211,8 +226,12 @@ std::vector<Setting> settings_of(const Dataset& data, const std::vector<std::str
       const Range run = range_of(test_means(data, *column));
       if (!(run.width() > varied * std::abs(run.low + run.high) / 2)) return;
       const Range range = run.widened();
-      for (const double value : {range.low, (range.low + range.high) / 2, range.high})
-        add_value(setting, value);
+      if (const auto levels = levels_of(test_means(data, *column)); !levels.empty()) {
+        for (const double value : {levels.front(), levels[levels.size() / 2], levels.back()})
+          if (setting.values.empty() || value != setting.values.back()) add_value(setting, value);
+      } else
+        for (const double value : {range.low, (range.low + range.high) / 2, range.high})
+          add_value(setting, value);
     }
     if (setting.values.size() > 1) settings.push_back(std::move(setting));
   };

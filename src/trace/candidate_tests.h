@@ -17,7 +17,8 @@ struct Setting {
 };
 
 // The ends and the middle of what the campaign has run, its range widened by this part of it at
-// either end; of a text column, all its levels.
+// either end; of a text column, all its levels; of a number with at most five values that tests
+// share, the least, the middle and the largest of these. Nothing that is never negative becomes so.
 inline constexpr double range_widened = 0.1;
 
 // Of those columns, what can be set and was varied: surface expansion, sliding distance and time

@@ -527,6 +527,54 @@ std::vector<Cause> all_causes(const Candidates& candidates) {
   return all;
 }
 
+bool is_state(const CandidateColumn& column) {
+  const data::Quantity* known = data::find_quantity(column.name);
+  return (column.in_law || (known && known->state)) && column.name != "s_mm" &&
+         column.name != "time_s";
+}
+
+Eigen::MatrixXd state_means(const Candidates& candidates, const Blocks& blocks) {
+  Eigen::MatrixXd all(static_cast<Eigen::Index>(blocks.experiments()), 0);
+  for (const CandidateColumn& column : candidates.columns) {
+    if (!is_state(column) || column.name == "sigma_f_MPa") continue; // which follows from others
+    Eigen::VectorXd x = blocks.experiment_means(column.values).col(0);
+    x.array() -= x.mean();
+    const double sd = x.norm() / std::sqrt(static_cast<double>(x.size()));
+    if (!(sd > 0)) continue;
+    all.conservativeResize(Eigen::NoChange, all.cols() + 1);
+    all.rightCols(1) = x / sd;
+  }
+  return all;
+}
+
+bool one_factor_at_a_time(const Eigen::MatrixXd& states) {
+  constexpr double changed = 0.2; // of a state's range, from its median
+  constexpr double most = 0.05;   // of the tests, that change more than one state
+  if (states.cols() < 2 || states.rows() < 5) return false;
+  Eigen::VectorXi count = Eigen::VectorXi::Zero(states.rows());
+  for (Eigen::Index s = 0; s < states.cols(); ++s) {
+    Eigen::VectorXd sorted = states.col(s);
+    std::sort(sorted.begin(), sorted.end());
+    const double range = sorted(sorted.size() - 1) - sorted(0), middle = sorted(sorted.size() / 2);
+    count += ((states.col(s).array() - middle).abs() > changed * range).cast<int>().matrix();
+  }
+  const auto several = static_cast<double>((count.array() > 1).count());
+  return several <= most * static_cast<double>(states.rows());
+}
+
+std::optional<Cause> cause_in(const Candidates& to, const Cause& cause, const Candidates& from) {
+  Cause found = cause;
+  for (std::size_t& column : found.columns) {
+    const auto at =
+        std::find_if(to.columns.begin(), to.columns.end(), [&](const CandidateColumn& one) {
+          return one.name == from.columns[column].name;
+        });
+    if (at == to.columns.end()) return std::nullopt;
+    column = static_cast<std::size_t>(at - to.columns.begin());
+  }
+  return found;
+}
+
 std::string cause_name(const Cause& cause, const Candidates& candidates) {
   std::vector<std::string> names;
   for (const std::size_t c : cause.columns)

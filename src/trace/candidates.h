@@ -2,6 +2,7 @@
 // experiment, and pairs.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,13 @@ Candidates find_candidates(const data::Dataset& training, const data::Dataset& v
 // In how many different values of a column the tests begin. Fewer than 3 order nothing.
 std::size_t values_of_tests(const data::Column& column, const data::Dataset& data);
 
+// What a rig holds, and a law may depend on: not time or distance.
+bool is_state(const CandidateColumn& column);
+// Per test, those that differ between tests: mean 0, standard deviation 1.
+Eigen::MatrixXd state_means(const Candidates& candidates, const Blocks& blocks);
+// Whether hardly a test changes more than one state: what several do together, none can show.
+bool one_factor_at_a_time(const Eigen::MatrixXd& states);
+
 // What an effect may follow: one column, or two or three of them that act together.
 struct Cause {
   std::vector<std::size_t> columns; // a text column first, else ascending
@@ -65,6 +73,9 @@ Cause joined_cause(const Cause& cause, std::size_t column, const Candidates& can
 std::vector<Cause> all_causes(const Candidates& candidates);
 // Whether these columns together are another thing than one of them alone.
 bool may_act_together(const Cause& cause, const Candidates& candidates);
+
+// The same cause in a campaign whose columns may be numbered otherwise; none where it lacks one.
+std::optional<Cause> cause_in(const Candidates& to, const Cause& cause, const Candidates& from);
 
 std::string cause_name(const Cause& cause, const Candidates& candidates);
 // 0 a recorded column, 1 a history that every routine with state variables follows, 2 one that it

@@ -23,15 +23,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t short_list = 8;    // causes
-constexpr float least_of_best = 0.6f;    // statistic
-constexpr std::size_t most_joined = 3;   // of them, tried together with other columns
 constexpr std::size_t fitted_rivals = 6; // of which a set is made
 constexpr double told_apart = 3;         // standard errors, by selected tests alone
 constexpr double per_complexity = 3;     // of -2 log likelihood, for a step from what is recorded
 // Of penalised log likelihood: where the data cannot tell sites apart, an effect acts on mu.
 constexpr std::array<double, sites.size()> site_margins = {0.0, 0.5, 1.5, 0.25};
-constexpr std::size_t forms_tried = 6;  // at each site
+constexpr std::size_t forms_tried = 8;  // at each site
 constexpr std::size_t forms_on_all = 3; // of those, where they were fitted to selected tests first
 
 // One way to explain the residual, linear in its coefficients.
@@ -44,64 +41,6 @@ struct Option {
 };
 
 using Options = std::vector<Option>;
-
-bool is_numeric(const Cause& cause, const Candidates& candidates) {
-  return std::all_of(cause.columns.begin(), cause.columns.end(),
-                     [&](std::size_t c) { return candidates.columns[c].levels.empty(); });
-}
-
-// The best direction of each cause and site.
-std::map<std::pair<Cause, std::size_t>, const Direction*>
-best_directions(const Search& search, const ScreenResult& screened) {
-  std::map<std::pair<Cause, std::size_t>, const Direction*> best;
-  for (const Direction& d : screened.directions) {
-    const Direction*& here = best[{search.causes[d.cause], d.site}];
-    if (!here || std::abs(d.statistic) > std::abs(here->statistic)) here = &d;
-  }
-  return best;
-}
-
-// Causes near the best, best first.
-std::vector<Cause> near_the_best(const Search& search, const ScreenResult& screened,
-                                 double threshold) {
-  std::map<Cause, float> best;
-  for (const Direction& d : screened.directions) {
-    float& here = best[search.causes[d.cause]];
-    here = std::max(here, std::abs(d.statistic));
-  }
-  std::vector<std::pair<float, Cause>> sorted;
-  for (const auto& [cause, statistic] : best)
-    sorted.emplace_back(-statistic, cause);
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<Cause> list;
-  for (const auto& [statistic, cause] : sorted) {
-    const float least = std::min(static_cast<float>(threshold), -least_of_best * sorted[0].first);
-    if (list.size() < short_list && -statistic >= least) list.push_back(cause);
-  }
-  return list;
-}
-
-// The short list, and its single columns together with a partner: the first effect with the inputs
-// of the law, later ones with the columns of effects that are in the law already.
-std::vector<Cause> with_partners(const Search& search, const std::vector<Cause>& list) {
-  const Candidates& candidates = search.candidates;
-  std::set<std::size_t> partners;
-  for (std::size_t c = 0; c < candidates.columns.size(); ++c)
-    if (candidates.columns[c].in_law && search.last().effects.empty()) partners.insert(c);
-  for (const Cause& cause : search.last().causes)
-    if (cause.columns.size() == 1) partners.insert(cause.columns[0]);
-  std::vector<Cause> more = list;
-  std::size_t taken = 0;
-  for (const Cause& cause : list) {
-    if (cause.columns.size() != 1 || taken++ >= most_joined) continue;
-    for (const std::size_t partner : partners) {
-      Cause both = joined_cause(cause, partner, candidates);
-      if (partner == cause.columns[0] || !may_act_together(both, candidates)) continue;
-      if (std::find(more.begin(), more.end(), both) == more.end()) more.push_back(both);
-    }
-  }
-  return more;
-}
 
 // Per block and amplitude, what tau_R changes; not whitened. (Made where it is used: of all options
 // together it would fill the memory.)
@@ -118,29 +57,6 @@ Option option_of(const Cause& cause, PlacedEffect effect) {
   const auto count = static_cast<Index>(effects::amplitudes_of(effect));
   const MatrixXd penalty = effect.form->penalty ? roughness_of(effect) : ridge(count);
   return {cause, std::move(effect), penalty, {}, 0};
-}
-
-// Per cause and site a smooth, and the shape that the screening liked best: some shapes, as a short
-// wave, no smooth can follow.
-Options all_options(const Search& search, const ScreenResult& screened,
-                    const std::vector<Cause>& causes) {
-  const auto best = best_directions(search, screened);
-  Options options;
-  for (const Cause& cause : causes)
-    for (std::size_t p = 0; p < sites.size(); ++p) {
-      if (search.sensitivities()[p].size() == 0) continue;
-      const auto found = best.find({cause, p});
-      if (p > 0 && found == best.end()) continue;
-      if (cause.columns.size() < 3) // (three of them have one closed form)
-        options.push_back(option_of(cause, smooth_effect(search, cause, sites[p])));
-      if (found == best.end() || !is_numeric(cause, search.candidates)) continue;
-      const Direction& d = *found->second;
-      PlacedEffect shape = search.shapes[d.cause][d.shape].effect;
-      shape.acts_on = sites[p];
-      shape.tau_scale_MPa = search.tau_scale_MPa;
-      options.push_back(option_of(cause, std::move(shape)));
-    }
-  return options;
 }
 
 // Fits all options under the same noise model, so that they can be compared.
@@ -254,20 +170,25 @@ PlacedEffect smooth_effect(const Search& search, const Cause& cause, effects::Ac
                       search.tau_scale_MPa);
 }
 
-std::vector<Rival> choose_cause(const Search& search, const ScreenResult& screened,
-                                const NoiseModel& noise) {
-  const double alpha = search.family_alpha();
-  const std::vector<Cause> list =
-      with_partners(search, near_the_best(search, screened, screened.threshold(alpha)));
-  Options options = all_options(search, screened, list);
-  if (options.empty()) return {};
+std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>& suspects) {
+  Options options;
+  for (const Suspect& suspect : suspects)
+    options.push_back(option_of(suspect.cause, suspect.effect));
+  // One noise model for all, fitted with the first in: what it explains is no noise.
+  std::vector<PlacedEffect> effects = search.last().effects;
+  std::vector<Cause> causes = search.last().causes;
+  effects.push_back(plain_effect(search, suspects.front().cause));
+  causes.push_back(suspects.front().cause);
+  const NoiseModel noise = fit_rival(search.campaign(), search.last(), effects, causes,
+                                     search.last().noise, NoiseSearch::again)
+                               .noise;
   fit_options(search, noise, options);
   sort_options(options);
   Options best; // of each cause
   for (Option& option : options)
     if (std::none_of(best.begin(), best.end(),
                      [&](const Option& o) { return o.cause == option.cause; }) &&
-        best.size() < (search.campaign().quick ? 1 : fitted_rivals))
+        best.size() < fitted_rivals)
       best.push_back(std::move(option));
   if (search.campaign().selection) drop_told_apart(search, noise, best);
   std::vector<Rival> rivals = rivals_of(search, search.campaign(), best, noise);
@@ -417,10 +338,13 @@ void keep_promising(double share, std::size_t index, std::vector<Start>& starts,
 } // namespace
 
 std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::size_t index) {
+  if (search.sensitivities()[site_of(winner.effects[index])].size() == 0)
+    return {winner}; // with the others in, its site changes nothing any more
   std::vector<Start> starts = FormStarts(search, winner, index).run();
   std::map<effects::ActsOn, std::size_t> tried;
-  std::erase_if(starts,
-                [&](const Start& start) { return tried[start.effect.acts_on]++ >= forms_tried; });
+  std::erase_if(starts, [&](const Start& start) {
+    return !start.effect.form->penalty && tried[start.effect.acts_on]++ >= forms_tried;
+  });
   std::vector<Rival> rivals = fit_forms(selected(search.campaign()), winner, index, starts);
   if (search.campaign().selection) {
     keep_promising(search.campaign().selection->share, index, starts, rivals);
@@ -428,6 +352,7 @@ std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::s
   }
   rivals.push_back(winner);
   rivals.back().penalised -= site_margins[site_of(winner.effects[index])];
+  if (winner.effects[index].form->penalty) rivals.back().penalised -= smooth_margin;
   std::stable_sort(rivals.begin(), rivals.end(),
                    [](const Rival& a, const Rival& b) { return a.penalised > b.penalised; });
   return rivals;

@@ -5,12 +5,17 @@
 
 namespace frictab::trace {
 
+// A cause that what was found may also be, with a smooth effect or one shape of it.
+struct Suspect {
+  Cause cause;
+  effects::PlacedEffect effect;
+};
+
 // Rivals with one more effect than `search.last()`, one per cause, best first, all under one noise
-// model, which was fitted with the leading direction in. Causes are compared by penalised smooths
-// (restricted likelihood), so that the choice does not hang on a form; short-listed are those whose
-// statistic is near the best, what they may form with inputs of the law, and with what is in.
-std::vector<Rival> choose_cause(const Search& search, const ScreenResult& screened,
-                                const NoiseModel& noise);
+// model, on all blocks: a search that tries thousands of terms looks at fewer. Causes are compared
+// by penalised smooths (restricted likelihood), so that the choice does not hang on a form; a step
+// away from what is recorded has its price. The first suspect is that of the search.
+std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>& suspects);
 
 // The last effect of `winner` in every closed form that its columns allow and at the sites where
 // it may act; a closed form takes the place of a smooth where it is as good within the cost of

@@ -12,6 +12,7 @@
 #include "calibrate/comparison.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/metrics.h"
+#include "trace/choose_effect.h"
 #include "trace/design.h"
 #include "trace/rows_alike.h"
 
@@ -26,6 +27,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double unlikely_share = 1e-3; // of the mean square that is left: R^2 above 0.999
+constexpr double clearly_better = 2;    // standard errors, that a curve without a formula has to be
 constexpr double apart_level = 1e-3;    // p-value at which validation is another world
 
 class Deliverer {
@@ -34,27 +36,31 @@ public:
 
   Delivery run() {
     t_.as_calibrated = {in_.fit.training, in_.fit.validation};
-    const std::size_t found = s_.findings.size();
-    if (found > 0) {
-      d_.nested = nested_errors(s_);
-      best_ = d_.nested.best();
-      const std::size_t paying = best_.effects;
-      if (by_validation()) best_ = confirmed(best_);
-      const std::size_t shown = best_.effects > 0 ? best_.effects : found;
-      const NestedErrors::Gain gain = d_.nested.gain(shown, best_.weights);
-      t_.nested = {d_.nested.folds, gain.error, gain.error_se, gain.score,
-                   gain.score_se,   found,      paying};
+    law_ = s_.last();
+    of_law_ = all_found();
+    take(all_found());
+    if (d_.findings.empty() && !in_.searched.empty() && s_.order.found) judge_by_folds();
+    if (!d_.findings.empty()) {
+      judge_by_folds();
+      const NestedErrors::Gain gain = d_.nested.gain(weights_);
+      const bool pays = gain.error > 0 && (s_.pays || gain.error > gain.error_se);
+      t_.nested = {d_.nested.folds,
+                   gain.error,
+                   gain.error_se,
+                   gain.score,
+                   gain.score_se,
+                   s_.findings.size(),
+                   pays ? s_.findings.size() : 0};
+      if (!pays && !(by_validation() && shown_by_validation())) take_all_back({does_not_pay()});
+      if (pays) {
+        drop_losses();
+        smooth_where_clearly_better();
+      }
     }
-    take_findings(best_.effects, best_.weights);
     drop_contradicted();
     compare_errors();
-    while (const std::size_t reading = too_good()) {
-      against_[d_.findings[reading - 1]] = another_reading(d_.findings[reading - 1]);
-      d_.gain_MPa.clear();
-      take_findings(d_.findings[reading - 1], weights_);
-      drop_contradicted();
-      compare_errors();
-    }
+    while (const std::size_t reading = too_good())
+      take_off(reading - 1, another_reading(d_.findings[reading - 1]));
     if (!d_.findings.empty() && by_validation()) {
       Difference gain = against_calibrated();
       if (gain.value_MPa <= 0 && weights_ == 0) {
@@ -68,6 +74,9 @@ public:
       else
         t_.over_calibrated = gain;
     }
+    if (!d_.findings.empty() && !by_validation() && t_.improvement.value_MPa <= 0)
+      take_all_back({fmt::format("left-out tests are predicted {:.3g} MPa worse with it",
+                                 -t_.improvement.value_MPa)});
     add_leads();
     return std::move(d_);
   }
@@ -77,14 +86,72 @@ private:
     return weights_ == 0 ? rival : with_weights(s_.campaign(), rival, rows_alike(rival.noise));
   }
 
-  void take_findings(std::size_t effects, std::size_t weights) {
-    weights_ = weights;
-    tried_ = effects;
-    d_.findings.resize(effects);
-    std::iota(d_.findings.begin(), d_.findings.end(), 0);
+  std::vector<std::size_t> all_found() const {
+    std::vector<std::size_t> all(s_.findings.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+
+  // The law with these findings, under the weights chosen.
+  void take(std::vector<std::size_t> findings) {
+    d_.findings = std::move(findings);
     d_.baseline = weighted(s_.base);
-    d_.rival = effects == 0 ? d_.baseline : s_.with_first(effects);
+    d_.rival = law_;
+    for (std::size_t i = of_law_.size(); i-- > 0;)
+      if (std::find(d_.findings.begin(), d_.findings.end(), of_law_[i]) == d_.findings.end())
+        d_.rival = without_effect(s_.campaign(), d_.rival, i);
+    if (d_.findings.empty()) d_.rival = s_.base;
+    offered_ = d_.rival;
     if (weights_ == 1) weigh_alike();
+  }
+
+  // Errors on tests left out, of the law that is taken; weights are chosen by them.
+  void judge_by_folds() {
+    d_.nested = nested_errors(s_, offered_);
+    judged_ = d_.findings;
+    weights_ = d_.nested.better_weights(true);
+    take(d_.findings);
+  }
+
+  double nested_mae(const LeftOut& errors) const {
+    return calibrate::metrics(errors.sums, 0, in_.seed).mae_MPa;
+  }
+
+  // What a finding that was judged gains on tests left out.
+  double nested_gain(std::size_t finding) const {
+    const NestedErrors::Weighted& errors = d_.nested.weighted[weights_];
+    const auto at = std::find(judged_.begin(), judged_.end(), finding) - judged_.begin();
+    return nested_mae(errors.without[static_cast<std::size_t>(at)]) - nested_mae(errors.all);
+  }
+
+  bool is_parent(std::size_t finding) const {
+    const Cause& own = s_.findings[finding].rival.causes.back();
+    return !own.is_joint() &&
+           std::any_of(d_.findings.begin(), d_.findings.end(), [&](std::size_t f) {
+             const Cause& other = s_.findings[f].rival.causes.back();
+             return other.is_joint() && std::find(other.columns.begin(), other.columns.end(),
+                                                  own.columns[0]) != other.columns.end();
+           });
+  }
+
+  // Effects without which left-out tests are predicted better, the worst first.
+  void drop_losses() {
+    while (d_.findings.size() > 1) {
+      std::size_t worst = 0;
+      double loss = 0;
+      for (const std::size_t f : d_.findings)
+        if (const double gain = nested_gain(f); gain < loss && !is_parent(f)) {
+          worst = f;
+          loss = gain;
+        }
+      if (!(loss < 0)) return;
+      against_[worst] = {
+          fmt::format("left-out tests are predicted {:.2g} MPa better without it", -loss)};
+      std::vector<std::size_t> kept = d_.findings;
+      std::erase(kept, worst);
+      take(std::move(kept));
+      judge_by_folds();
+    }
   }
 
   // All rows alike; effects that nothing is left of then are no longer in the law.
@@ -100,19 +167,49 @@ private:
     d_.findings = std::move(kept);
   }
 
+  // A formula that people can read stays unless a smooth curve predicts left-out tests clearly
+  // better.
+  void smooth_where_clearly_better() {
+    for (std::size_t i = 0; i < judged_.size(); ++i) {
+      const effects::PlacedEffect& effect = offered_.effects[i];
+      if (effect.form->penalty || effect.form->categorical) continue;
+      const std::vector<Rival> forms = choose_form(s_, offered_, i);
+      const auto smooth = std::find_if(forms.begin(), forms.end(), [&](const Rival& rival) {
+        return rival.effects[i].form->penalty && rival.effects[i].acts_on == effect.acts_on;
+      });
+      if (smooth == forms.end()) continue;
+      const NestedErrors other = nested_errors(s_, *smooth, false);
+      const std::size_t weights = other.better_weights(true);
+      const VectorXd gain =
+          d_.nested.weighted[weights_].all.relative - other.weighted[weights].all.relative;
+      const auto n = static_cast<double>(gain.size());
+      const double se = std::sqrt((gain.array() - gain.mean()).square().sum() / (n - 1) / n);
+      if (!(gain.mean() > clearly_better * se)) continue;
+      law_ = *smooth;
+      of_law_ = judged_;
+      take(judged_);
+      judge_by_folds();
+    }
+  }
+
   calibrate::Metrics errors(const data::Dataset& data, const Rival& rival) const {
     return calibrate::metrics(data, calibrate::predict(s_.model_of(rival), data), in_.bootstrap,
                               in_.seed);
   }
 
-  bool by_validation() const { return in_.validation.experiments.size() >= enough_validation; }
+  bool by_validation() const {
+    return in_.searched.empty() && in_.validation.experiments.size() >= enough_validation;
+  }
 
-  // Nothing was found, and calibration has left out each test of the law as it is.
   bool no_validation() const { return in_.validation.experiments.empty(); }
 
   std::vector<calibrate::ErrorSums> on_validation(const Rival& rival) const {
     return calibrate::error_sums(in_.validation,
                                  calibrate::predict(s_.model_of(rival), in_.validation));
+  }
+
+  std::vector<calibrate::ErrorSums> calibrated_on_validation() const {
+    return calibrate::error_sums(in_.validation, calibrate::predict(in_.fit.model, in_.validation));
   }
 
   // What `with` gains against `without` on the same tests.
@@ -123,50 +220,46 @@ private:
     return compared.pairs.empty() ? Difference{} : compared.pairs.front().mae;
   }
 
-  // Further effects that predict the validation tests better with 95 % confidence, where the
-  // left-out tests leave it open: do not speak against it with as much.
-  NestedErrors::Best confirmed(NestedErrors::Best best) const {
-    for (std::size_t k = best.effects + 1; k <= s_.findings.size(); ++k) {
-      const std::size_t weights = best.effects > 0 ? best.weights : d_.nested.better_weights(k);
-      const NestedErrors::Gain left_out = d_.nested.gain(k, weights, best.effects);
-      if (left_out.error < -2 * left_out.error_se) continue;
-      const Difference gain = gained(on_validation(with_first(k, weights)),
-                                     on_validation(with_first(best.effects, weights)));
-      if (gain.interval.low > 0) best = {k, weights};
-    }
-    return best;
+  // Left-out tests leave it open (do not speak against it with 95 % confidence), and validation
+  // tests are predicted better with as much.
+  bool shown_by_validation() const {
+    const NestedErrors::Gain left_out = d_.nested.gain(weights_);
+    if (left_out.error < -2 * left_out.error_se) return false;
+    return gained(on_validation(d_.rival), on_validation(d_.baseline)).interval.low > 0;
   }
 
-  Rival with_first(std::size_t effects, std::size_t weights) const {
-    const Rival& rival = s_.with_first(effects);
-    return weights == 0 ? rival : fit_rows_alike(s_.campaign(), rival).rival;
-  }
-
-  // Takes out, one by one, effects without which the validation tests are predicted clearly better.
+  // Takes out, the worst first, effects without which the validation tests are predicted better;
+  // the last only where that is clear.
   void drop_contradicted() {
+    d_.gain_MPa.clear();
     if (!by_validation()) {
       for (const std::size_t f : d_.findings)
-        d_.gain_MPa.push_back(nested_mae(f) - nested_mae(f + 1));
+        d_.gain_MPa.push_back(nested_gain(f));
       return;
     }
-    for (std::size_t i = 0; i < d_.findings.size();) {
-      const Rival without = weighted(without_effect(s_.campaign(), d_.rival, i));
-      const Difference gain = gained(on_validation(d_.rival), on_validation(without));
-      if (gain.interval.high < 0) {
-        against_[d_.findings[i]] = contradiction(gain);
-        d_.rival = without;
-        d_.findings.erase(d_.findings.begin() + static_cast<long>(i));
-        d_.gain_MPa.clear();
-        i = 0;
-        continue;
-      }
-      d_.gain_MPa.push_back(gain.value_MPa);
-      ++i;
+    std::vector<Rival> without(d_.findings.size());
+    std::vector<Difference> gains(d_.findings.size());
+    std::size_t worst = d_.findings.size();
+    for (std::size_t i = 0; i < d_.findings.size(); ++i) {
+      without[i] = weighted(without_effect(s_.campaign(), d_.rival, i));
+      gains[i] = gained(on_validation(d_.rival), on_validation(without[i]));
+      const bool out =
+          gains[i].interval.high < 0 ||
+          (gains[i].value_MPa < 0 && d_.findings.size() > 1 && !is_parent(d_.findings[i]));
+      if (out && (worst == d_.findings.size() || gains[i].value_MPa < gains[worst].value_MPa))
+        worst = i;
+      d_.gain_MPa.push_back(gains[i].value_MPa);
     }
-  }
-
-  double nested_mae(std::size_t effects) const {
-    return calibrate::metrics(d_.nested.sums[weights_][effects], 0, in_.seed).mae_MPa;
+    if (worst == d_.findings.size()) return;
+    const Difference& loss = gains[worst];
+    against_[d_.findings[worst]] =
+        loss.interval.high < 0
+            ? contradiction(loss)
+            : Against{fmt::format("the validation tests are predicted {:.2g} MPa better without it",
+                                  -loss.value_MPa)};
+    d_.rival = without[worst];
+    d_.findings.erase(d_.findings.begin() + static_cast<long>(worst));
+    drop_contradicted();
   }
 
   // On the validation tests, or on left-out ones.
@@ -176,13 +269,14 @@ private:
       t_.unseen = "nested_cross_validation";
     else if (no_validation())
       t_.unseen = in_.training.experiments.size() > 1 ? "leave_one_out" : "nothing";
-    const auto unseen = [&](const Rival& rival, std::size_t effects) {
-      if (nested) return d_.nested.sums[weights_][effects];
+    const auto unseen = [&](const Rival& rival, bool effects) {
+      const NestedErrors::Weighted& errors = d_.nested.weighted[weights_];
+      if (nested) return (effects ? errors.all : errors.none).sums;
+      if (!in_.searched.empty()) return calibrated_on_validation();
       return no_validation() ? calibrate::sums_of(in_.fit.unseen) : on_validation(rival);
     };
-    const std::vector<calibrate::ErrorSums> with =
-                                                unseen(d_.rival, d_.findings.empty() ? 0 : tried_),
-                                            without = unseen(d_.baseline, 0);
+    const std::vector<calibrate::ErrorSums> with = unseen(d_.rival, !d_.findings.empty()),
+                                            without = unseen(d_.baseline, false);
     t_.before = {errors(in_.training, d_.baseline),
                  calibrate::metrics(without, in_.bootstrap, in_.seed)};
     t_.after = t_.before;
@@ -229,9 +323,7 @@ private:
   // Against the law as the calibration stage handed it on: effects must also make up for what the
   // weights of the trace may have made worse.
   Difference against_calibrated() const {
-    return gained(
-        on_validation(d_.rival),
-        calibrate::error_sums(in_.validation, calibrate::predict(in_.fit.model, in_.validation)));
+    return gained(on_validation(d_.rival), calibrated_on_validation());
   }
 
   // The same effects with all rows alike.
@@ -261,11 +353,24 @@ private:
         name)};
   }
 
+  void take_off(std::size_t place, const Against& against) {
+    const std::size_t finding = d_.findings[place];
+    against_[finding] = against;
+    std::vector<std::size_t> kept = d_.findings;
+    kept.erase(kept.begin() + static_cast<long>(place));
+    d_.gain_MPa.clear();
+    take(std::move(kept));
+    if (!d_.findings.empty()) judge_by_folds();
+    drop_contradicted();
+    compare_errors();
+  }
+
   void take_all_back(const Against& against) {
     for (const std::size_t f : d_.findings)
       against_[f] = against;
     d_.gain_MPa.clear();
-    take_findings(0, 0);
+    weights_ = 0;
+    take({});
     compare_errors();
   }
 
@@ -277,36 +382,36 @@ private:
       lead.form = finding.rival.effects.back().form->name;
       lead.between = finding.between;
       lead.p_value = finding.p_value;
+      lead.significant = true;
       const auto against = against_.find(i);
-      lead.why = against == against_.end() ? does_not_pay(i) : against->second.why;
+      lead.why = against->second.why;
       d_.contradicted |= against != against_.end() && against->second.contradicted;
       if (t_.leads.empty()) lead.design = design_for(s_, finding);
       t_.leads.push_back(std::move(lead));
     }
   }
 
-  // All that was found against nothing, where nothing pays; else what this finding, and those
-  // between, add to the effects that do.
-  std::string does_not_pay(std::size_t finding) const {
-    const std::size_t effects = best_.effects == 0 ? s_.findings.size() : finding + 1;
-    const NestedErrors::Gain gain = d_.nested.gain(effects, best_.weights, best_.effects);
+  std::string does_not_pay() const {
+    const NestedErrors::Gain gain = d_.nested.gain(weights_);
     if (gain.error == 0 && gain.error_se == 0)
       return fmt::format("a search without some of the tests does not find it ({} folds)",
                          d_.nested.folds);
-    return fmt::format("does not predict tests that the search has not seen any better{}: error "
+    return fmt::format("does not predict tests that the search has not seen any better: error "
                        "{:+.2g} +- {:.2g} % of the stress, log score {:+.2g} +- {:.2g} per test, "
                        "{} folds",
-                       best_.effects == 0 ? "" : " than without it", -100 * gain.error,
-                       100 * gain.error_se, gain.score, gain.score_se, d_.nested.folds);
+                       -100 * gain.error, 100 * gain.error_se, gain.score, gain.score_se,
+                       d_.nested.folds);
   }
 
   const Search& s_;
   const TraceInput& in_;
   Trace& t_;
   Delivery d_;
-  NestedErrors::Best best_; // of the nested cross-validation
+  Rival law_; // with the findings of_law_
+  std::vector<std::size_t> of_law_;
+  Rival offered_;                   // with the findings, before rows weigh alike
+  std::vector<std::size_t> judged_; // findings of the law that the folds judged
   std::size_t weights_ = 0;
-  std::size_t tried_ = 0;                  // how many findings, of which d_.findings are left
   std::map<std::size_t, Against> against_; // by finding
 };
 
@@ -329,34 +434,39 @@ Lead lead_of(const Search& search, const Cause& cause) {
   return lead;
 }
 
-ValidationShift validation_shift_of(const Search& search, const Rival& rival) {
-  const TraceInput& in = search.input;
-  const std::size_t tests = in.validation.experiments.size();
+ValidationShift shift_of(const TestGains& seen, const TestGains& unseen, double freedom) {
   ValidationShift apart;
-  if (tests < 3) return apart;
-  const models::Model model = search.model_of(rival);
-  const std::vector<double> predicted = calibrate::predict(model, in.validation);
-  const TestGains seen = test_gains(in.training, calibrate::predict(model, in.training));
-  const TestGains unseen = test_gains(in.validation, predicted);
-  const double free = std::max(1.0, static_cast<double>(seen.gain.size()) - rival.freedom);
+  if (unseen.gain.size() < 3 || seen.gain.size() < 2) return apart;
+  const auto tests = static_cast<double>(seen.gain.size()),
+             n = static_cast<double>(unseen.gain.size());
+  const double free = std::max(1.0, tests - freedom);
   const auto square = [](const VectorXd& x) { return (x.array() - x.mean()).square().sum(); };
-  const auto n = static_cast<double>(tests);
   const double own = square(unseen.gain) / (n - 1);
   const double of_law = square(seen.gain) / free;
   // What the uncertainty of the fitted parameters adds, taken for the same as in training.
-  const double open = of_law * std::max(1.0, rival.freedom) / static_cast<double>(seen.gain.size());
+  const double open = of_law * std::max(1.0, freedom) / tests;
   const double se = std::sqrt(std::max(own, of_law) / n + open);
   const double shift = unseen.gain.mean() - seen.gain.mean();
   const double degrees = std::min(free, n - 1);
   apart.p_value = 2 * gsl_cdf_tdist_Q(std::abs(shift) / std::max(se, 1e-300), degrees);
   apart.found = apart.p_value < apart_level;
+  const double t = gsl_cdf_tdist_Qinv(0.025, degrees);
+  apart.share = std::expm1(shift);
+  apart.interval = {std::expm1(shift - t * se), std::expm1(shift + t * se)};
+  return apart;
+}
+
+ValidationShift validation_shift_of(const Search& search, const Rival& rival) {
+  const TraceInput& in = search.input;
+  const models::Model model = search.model_of(rival);
+  const std::vector<double> predicted = calibrate::predict(model, in.validation);
+  ValidationShift apart = shift_of(test_gains(in.training, calibrate::predict(model, in.training)),
+                                   test_gains(in.validation, predicted), rival.freedom);
   double mean = 0;
   for (const double value : predicted)
     mean += value / static_cast<double>(predicted.size());
-  const double t = gsl_cdf_tdist_Qinv(0.025, degrees);
-  apart.share = std::expm1(shift);
   apart.shift_MPa = mean * apart.share;
-  apart.interval = {mean * std::expm1(shift - t * se), mean * std::expm1(shift + t * se)};
+  apart.interval = {mean * apart.interval.low, mean * apart.interval.high};
   return apart;
 }
 

@@ -25,6 +25,8 @@ Delivery deliver(const Search& search, Trace& trace);
 // rival predicts them: the difference of the mean gains, with a standard error that holds the
 // scatter of the tests and what the fitted parameters leave open.
 ValidationShift validation_shift_of(const Search& search, const Rival& rival);
+// The same of gains; `freedom`: parameters fitted to those seen. Shares and p-value alone.
+ValidationShift shift_of(const TestGains& seen, const TestGains& unseen, double freedom);
 
 Lead lead_of(const Search& search, const Cause& cause);
 

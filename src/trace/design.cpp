@@ -25,8 +25,9 @@ constexpr std::size_t most_rivals = 4;
 constexpr double wanted = 0.8;     // probability
 constexpr double two_sided = 1.96; // 5 %
 constexpr double tiny = 1e-9;      // of a parameter's information: what nothing tells of is kept
-constexpr double costs_nothing = 0.97; // of the standardised amplitude, for one setting fewer
-constexpr double hopeless = 1000;      // tests
+constexpr double costs_nothing = 0.97;    // of the standardised amplitude, for one setting fewer
+constexpr double hopeless = 60;           // tests that nobody would run for it
+constexpr double least_probability = 0.1; // of a few tests that are worth running
 
 // What tau_R changes, per block, with each parameter that all rivals share, and with each rival.
 class Directions {
@@ -111,7 +112,7 @@ public:
     std::vector<Setting> settings = settings_of(search_.input.training, recorded());
     if (settings.empty()) return {};
     Plan plan = best_plan(settings);
-    if (probability(plan.before) >= wanted)
+    if (rivals_.size() == 1 && probability(plan.before) >= wanted)
       return {}; // the data would show it already, were it as large as fitted
     // One setting fewer is an easier design.
     for (std::size_t s = settings.size(); s-- > 0 && settings.size() > 1;) {
@@ -267,6 +268,7 @@ private:
     const double target = limit() + gsl_cdf_ugaussian_Pinv(wanted);
     const double tests = (target * target - plan.before * plan.before) / std::max(each, 1e-300);
     if (tests > hopeless) return design;
+    if (probability(plan.amplitude) < least_probability) return design;
     design.probability = probability(plan.amplitude);
     design.tests_needed = std::max(std::ceil(tests), 1.0);
     design.like = plan.candidates.like;
@@ -374,8 +376,8 @@ Design design_in_turn(const Search& search, const Cause& cause, double scatter) 
   if (settings.empty()) return design;
   const Setting& setting = settings.front();
   const VectorXd x = search.blocks.experiment_means(column.values).col(0);
-  const Ends ends = column.levels.empty() ? ends_by_line(setting, x, search.gains.gain)
-                                          : ends_by_level(setting, x, search.gains.gain);
+  const Ends ends = column.levels.empty() ? ends_by_line(setting, x, search.gains)
+                                          : ends_by_level(setting, x, search.gains);
   const auto standardised = [&](double tests) {
     return ends.apart / (2 * std::max(scatter, 1e-300) / std::sqrt(tests));
   };
@@ -387,7 +389,8 @@ Design design_in_turn(const Search& search, const Cause& cause, double scatter) 
     design.tests.push_back({setting.text[i % 2 == 0 ? ends.low : ends.high]});
   design.columns = {setting.column};
   design.like = "each other, run in this order,";
-  design.settles = {cause_name(cause, search.candidates), search.order.column};
+  design.settles = {cause_name(cause, search.candidates),
+                    search.order.column.empty() ? "time" : search.order.column};
   design.probability = probability(tests);
   design.tests_needed = std::ceil(
       std::pow((two_sided + gsl_cdf_ugaussian_Pinv(wanted)) / std::max(standardised(1), 1e-9), 2));

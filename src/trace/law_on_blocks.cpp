@@ -100,7 +100,7 @@ constexpr auto many_blocks = static_cast<Index>(block_budget);
 class BlockSolver {
 public:
   BlockSolver(const LawOnBlocks& law, const VectorXd& measured, const Whitener& whitener,
-              const MatrixXd& penalty, const VectorXd& weight, FitEnd end)
+              const Penalty& penalty, const VectorXd& weight, FitEnd end)
       : law_(law), measured_(measured), whitener_(whitener), penalty_(penalty), weight_(weight),
         end_(end) {}
 
@@ -147,6 +147,11 @@ private:
     return {parameters.data(), static_cast<Index>(parameters.size())};
   }
 
+  VectorXd from_centre(const std::vector<double>& parameters) const {
+    return penalty_.centre.size() > 0 ? VectorXd(at(parameters) - penalty_.centre)
+                                      : VectorXd(at(parameters));
+  }
+
   Point evaluate(std::vector<double> parameters) {
     Point fit;
     fit.parameters = std::move(parameters);
@@ -172,7 +177,10 @@ private:
   double cost_of(const Eigen::Ref<const VectorXd>& residual, const std::vector<double>& parameters,
                  const VectorXd& tau) const {
     double cost = residual.squaredNorm();
-    if (penalty_.size() > 0) cost += at(parameters).dot(penalty_ * at(parameters));
+    if (penalty_.matrix.size() > 0) {
+      const VectorXd off = from_centre(parameters);
+      cost += off.dot(penalty_.matrix * off);
+    }
     return std::isfinite(cost) && !loses_friction(tau) ? cost
                                                        : std::numeric_limits<double>::infinity();
   }
@@ -185,9 +193,9 @@ private:
     const auto jacobian = here.all.rightCols(here.all.cols() - 1);
     here.normal = gram(jacobian);
     here.gradient = jacobian.transpose() * here.all.col(0);
-    if (penalty_.size() > 0) {
-      here.normal += penalty_;
-      here.gradient -= penalty_ * at(here.parameters);
+    if (penalty_.matrix.size() > 0) {
+      here.normal += penalty_.matrix;
+      here.gradient -= penalty_.matrix * from_centre(here.parameters);
     }
   }
 
@@ -217,7 +225,7 @@ private:
   const LawOnBlocks& law_;
   const VectorXd& measured_;
   const Whitener& whitener_;
-  const MatrixXd& penalty_;
+  const Penalty& penalty_;
   const VectorXd& weight_;
   FitEnd end_;
   Eigen::Array<bool, Eigen::Dynamic, 1> positive_; // per block, at the start
@@ -227,7 +235,7 @@ private:
 } // namespace
 
 BlockFit fit_blocks(const LawOnBlocks& law, const VectorXd& measured, const Whitener& whitener,
-                    std::vector<double> start, const MatrixXd& penalty, const VectorXd& weight,
+                    std::vector<double> start, const Penalty& penalty, const VectorXd& weight,
                     FitEnd end) {
   for (std::size_t p = 0; p < start.size(); ++p)
     start[p] = std::clamp(start[p], law.parameters()[p].lower, law.parameters()[p].upper);

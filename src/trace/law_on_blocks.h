@@ -55,6 +55,12 @@ struct FitEnd {
   int most_steps = 60;   // tried
 };
 
+// (p - centre)' matrix (p - centre) is added to the sum of squares; empty: nothing, or about 0.
+struct Penalty {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd centre;
+};
+
 // The fit described above. `penalty`: S (empty: none). `weight`: per block, applied behind the
 // whitening (empty: 1). A step that turns a positive stress into none is refused: where tests
 // scatter as a whole, a law of no friction at all is off by few standard deviations, and the fit
@@ -63,7 +69,7 @@ struct FitEnd {
 // it the nested log score, by up to 3 %.)
 BlockFit fit_blocks(const LawOnBlocks& law, const Eigen::VectorXd& measured,
                     const Whitener& whitener, std::vector<double> start,
-                    const Eigen::MatrixXd& penalty = {}, const Eigen::VectorXd& weight = {},
+                    const Penalty& penalty = {}, const Eigen::VectorXd& weight = {},
                     FitEnd end = {});
 
 } // namespace frictab::trace

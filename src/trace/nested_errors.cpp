@@ -1,11 +1,13 @@
-// A search for every fold, its laws evaluated on what it has not seen.
+// A fit for every fold, evaluated on what it has not seen.
 #include "trace/nested_errors.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "calibrate/folds.h"
+#include "core/error.h"
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "trace/choose_effect.h"
 #include "trace/rows_alike.h"
 
 namespace frictab::trace {
@@ -16,20 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Each test alone up to 40 of them, then 20 folds. A search on three quarters of a thousand tests
-// chooses as one on all: of so many there are fewer folds, with as many tests for each as 20 folds
-// of 400 leave to it at most (20 x 400 / tests), and never fewer than 4.
-constexpr std::size_t all_alone = 40, many_folds = 20, least_folds = 4;
-constexpr std::size_t tests_searched = many_folds * 400; // over all folds
-constexpr double level_in_folds = 2;
-
-} // namespace
-
-std::size_t count_of_folds(std::size_t tests) {
-  return tests <= all_alone ? tests : std::clamp(tests_searched / tests, least_folds, many_folds);
-}
-
-namespace {
 constexpr double farthest = 1e3;    // that a law and a measurement are taken to be apart
 constexpr double score_freedom = 5; // of Student's t
 
@@ -69,114 +57,150 @@ VectorXd scores(const data::Dataset& data, const std::vector<double>& predicted,
   return score;
 }
 
-// Of one fold, for each weighting and number of effects: predictions of the left-out rows.
-struct FoldErrors {
-  std::vector<std::vector<calibrate::ErrorSums>> sums[2];
-  std::vector<VectorXd> relative[2], score[2];
+// Of one fold, in the order of its tests.
+class FoldJudge {
+public:
+  FoldJudge(const Search& all, const Rival& law, const CauseFold& fold)
+      : all_(all), law_(law), fold_(fold), kept_(all.input.training.subset(others())),
+        left_out_(all.input.training.subset(fold.out)), options_(all.input.options) {
+    options_.order = all.candidates.order_column; // a part of the tests is not numbered 1 to n
+    const data::Column* order = kept_.find(options_.order);
+    if (order && values_of_tests(*order, kept_) < 3) options_.order.clear();
+  }
+
+  std::array<NestedErrors::Weighted, 2> run(bool each) const {
+    const TraceInput& in = all_.input;
+    const TraceInput part{kept_, in.validation, in.fit, options_, in.bootstrap, in.seed};
+    const Search search(part, &all_.base.noise);
+    const Rival with = with_effects(search);
+    std::array<NestedErrors::Weighted, 2> errors;
+    judge(search, search.base, errors, [](auto& w) -> LeftOut& { return w.none; });
+    for (NestedErrors::Weighted& one : errors)
+      one.all = one.none;
+    judge(search, with, errors, [](auto& w) -> LeftOut& { return w.all; });
+    for (const Cause& cause : each ? law_.causes : std::vector<Cause>{}) {
+      for (NestedErrors::Weighted& one : errors)
+        one.without.push_back(one.all);
+      const auto at = std::find(causes_.begin(), causes_.end(), cause);
+      if (at == causes_.end()) continue;
+      const Rival fewer =
+          without_effect(search.campaign(), with, static_cast<std::size_t>(at - causes_.begin()));
+      judge(search, fewer, errors, [](auto& w) -> LeftOut& { return w.without.back(); });
+    }
+    return errors;
+  }
+
+private:
+  std::vector<std::size_t> others() const {
+    std::vector<std::size_t> kept;
+    for (std::size_t e = 0; e < all_.input.training.experiments.size(); ++e)
+      if (std::find(fold_.out.begin(), fold_.out.end(), e) == fold_.out.end()) kept.push_back(e);
+    return kept;
+  }
+
+  // The fold's own causes; those that the search on all tests has found and taken off are left out.
+  Rival with_effects(const Search& search) const {
+    std::vector<effects::PlacedEffect> effects;
+    std::vector<Cause> causes;
+    for (std::size_t i = 0; i < fold_.causes.size(); ++i) {
+      const Cause& cause = fold_.causes[i];
+      const auto own = std::find(law_.causes.begin(), law_.causes.end(), cause);
+      const bool taken_off = own == law_.causes.end() &&
+                             std::find(all_.last().causes.begin(), all_.last().causes.end(),
+                                       cause) != all_.last().causes.end();
+      const auto here = cause_in(search.candidates, cause, all_.candidates);
+      if (!here || taken_off) continue;
+      effects.push_back(own == law_.causes.end()
+                            ? smooth_effect(search, *here, fold_.acts_on[i])
+                            : law_.effects[static_cast<std::size_t>(own - law_.causes.begin())]);
+      causes.push_back(*here);
+      causes_.push_back(cause);
+    }
+    if (effects.empty()) return search.base;
+    return fit_rival(search.campaign(), search.base, std::move(effects), std::move(causes),
+                     search.base.noise, NoiseSearch::again);
+  }
+
+  // Leaves what is there where the stress of a history of itself does not settle.
+  template <class Place>
+  void judge(const Search& search, const Rival& rival,
+             std::array<NestedErrors::Weighted, 2>& errors, const Place& place) const {
+    const auto add = [&](const Rival& one, std::size_t weights) {
+      std::vector<double> predicted;
+      try {
+        predicted = calibrate::predict(search.model_of(one), left_out_);
+      } catch (const InputError&) {
+        return;
+      }
+      place(errors[weights]) = {calibrate::error_sums(left_out_, predicted),
+                                relative_errors(left_out_, predicted),
+                                scores(left_out_, predicted, rival.noise, search.blocks)};
+    };
+    add(rival, 0);
+    add(fit_rows_alike(search.campaign(), rival).rival, 1);
+  }
+
+  const Search& all_;
+  const Rival& law_;
+  const CauseFold& fold_;
+  const data::Dataset kept_, left_out_;
+  TraceOptions options_;
+  mutable std::vector<Cause> causes_; // of the fold's law, as all tests number them
 };
 
-FoldErrors fold_errors(const Search& all, const data::Dataset& training,
-                       const data::Dataset& left_out) {
-  const TraceInput& input = all.input;
-  const std::size_t most = all.findings.size();
-  TraceOptions options = input.options;
-  options.order = all.candidates.order_column; // a part of the tests is not numbered from 1 to n
-  const data::Column* order = training.find(options.order);
-  if (order && values_of_tests(*order, training) < 3) options.order.clear(); // but of all it is one
-  const TraceInput part{training, input.validation, input.fit,
-                        options,  input.bootstrap,  input.seed};
-  const auto search = search_effects(part, {199, 299, level_in_folds, &all.base.noise});
-  FoldErrors errors;
-  const auto evaluate = [&](const Rival& rival, std::size_t weights) {
-    const std::vector<double> predicted = calibrate::predict(search->model_of(rival), left_out);
-    errors.sums[weights].push_back(calibrate::error_sums(left_out, predicted));
-    errors.relative[weights].push_back(relative_errors(left_out, predicted));
-    errors.score[weights].push_back(scores(left_out, predicted, rival.noise, search->blocks));
-  };
-  for (std::size_t k = 0; k <= most; ++k) {
-    const std::size_t have = std::min(k, search->findings.size());
-    if (have < k) { // as with fewer
-      for (const std::size_t w : {0, 1}) {
-        errors.sums[w].push_back(errors.sums[w].back());
-        errors.relative[w].push_back(errors.relative[w].back());
-        errors.score[w].push_back(errors.score[w].back());
-      }
-      continue;
-    }
-    const Rival& rival = search->with_first(k);
-    evaluate(rival, 0);
-    evaluate(fit_rows_alike(search->campaign(), rival).rival, 1);
+void put(const LeftOut& from, const std::vector<std::size_t>& tests, std::size_t count,
+         LeftOut& to) {
+  to.sums.resize(count);
+  to.relative.conservativeResize(static_cast<Index>(count));
+  to.score.conservativeResize(static_cast<Index>(count));
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    to.sums[tests[i]] = from.sums[i];
+    to.relative(static_cast<Index>(tests[i])) = from.relative(static_cast<Index>(i));
+    to.score(static_cast<Index>(tests[i])) = from.score(static_cast<Index>(i));
   }
-  return errors;
 }
 
 } // namespace
 
-NestedErrors::Gain NestedErrors::gain(std::size_t effects, std::size_t weights,
-                                      std::size_t before) const {
-  const VectorXd score_gain = score[weights][effects] - score[weights][before];
-  const std::size_t weights_before = before == 0 ? better_weights(0) : weights;
-  const VectorXd error_gain = relative[weights_before][before] - relative[weights][effects];
+NestedErrors::Gain NestedErrors::gain(std::size_t weights) const {
+  const VectorXd score_gain = weighted[weights].all.score - weighted[weights].none.score,
+                 error_gain =
+                     weighted[better_weights(false)].none.relative - weighted[weights].all.relative;
   const auto n = static_cast<double>(score_gain.size());
   if (n < 2) return {};
   const auto std_error = [&](const VectorXd& x) {
     return std::sqrt((x.array() - x.mean()).square().sum() / (n - 1) / n);
   };
-  return {score_gain.mean(), std_error(score_gain), error_gain.mean(), std_error(error_gain),
-          static_cast<std::size_t>(score_gain.size())};
+  return {score_gain.mean(), std_error(score_gain), error_gain.mean(), std_error(error_gain)};
 }
 
-std::size_t NestedErrors::better_weights(std::size_t effects) const {
+std::size_t NestedErrors::better_weights(bool with_effects) const {
   constexpr double clearly = 0.98; // of the error, that plain weights must reach to be used
-  return relative[1][effects].mean() < clearly * relative[0][effects].mean() ? 1 : 0;
+  const auto error = [&](std::size_t w) {
+    return (with_effects ? weighted[w].all : weighted[w].none).relative.mean();
+  };
+  return error(1) < clearly * error(0) ? 1 : 0;
 }
 
-NestedErrors::Best NestedErrors::best() const {
-  Best found;
-  for (const std::size_t w : {0, 1}) {
-    if (found.effects > 0) break; // plain weights only where the noise model's let nothing pay
-    for (std::size_t k = 1; k < lengths(); ++k)
-      if (const Gain more = gain(k, w, found.effects);
-          gain(k, w).pays() && (found.effects == 0 ? more.pays() : more.adds()))
-        found = {k, w};
-  }
-  const bool plain = better_weights(found.effects) == 1;
-  if (plain && (found.effects == 0 || gain(found.effects, 1).pays())) found.weights = 1;
-  return found;
-}
-
-NestedErrors nested_errors(const Search& search) {
-  const TraceInput& input = search.input;
-  const std::size_t most = search.findings.size();
-  const std::size_t tests = input.training.experiments.size();
-  const data::Units units = data::units_of(input.training);
-  const std::size_t folds = count_of_folds(units.count);
-  const auto fold = calibrate::experiment_folds(units, folds, input.seed, 0);
-  std::vector<FoldErrors> parts(folds);
-  std::vector<std::vector<std::size_t>> out(folds);
-  Progress progress("tracing without some tests", folds);
-  parallel_for(folds, [&](std::size_t f) {
-    std::vector<std::size_t> kept;
-    for (std::size_t e = 0; e < tests; ++e)
-      (fold[e] == f ? out[f] : kept).push_back(e);
-    parts[f] = fold_errors(search, input.training.subset(kept), input.training.subset(out[f]));
+NestedErrors nested_errors(const Search& search, const Rival& law, bool each) {
+  const std::size_t tests = search.input.training.experiments.size();
+  std::vector<std::array<NestedErrors::Weighted, 2>> parts(search.folds.size());
+  Progress progress("fitting without some tests", parts.size());
+  parallel_for(parts.size(), [&](std::size_t f) {
+    parts[f] = FoldJudge(search, law, search.folds[f]).run(each);
     progress.tick();
   });
   NestedErrors all;
-  all.folds = folds;
-  for (const std::size_t w : {0, 1}) {
-    all.sums[w].assign(most + 1, std::vector<calibrate::ErrorSums>(tests));
-    all.relative[w].assign(most + 1, VectorXd(static_cast<Index>(tests)));
-    all.score[w] = all.relative[w];
-    for (std::size_t f = 0; f < folds; ++f)
-      for (std::size_t k = 0; k <= most; ++k)
-        for (std::size_t i = 0; i < out[f].size(); ++i) {
-          all.sums[w][k][out[f][i]] = parts[f].sums[w][k][i];
-          const auto to = static_cast<Index>(out[f][i]), from = static_cast<Index>(i);
-          all.relative[w][k](to) = parts[f].relative[w][k](from);
-          all.score[w][k](to) = parts[f].score[w][k](from);
-        }
-  }
+  all.folds = parts.size();
+  for (std::size_t f = 0; f < parts.size(); ++f)
+    for (const std::size_t w : {0, 1}) {
+      const std::vector<std::size_t>& out = search.folds[f].out;
+      put(parts[f][w].none, out, tests, all.weighted[w].none);
+      put(parts[f][w].all, out, tests, all.weighted[w].all);
+      all.weighted[w].without.resize(parts[f][w].without.size());
+      for (std::size_t i = 0; i < parts[f][w].without.size(); ++i)
+        put(parts[f][w].without[i], out, tests, all.weighted[w].without[i]);
+    }
   return all;
 }
 

@@ -9,7 +9,6 @@
 #include <Eigen/Core>
 
 #include "trace/blocks.h"
-#include "trace/tile.h"
 
 namespace frictab::trace {
 
@@ -54,7 +53,6 @@ public:
   const Eigen::VectorXd& variance() const { return variance_; }
 
 private:
-  friend class TileWhitener;
   struct Part {
     Eigen::Index first, size;
     double rho;
@@ -70,24 +68,6 @@ private:
   std::vector<Eigen::MatrixXd> q_;  // per experiment, orthonormal: of the random effects
   std::vector<Eigen::MatrixXd> qc_; // and what is taken off along them
   Eigen::MatrixXd nuisance_;        // orthonormal, whitened
-};
-
-// The same for thousands of directions, in single precision.
-class TileWhitener {
-public:
-  explicit TileWhitener(const Whitener& whitener);
-  void apply(Tile& tile) const;
-
-  // At one block: what the filter keeps of its state and takes from a value over D, and the random
-  // effects' directions.
-  struct Filter {
-    float shrink, keep, feed, scale, q[2], qc[2];
-  };
-
-private:
-  std::vector<Filter> filter_;
-  std::vector<Whitener::Part> parts_;
-  Eigen::MatrixXf nuisance_; // a column per block
 };
 
 } // namespace frictab::trace

@@ -2,8 +2,8 @@
 #include "trace/order_search.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <set>
 
@@ -20,15 +20,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t order_permutations = 999;
-constexpr double declared_lead = 10; // of log likelihood, that a declared wear may lack
-constexpr int check_functions = 9;
 constexpr int nuisance_functions = 12;
-constexpr double suspicion = 0.05;    // p-value of the order's own test, at the rival's site
-constexpr double beyond_order = 3;    // statistic that an effect keeps beside the order of tests
-constexpr std::size_t neighbours = 3; // that may still be alike behind the slow functions
-constexpr double most_slow =
-    0.5; // of a column's variance, that slow functions of the order explain
+constexpr std::size_t neighbours = 3;  // that may still be alike behind the slow functions
 constexpr double share_of_alpha = 0.5; // that the order's test may spend
+constexpr const char* environment[] = {"lab", "room",    "hall", "ambient", "air",  "baro",
+                                       "rh",  "weather", "day",  "date",    "week", "hour"};
 constexpr const char* reference = "the mean of the campaign's tests";
 
 // At most one per so many experiments.
@@ -45,11 +41,6 @@ MatrixXd slow_directions(const Search& search, int most, std::size_t experiments
 VectorXd scores_of(const Search& search, const Whitener& whitener, std::size_t site) {
   return experiment_scores(search.residual(), search.sensitivities()[site], search.known(),
                            whitener, search.first());
-}
-
-void project_out(const MatrixXd& directions, MatrixXd& columns) {
-  const MatrixXd q = orthonormal(directions);
-  columns -= q * (q.transpose() * columns).eval();
 }
 
 // Sets the size of the structure: root mean square of what the functions of the order explain.
@@ -76,43 +67,18 @@ bool is_order(const Search& search, const Cause& cause) {
   return std::any_of(cause.columns.begin(), cause.columns.end(), numbers_tests);
 }
 
-// Whether each level of a text column is one stretch of the order of tests, as batches are: such a
-// column cannot be told from the order.
-bool is_stretch(const CandidateColumn& column, const VectorXd& by_rank) {
-  Index stretches = 1;
-  for (Index i = 1; i < by_rank.size(); ++i)
-    stretches += by_rank(i) != by_rank(i - 1);
-  const std::set<double> seen(by_rank.begin(), by_rank.end());
-  return !column.levels.empty() && stretches <= static_cast<Index>(seen.size());
-}
-
-// A column that is mostly a slow function of the order.
-bool is_slow(const CandidateColumn& column, const VectorXd& by_rank) {
-  if (!column.levels.empty()) return false;
-  std::vector<double> order(static_cast<std::size_t>(by_rank.size()));
-  std::iota(order.begin(), order.end(), 0);
-  const VectorXd x = by_rank.array() - by_rank.mean();
-  const MatrixXd functions = orthonormal(slow_functions(order, nuisance_functions, 5));
-  return (functions.transpose() * x).squaredNorm() > most_slow * x.squaredNorm();
-}
-
-// Of several columns, any. (Once structure along the order is known, slow ones are suspects, too.)
-bool is_order_itself(const Search& search, const Cause& cause) {
+// Each level one stretch of the order, as of batches: that is the order in other words.
+bool is_stretch(const Search& search, const Cause& cause) {
+  const CandidateColumn& column = search.candidates.columns[cause.columns[0]];
   const auto rank = ranks(search.candidates.order);
-  return std::any_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
-    const CandidateColumn& column = search.candidates.columns[c];
-    if (column.within) return false;
-    VectorXd by_rank(static_cast<Index>(rank.size()));
-    for (std::size_t e = 0; e < rank.size(); ++e)
-      by_rank(static_cast<Index>(rank[e])) = column.values(static_cast<Index>(search.first()[e]));
-    return is_stretch(column, by_rank) || (search.order.found && is_slow(column, by_rank));
-  });
-}
-
-void forbid_causes(Search& search, const std::function<bool(const Cause&)>& which) {
-  for (std::size_t c = 0; c < search.causes.size(); ++c)
-    if (which(search.causes[c])) search.shapes[c].clear();
-  std::erase_if(search.test_shapes, [&](const TestShape& shape) { return which(shape.cause); });
+  std::vector<double> by_rank(rank.size());
+  for (std::size_t e = 0; e < rank.size(); ++e)
+    by_rank[rank[e]] = column.values(static_cast<Index>(search.first()[e]));
+  std::size_t stretches = 1;
+  for (std::size_t i = 1; i < by_rank.size(); ++i)
+    stretches += by_rank[i] != by_rank[i - 1];
+  return !column.levels.empty() &&
+         stretches <= std::set<double>(by_rank.begin(), by_rank.end()).size();
 }
 
 } // namespace
@@ -124,72 +90,67 @@ bool is_declared(const Search& search, const Cause& cause) {
          (name == distance || (name == "test_order" && distance == search.candidates.order_column));
 }
 
-void prefer_declared(const Search& search, std::vector<Rival>& rivals) {
-  if (!constant_in_experiments(rivals.front().causes.back(), search.candidates)) return;
-  const auto found = std::find_if(rivals.begin(), rivals.end(), [&](const Rival& r) {
-    return is_declared(search, r.causes.back());
-  });
-  if (found != rivals.end() && found->penalised > rivals.front().penalised - declared_lead)
-    std::rotate(rivals.begin(), found, found + 1);
+bool is_the_order(const Search& search, const Cause& cause) {
+  if (search.candidates.order.empty() || is_declared(search, cause)) return false;
+  return is_order(search, cause) ||
+         std::any_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
+           return constant_in_experiments({{c}}, search.candidates) && is_stretch(search, {{c}});
+         });
 }
 
-bool order_explains(const Search& search, const TestShape& shape) {
-  if (is_declared(search, shape.cause)) return false;
-  if (is_order(search, shape.cause)) return true;
-  const std::size_t tests = search.blocks.experiments();
-  if (search.candidates.order_column.empty()) return false;
-  if (is_order_itself(search, shape.cause)) return true;
-  if (search.order.found || tests < 10) return false;
-  MatrixXd beside = search.known_between();
-  const int waves = std::min(6, std::max(2, static_cast<int>(tests) / 8));
-  append_columns(beside, order_functions(search.candidates.order, waves));
-  return p_beside(search.gains, beside, shape) > search.family_alpha();
-}
+namespace {
 
-bool follows_order(const Search& search, const Rival& rival) {
-  if (is_declared(search, rival.causes.back())) return false;
-  if (is_order(search, rival.causes.back())) return true;
-  if (search.candidates.order_column.empty()) return false;
-  if (is_order_itself(search, rival.causes.back())) return true;
-  if (search.order.found || !constant_in_experiments(rival.causes.back(), search.candidates))
-    return false;
-  const std::size_t site = site_of(rival.effects.back());
-  const Whitener weights = search.whitener();
-  if (test_order(scores_of(search, weights, site), search.candidates.order, order_permutations,
-                 search.input.seed)
-          .p_value > suspicion)
-    return false;
-  MatrixXd known = search.known();
-  MatrixXd waves = slow_directions(search, check_functions, 4, site);
-  MatrixXd both(known.rows(), 2);
-  both.col(0) = search.residual();
-  both.col(1) = rival.predicted - search.last().predicted;
-  for (MatrixXd* columns : {&known, &waves, &both})
-    weights.apply(*columns);
-  project_out(known, waves);
-  project_out(known, both);
-  const auto statistic = [&] {
-    return std::abs(both.col(0).dot(both.col(1))) / both.col(1).norm();
+// By its name something of the room or the calendar, which changes as time goes by.
+bool is_environment(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto has = [&](const char* word) {
+    const std::string all = "_" + name + "_";
+    return all.find(std::string("_") + word + "_") != std::string::npos;
   };
-  const double alone = statistic();
-  const double of_order = (orthonormal(waves).transpose() * both.col(0)).norm();
-  if (alone > of_order) return false; // one column explains more than all slow functions
-  project_out(waves, both);
-  return statistic() < beyond_order;
+  return name.find("humid") != std::string::npos ||
+         std::any_of(std::begin(environment), std::end(environment), has);
 }
 
-void attribute_to_order(Search& search, const Cause& cause, double p_value) {
-  if (!is_order(search, cause))
-    search.confounded.push_back(
-        {cause, p_value, constant_in_experiments(cause, search.candidates)});
-  forbid_causes(search, [&](const Cause& other) { return other == cause; });
-  // An effect also has to pay; a structure does not, so its p-value has to be smaller.
-  if (p_value <= search.input.options.alpha) remove_order_structure(search, p_value, 0);
+// Neighbours by name are more alike than by chance (von Neumann's ratio, one side of 1 %).
+bool drifts(const VectorXd& x) {
+  const auto n = static_cast<double>(x.size());
+  const double squares = (x.array() - x.mean()).square().sum();
+  const double steps = (x.tail(x.size() - 1) - x.head(x.size() - 1)).squaredNorm();
+  return squares > 0 && steps / squares < 2 - 2.33 * 2 / std::sqrt(n);
+}
+
+} // namespace
+
+bool may_stand_for_time(const Search& search, const Cause& cause) {
+  if (!constant_in_experiments(cause, search.candidates)) return false;
+  if (search.order.found) return true;
+  if (!search.candidates.order_column.empty()) return false;
+  return std::any_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
+    const CandidateColumn& column = search.candidates.columns[c];
+    return column.levels.empty() &&
+           (is_environment(column.name) ||
+            (column.is_reading && drifts(search.blocks.experiment_means(column.values).col(0))));
+  });
+}
+
+void prefer_declared(const Search& search, std::vector<Suspect>& suspects) {
+  const auto declared = std::find_if(suspects.begin(), suspects.end(), [&](const Suspect& one) {
+    return is_declared(search, one.cause);
+  });
+  if (declared != suspects.end()) suspects = {*declared};
+}
+
+void note_confounded(Search& search, const std::vector<Suspect>& suspects, double p_value) {
+  for (const Suspect& one : suspects) {
+    if (!constant_in_experiments(one.cause, search.candidates)) continue;
+    search.confounded.push_back({one.cause, p_value, true});
+    return;
+  }
 }
 
 void remove_order_structure(Search& search, double p_value, std::size_t site) {
   if (search.order.found) return; // once is enough: faster structure stays unexplained
-  forbid_causes(search, [&](const Cause& cause) { return is_order(search, cause); });
   search.order.found = true;
   search.order.p_value = p_value;
   search.order.reference = reference;

@@ -2,6 +2,7 @@
 // out of the law.
 #pragma once
 
+#include "trace/choose_effect.h"
 #include "trace/order_test.h"
 #include "trace/search.h"
 
@@ -9,18 +10,19 @@ namespace frictab::trace {
 
 // The column that the user has declared as the tool's wear: it may follow the order.
 bool is_declared(const Search& search, const Cause& cause);
-// Of two that follow the order of tests alike, the declared one comes first.
-void prefer_declared(const Search& search, std::vector<Rival>& rivals);
+// Whether a cause is the declared order in other words: its column, or a text column of which each
+// level is one stretch of it, as of batches. It is no effect, but structure along the order.
+bool is_the_order(const Search& search, const Cause& cause);
+// Whether a drift over time would look the same as an effect of that cause: friction follows the
+// declared order as well; or none is declared, and it is a column of the room or the calendar, or a
+// reading that drifts from test to test as they are named.
+bool may_stand_for_time(const Search& search, const Cause& cause);
+// Of causes that come near each other, the declared one alone.
+void prefer_declared(const Search& search, std::vector<Suspect>& suspects);
 
-// Whether a drift over the declared order of tests explains at least as much as the rival's last
-// effect, and little is left of that beside it.
-bool follows_order(const Search& search, const Rival& rival);
-// The same on one value per test: whether slow waves of the order leave nothing of the shape.
-bool order_explains(const Search& search, const TestShape& shape);
-
-// Notes the cause as one that the order of tests explains as well, forbids it, and takes the order
-// out of the calibration, if its p-value is at most trace.alpha.
-void attribute_to_order(Search& search, const Cause& cause, double p_value);
+// Notes the first of these that tests hold constant: it would have been found if nothing followed
+// the order of tests.
+void note_confounded(Search& search, const std::vector<Suspect>& suspects, double p_value);
 
 // From here on nothing is explained that slow functions of the order can explain, at the site
 // (mu, limit, added) where it shows most.

@@ -19,23 +19,6 @@ using data::Dataset;
 
 namespace {
 
-// The same causes in a campaign whose columns may be numbered otherwise; nothing where it lacks
-// one.
-std::optional<std::vector<Cause>> causes_in(const Candidates& to, const std::vector<Cause>& causes,
-                                            const Candidates& from) {
-  std::vector<Cause> found = causes;
-  for (Cause& cause : found)
-    for (std::size_t& column : cause.columns) {
-      const auto same = [&](const CandidateColumn& one) {
-        return one.name == from.columns[column].name;
-      };
-      const auto at = std::find_if(to.columns.begin(), to.columns.end(), same);
-      if (at == to.columns.end()) return std::nullopt;
-      column = static_cast<std::size_t>(at - to.columns.begin());
-    }
-  return found;
-}
-
 class Refitter {
 public:
   Refitter(const Search& search, const Rival& rival) : s_(search), rival_(rival) {}
@@ -47,10 +30,14 @@ public:
     options.order = s_.candidates.order_column; // a part of the tests is not numbered from 1 to n
     const Dataset none = data.subset({});
     const TraceInput input{data, none, s_.input.fit, options, s_.input.bootstrap, s_.input.seed};
-    const Search part(input, {.earlier = &rival_.noise});
-    const auto causes = causes_in(part.candidates, rival_.causes, s_.candidates);
-    if (!causes) return std::nullopt;
-    Rival fit = fit_rival(part.campaign(), rival_.effects, *causes, rival_.parameters, rival_.noise,
+    const Search part(input, &rival_.noise);
+    std::vector<Cause> causes;
+    for (const Cause& cause : rival_.causes) {
+      const auto here = cause_in(part.candidates, cause, s_.candidates);
+      if (!here) return std::nullopt;
+      causes.push_back(*here);
+    }
+    Rival fit = fit_rival(part.campaign(), rival_.effects, causes, rival_.parameters, rival_.noise,
                           NoiseSearch::again);
     if (!(rival_.weights.gain > 0)) fit = with_weights(part.campaign(), fit, rows_alike(fit.noise));
     models::Model model = part.model_of(fit);

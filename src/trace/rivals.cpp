@@ -78,7 +78,33 @@ MatrixXd penalty_of(const Rival& rival) {
   return all;
 }
 
+void tie_parameters(Campaign& campaign, const Rival& base, double share) {
+  const Whitener whitener(base.noise, base.predicted, campaign.blocks);
+  MatrixXd jacobian = base.jacobian;
+  whitener.apply(jacobian);
+  campaign.own = {share * jacobian.transpose() * jacobian,
+                  Eigen::Map<const VectorXd>(base.parameters.data(),
+                                             static_cast<Index>(base.parameters.size()))};
+}
+
 namespace {
+
+// Of smooth effects, and of the law's own parameters.
+Penalty penalties(const Campaign& campaign, const Rival& rival) {
+  Penalty all{penalty_of(rival), {}};
+  const Index own = campaign.own.centre.size();
+  const auto of_the_law = [&](const Cause& cause) {
+    return std::any_of(cause.columns.begin(), cause.columns.end(),
+                       [&](std::size_t c) { return campaign.candidates.columns[c].in_law; });
+  };
+  if (own == 0 || std::none_of(rival.causes.begin(), rival.causes.end(), of_the_law)) return all;
+  const auto count = static_cast<Index>(rival.parameters.size());
+  if (all.matrix.size() == 0) all.matrix = MatrixXd::Zero(count, count);
+  all.centre = VectorXd::Zero(count);
+  all.matrix.topLeftCorner(own, own) += campaign.own.matrix;
+  all.centre.head(own) = campaign.own.centre;
+  return all;
+}
 
 // Of the parameters, penalised ones counted by what they are free to do.
 double freedom_of(const Rival& rival, const Whitener& whitener) {
@@ -181,7 +207,7 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
   rival.parameters = start_of(extended, parameters, own, rival.effects);
   const BlockColumns& columns = campaign.candidates.by_symbol;
   const LawOnBlocks law(extended, campaign.conventions, columns);
-  const MatrixXd penalty = penalty_of(rival);
+  const Penalty penalty = penalties(campaign, rival);
   const FitEnd end = end_of_fit(campaign, search);
   const auto refit = [&](const LawOnBlocks& with) {
     rival.predicted = with.predict(rival.parameters);
@@ -272,6 +298,7 @@ Campaign selected(const Campaign& campaign) {
   Campaign part{campaign.law,    campaign.conventions,         some.blocks,
                 some.candidates, campaign.measured(some.rows), {},
                 campaign.quick};
+  part.own = campaign.own;
   part.of_selected = true;
   if (campaign.nuisance.cols() > 0) part.nuisance = campaign.nuisance(some.rows, Eigen::all);
   return part;
@@ -291,8 +318,8 @@ Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weig
   const LawOnBlocks law(bounded_law(campaign, rival), campaign.conventions,
                         campaign.candidates.by_symbol);
   const Whitener whitener(weights, rival.predicted, campaign.blocks, campaign.nuisance);
-  BlockFit fit =
-      fit_blocks(law, campaign.measured, whitener, rival.parameters, penalty_of(rival), {}, end);
+  BlockFit fit = fit_blocks(law, campaign.measured, whitener, rival.parameters,
+                            penalties(campaign, rival), {}, end);
   rival.parameters = std::move(fit.parameters);
   rival.predicted = std::move(fit.predicted);
   rival.jacobian = std::move(fit.jacobian);

@@ -1,16 +1,27 @@
 // A law with some effects in it, fitted to the blocks of a campaign under a noise model.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "trace/candidates.h"
 #include "trace/law_on_blocks.h"
 #include "trace/noise_fit.h"
-#include "trace/screen.h"
 #include "trace/selection.h"
 
 namespace frictab::trace {
+
+// The sites of a law: the parts of it that an effect may change (PlacedEffect::acts_on), and whose
+// index in this list stands for them. mu and the limit together are a site only where a law has a
+// limit of its own: what lubricates worse does so before and behind saturation.
+inline constexpr std::array<effects::ActsOn, 4> sites = {
+    effects::ActsOn::mu, effects::ActsOn::m, effects::ActsOn::tau, effects::ActsOn::mu_m};
+inline constexpr std::size_t on_mu = 0, on_both = 3;
+
+// What tau_R changes, per block, where an effect's factor changes by 1, at each site.
+using Sensitivities =
+    std::array<Eigen::VectorXd, sites.size()>; // of size 0 where the law has no such site
 
 // The campaign as every fit sees it.
 struct Campaign {
@@ -24,6 +35,10 @@ struct Campaign {
   // Of more than 200 tests: where fits start, and what the noise is fitted to.
   std::shared_ptr<const Selection> selection = nullptr;
   bool of_selected = false; // this one is of selected tests
+  // How far the law's own parameters may go from those without effects where one follows an input
+  // of the law: it can take the place of a parameter; what the tests cannot tell then, and other
+  // states would show, stays as it was.
+  Penalty own = {};
 };
 // The campaign of its selected tests; itself where there are none.
 Campaign selected(const Campaign& campaign);
@@ -71,6 +86,10 @@ NoiseModel refit_noise(const Campaign& campaign, const NoiseData& data, const No
 // there are none.
 Eigen::MatrixXd penalty_of(const Rival& rival);
 
+// Ties the law's own parameters to those of this rival in all further fits with effects, with this
+// share of the information that the tests have of them.
+void tie_parameters(Campaign& campaign, const Rival& base, double share);
+
 // Without its effect `index`, all refitted.
 Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t index);
 
@@ -81,7 +100,7 @@ Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weig
 // better; where it is not, they may lean on the few rows that are least correlated with others.
 NoiseModel rows_alike(const NoiseModel& noise);
 
-// Index in `sites` (screen.h) of where the effect acts.
+// Index in `sites` of where the effect acts.
 std::size_t site_of(const effects::PlacedEffect& effect);
 
 // Values to start from of the law with effects: the law's `count` own, each effect's, and behind

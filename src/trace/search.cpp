@@ -27,6 +27,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Of the information of a law's own parameters, that ties them where effects are in: nothing that
+// the tests tell apart, all that only other states would.
+constexpr double tied = 0.1, tied_by_one_factor = 1;
 constexpr double negligible_share = 1e-4; // of tau_R: the residual of a law that is exact
 
 bool is_trained(const models::Law& law) {
@@ -78,20 +81,15 @@ models::Law with_piece_as_column(const Model& model, const Blocks& blocks,
   return surrogate;
 }
 
-std::size_t in_rows(const data::Dataset& data, std::size_t experiment) {
-  return data.rows_behind(experiment);
-}
-
 } // namespace
 
-Search::Search(const TraceInput& in, const Effort& how_much) : input(in), effort(how_much) {
+Search::Search(const TraceInput& in, const NoiseModel* earlier) : input(in) {
   const Progress progress("columns and noise", 0);
   take_units();
   blocks = make_blocks(in.training);
   make_candidates();
-  make_campaign();
-  fit_base();
-  make_gains();
+  make_campaign(earlier != nullptr);
+  fit_base(earlier);
 }
 
 void Search::make_candidates() {
@@ -100,16 +98,19 @@ void Search::make_candidates() {
                                calibrate::predict(model, input.training),
                                models::inputs(*model.law, model.conventions), input.options);
   order.column = candidates.order_column;
+}
+
+void Search::offer() {
   causes = all_causes(candidates);
   shapes.resize(causes.size());
   parallel_for(shapes.size(), [&](std::size_t c) {
-    if (causes[c].is_joint() || !constant_in_experiments(causes[c], candidates))
+    if (!causes[c].is_joint() && !constant_in_experiments(causes[c], candidates))
       shapes[c] = shapes_of(causes[c], candidates);
   });
-  test_shapes = trace::test_shapes(candidates, blocks);
+  gains = test_gains(input.training, calibrate::predict(input.fit.model, input.training)).gain;
 }
 
-void Search::make_campaign() {
+void Search::make_campaign(bool quick) {
   const Model& model = input.fit.model;
   surrogate_ = is_trained(*model.law)
                    ? with_piece_as_column(model, blocks, input.training, candidates.by_symbol)
@@ -120,7 +121,7 @@ void Search::make_campaign() {
                                                   candidates,
                                                   blocks.mean(input.training.values("tau_R_MPa")),
                                                   {},
-                                                  effort.earlier != nullptr,
+                                                  quick,
                                                   select_tests(blocks, candidates, input.seed)});
   // The law at a block's mean state is not the mean of the law over the block where it is curved:
   // that difference is taken off the measured means, once, as the calibrated law has it.
@@ -130,7 +131,7 @@ void Search::make_campaign() {
   tau_scale_MPa = campaign_->measured.cwiseAbs().mean();
 }
 
-void Search::fit_base() {
+void Search::fit_base(const NoiseModel* earlier) {
   const Model& model = input.fit.model;
   const LawOnBlocks law(surrogate_, model.conventions, candidates.by_symbol);
   MatrixXd jacobian;
@@ -140,52 +141,11 @@ void Search::fit_base() {
                                   candidates.by_symbol, predicted);
   const VectorXd residual = campaign_->measured - predicted;
   const NoiseData data{residual, predicted, blocks, jacobian, trained_};
-  const NoiseModel noise = effort.earlier ? *effort.earlier : fit_noise(*campaign_, data);
+  const NoiseModel noise = earlier ? *earlier : fit_noise(*campaign_, data);
   base = fit_rival(*campaign_, {}, {}, model.parameters, noise, NoiseSearch::again);
+  one_factor = one_factor_at_a_time(state_means(candidates, blocks));
+  tie_parameters(*campaign_, base, one_factor ? tied_by_one_factor : tied);
   move_to(base);
-}
-
-// Gains refer to the law fitted by relative least squares in which every test weighs the same. The
-// noise model's weights would not do: it was fitted with the missing effects in the residual, and
-// they would bend the law towards some tests.
-void Search::make_gains() {
-  const Model& model = input.fit.model;
-  const LawOnBlocks law(surrogate_, model.conventions, candidates.by_symbol);
-  NoiseModel relative;
-  relative.slow = 0;
-  relative.scale = tau_scale_MPa;
-  VectorXd weight(campaign_->measured.size());
-  for (std::size_t e = 0; e < blocks.experiments(); ++e) {
-    const auto begin = static_cast<Index>(blocks.first[e]);
-    const auto rows = static_cast<double>(in_rows(input.training, e));
-    weight.segment(begin, static_cast<Index>(blocks.first[e + 1]) - begin)
-        .setConstant(std::sqrt(blocks.usual_rows / rows)); // behind a whitening by rows
-  }
-  BlockFit fit;
-  fit.parameters = base.parameters;
-  fit.predicted = base.predicted;
-  for (int round = 0; round < 3; ++round) // the weights follow the law
-    fit = fit_blocks(law, campaign_->measured, Whitener(relative, fit.predicted, blocks),
-                     fit.parameters, {}, weight);
-  Model plain = model;
-  plain.parameters = fit.parameters;
-  gains = test_gains(input.training, calibrate::predict(plain, input.training));
-  MatrixXd directions = fit.jacobian;
-  append_columns(directions, trained_);
-  const VectorXd floor = fit.predicted.cwiseMax(1e-3 * tau_scale_MPa);
-  law_between_ = blocks.experiment_means(floor.cwiseInverse().asDiagonal() * directions);
-}
-
-MatrixXd Search::known_between() const {
-  MatrixXd known = law_between_;
-  for (const effects::PlacedEffect& effect : last_.effects) {
-    const VectorXd factor = factor_on(effect, candidates.by_symbol);
-    append_columns(known, blocks.experiment_means(factor.array().max(1e-3).log().matrix()));
-  }
-  if (campaign_->nuisance.cols() > 0)
-    append_columns(known, blocks.experiment_means(last_.predicted.cwiseInverse().asDiagonal() *
-                                                  campaign_->nuisance));
-  return known;
 }
 
 Model Search::model_of(const Rival& rival) const {
@@ -211,20 +171,8 @@ void Search::fit_again() {
                     NoiseSearch::again));
 }
 
-const Rival& Search::with_first(std::size_t count) const {
-  if (count == 0) return base;
-  return count == findings.size() ? last_ : findings[count - 1].rival;
-}
-
 Whitener Search::whitener() const {
   return {last_.noise, last_.predicted, blocks, campaign_->nuisance};
-}
-
-double Search::family_alpha() const {
-  constexpr double most = 0.5; // where a user asks for little, there is nothing left to relax
-  const bool validated = input.validation.experiments.size() >= enough_validation;
-  const double level = effort.level * (validated ? level_with_validation : 1);
-  return std::max(input.options.alpha, std::min(level * input.options.alpha, most));
 }
 
 void Search::take_units() {
@@ -243,59 +191,6 @@ bool Search::negligible() const {
   const VectorXd left = residual();
   return left.norm() / std::sqrt(static_cast<double>(left.size())) <
          negligible_share * tau_scale_MPa;
-}
-
-namespace {
-
-ScreenInput screen_input(const Search& search, const Whitener& weights, const VectorXd& residual) {
-  return {search.shapes,  search.sensitivities(), weights, search.first(),   residual,
-          search.known(), search.units,           0,       search.input.seed};
-}
-
-// The noise of the residual once the leading direction is fitted as well.
-NoiseModel noise_behind(const Search& search, const Direction& leader) {
-  const VectorXd direction = search.sensitivities()[leader.site].cwiseProduct(
-      search.shapes[leader.cause][leader.shape].direction.cast<double>());
-  MatrixXd known = search.known();
-  append_columns(known, direction);
-  MatrixXd all = known;
-  append_columns(all, search.residual());
-  search.whitener().apply(all);
-  const VectorXd coefficients =
-      all.leftCols(known.cols()).colPivHouseholderQr().solve(VectorXd(all.rightCols(1)));
-  const VectorXd left = search.residual() - direction * coefficients(coefficients.size() - 1);
-  MatrixXd fitted = search.last().jacobian;
-  append_columns(fitted, direction);
-  return refit_noise(
-      search.campaign(),
-      {left, search.last().predicted, search.blocks, fitted, search.campaign().nuisance, false},
-      search.last().noise);
-}
-
-} // namespace
-
-Screened screen_within_tests(const Search& search, bool keep_scores) {
-  const VectorXd residual = search.residual();
-  Screened found;
-  found.noise = search.last().noise;
-  const Whitener before = search.whitener();
-  found.result = screen(screen_input(search, before, residual));
-  if (found.result.directions.empty()) return found;
-  found.noise = noise_behind(search, found.result.directions[found.result.best]);
-  const Whitener weights(found.noise, search.last().predicted, search.blocks,
-                         search.campaign().nuisance);
-  ScreenInput input = screen_input(search, weights, residual);
-  input.flips = search.effort.flips;
-  input.keep_scores = keep_scores;
-  input.least_deviation = 1;
-  found.result = screen(input);
-  return found;
-}
-
-BetweenResult search_between_tests(const Search& search, double alpha) {
-  const MatrixXd known = search.known_between();
-  return search_between({search.gains, known, search.test_shapes, search.candidates, alpha,
-                         search.effort.permutations, search.input.seed});
 }
 
 } // namespace frictab::trace

@@ -1,16 +1,18 @@
-// The state of a search for missing effects, and its two tests.
+// The state of a search for missing effects.
 //
-// A search starts with the calibrated law on blocks and adds effects one by one. It keeps the law
-// with all effects found so far (`last`), what each site of it could change (`sensitivities`), and
-// the directions of everything that is fitted already (`known`): an effect counts only by what
-// those cannot imitate. search_effects (search_effects.cpp) is the recipe: between tests, within
-// tests, between tests once more, then what follows the declared order of tests.
+// A search starts with the calibrated law on blocks and adds effects to it. It keeps the law with
+// all effects found so far (`last`), what each site of it could change (`sensitivities`), and the
+// directions of everything that is fitted already (`known`): an effect counts only by what those
+// cannot imitate. search_effects (search_effects.cpp) is the recipe: all terms at once, then what
+// follows the declared order of tests.
 #pragma once
 
+#include <limits>
 #include <memory>
 
-#include "trace/between_search.h"
+#include "trace/gains.h"
 #include "trace/rivals.h"
+#include "trace/shapes.h"
 #include "trace/trace.h"
 
 namespace frictab::trace {
@@ -19,41 +21,59 @@ namespace frictab::trace {
 struct Finding {
   Rival rival; // the law with all effects so far
   double p_value = 1;
-  double statistic = 0, threshold = 0; // within tests only
-  std::vector<Rival> others;           // the best rival of every other cause, best first
-  std::vector<bool> in_set;            // of `others`
-  bool between = false;                // found on one value per test
+  std::vector<Rival> others; // the best rival of every other cause, best first
+  std::vector<bool> in_set;  // of `others`
+  bool between = false;      // constant within tests
 };
 
-// With fewer validation tests than this they decide nothing: "unseen" are the training tests, left
-// out in turn.
-inline constexpr std::size_t enough_validation = 8;
-
-// p-value up to which either family takes what it finds, in units of trace.alpha, where there are
-// enough validation tests (1 where not). What is found also has to predict left-out tests
-// (nested_errors.h) and these (delivery.h). All of that happens by chance far more rarely than the
-// p-value alone: false alarms were rarer than trace.alpha (docs/measurements.md).
-inline constexpr double level_with_validation = 2.5;
-
-// What a search spends and asks: fewer draws where it is repeated for every fold, and a larger
-// p-value. Without a test the same effect has a larger one, and a fold that finds nothing does not
-// say what an effect is worth.
-struct Effort {
-  std::size_t permutations = 999; // between tests
-  std::size_t flips = 1999;       // within tests
-  double level = 1;               // times the p-value of the search on all tests
-  // Of the law on all tests: where a fold starts to fit its noise, and then fits it coarsely.
-  const NoiseModel* earlier = nullptr;
+// What goes with the residual, and was not found.
+struct Left {
+  Cause cause;
+  effects::PlacedEffect effect; // not fitted
+  double p_value = 1;
+  double threshold = 0;   // standard errors, from which on it would have been found
+  Eigen::VectorXd change; // per block, of ln tau_R, as estimated
 };
+
+// The smallest effect of a column that would have been found with a probability of 80 %.
+struct Seen {
+  Cause cause;
+  bool identifiable = true; // false: parameters of the law imitate it
+  double size = 0;          // root mean square, of ln tau_R
+};
+
+// What the joint search says of all that it did not find.
+struct Leftover {
+  double p_value = 1;     // of the strongest
+  std::vector<Left> left; // strongest first
+  std::vector<Seen> seen; // of single columns
+  double smallest_seen =  // relative difference between two halves of the tests
+      std::numeric_limits<double>::infinity();
+  std::size_t terms = 0, flips = 0; // tried
+};
+
+// Tests left out together, and what the same search finds without them.
+struct CauseFold {
+  std::vector<std::size_t> out;
+  std::vector<Cause> causes;
+  std::vector<effects::ActsOn> acts_on; // of each
+};
+
+// Fewer validation tests than this are searched as the training tests: they could not veto
+// anything, and what they show is needed. Tests left out in turn judge then.
+inline constexpr std::size_t enough_validation = 20;
 
 class Search {
 public:
   // Candidates, their shapes and the law without effects. Columns that come from the model
-  // (friction work) are those of `input.fit`.
-  explicit Search(const TraceInput& input, const Effort& effort = {});
+  // (friction work) are those of `input.fit`. `earlier`: noise of the law on all tests, where a
+  // fold starts to fit its own, and then fits it coarsely.
+  explicit Search(const TraceInput& input, const NoiseModel* earlier = nullptr);
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
 
+  // What a search looks for; a fit alone does without.
+  void offer();
   void move_to(Rival rival);
   // The same effects once more, from where they are: after the nuisance changed.
   void fit_again();
@@ -67,9 +87,6 @@ public:
   bool negligible() const;
 
   const Rival& last() const { return last_; }
-  // The law with the first `count` findings: without any, with all of them, or as it stood when
-  // that many had been found.
-  const Rival& with_first(std::size_t count) const;
   const Sensitivities& sensitivities() const { return sensitivities_; }
   // Directions of everything that is fitted in `last`, or could have been: blocks x directions.
   const Eigen::MatrixXd& known() const { return known_; }
@@ -78,33 +95,26 @@ public:
   // A rival as a model like any other: what tables, routines and predict() take.
   models::Model model_of(const Rival& rival) const;
 
-  // Per test, what the parameters of the law, the effects in it and the order of tests explain of
-  // the logarithm of its gain.
-  Eigen::MatrixXd known_between() const;
   // Recordings, where there are enough of them; else each test is one.
   void take_units();
-  // Whether so many units, which the screening flips, can give a p-value of trace.alpha.
+  // Whether so many units, whose signs are flipped together, can give a p-value of trace.alpha.
   bool enough_units() const;
-  // p-value that a finding of either family needs.
-  double family_alpha() const;
 
   const TraceInput& input;
-  Effort effort;
   Blocks blocks;
   Candidates candidates;
   std::vector<Cause> causes;
-  std::vector<std::vector<GridShape>> shapes; // per cause; none: not to be considered any more
-  TestGains gains;                            // of the law without effects
-  std::vector<TestShape> test_shapes;
+  std::vector<std::vector<GridShape>> shapes; // per cause: of single columns that move in tests
+  Eigen::VectorXd gains;                      // per test, of the calibrated law (gains.h)
   double tau_scale_MPa = 1;
+  bool one_factor = false;       // tests change one state at a time
   Rival base;                    // without effects
   std::vector<Finding> findings; // in the order in which they were added
   OrderStructure order;
-  std::vector<std::size_t> units; // per experiment: which of them the screening flips together
-  double last_p_value = 1;        // of what is left within tests
-  ScreenResult last_screen;
-  BetweenResult last_between;
-  std::vector<Doubtful> doubtful; // of the last search between tests that looked for effects
+  std::vector<std::size_t> units; // per experiment: which of them are flipped together
+  Leftover leftover;
+  std::vector<CauseFold> folds; // of the joint search
+  bool pays = false;            // what it found, on tests left out
   std::vector<std::string> rejected;
   // Causes that a drift over the order of tests explains as well.
   struct Confounded {
@@ -116,9 +126,8 @@ public:
 
 private:
   void make_candidates();
-  void make_campaign();
-  void fit_base();
-  void make_gains();
+  void make_campaign(bool quick);
+  void fit_base(const NoiseModel* earlier);
 
   models::Law surrogate_;   // of a trained law: what the training found, as a column
   Eigen::MatrixXd trained_; // what a trained law could have absorbed
@@ -126,23 +135,9 @@ private:
   Rival last_; // with all effects so far
   Sensitivities sensitivities_;
   Eigen::MatrixXd known_;
-  Eigen::MatrixXd law_between_; // per test, directions of the law's parameters
 };
-
-// The test within tests, in two rounds. The noise model was fitted without the effect that is
-// looked for, so it explains part of that effect as noise, and the larger the effect, the larger
-// that noise: no statistic could become large. So the first round only finds the leading direction;
-// the noise is fitted again with it in the law; the second round is judged. Columns that are the
-// same throughout every test belong to the other family.
-struct Screened {
-  ScreenResult result;
-  NoiseModel noise;
-};
-Screened screen_within_tests(const Search& search, bool keep_scores = false);
-// The test between tests (between_search.h), with what the law and its effects explain as known.
-BetweenResult search_between_tests(const Search& search, double alpha);
 
 // The whole search: `last` is the law with everything that was found.
-std::unique_ptr<Search> search_effects(const TraceInput& input, const Effort& effort = {});
+std::unique_ptr<Search> search_effects(const TraceInput& input);
 
 } // namespace frictab::trace

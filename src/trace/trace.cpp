@@ -14,12 +14,13 @@
 #include "core/no_value.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "data/append.h"
 #include "trace/aliases.h"
 #include "trace/delivery.h"
 #include "trace/design.h"
-#include "trace/detectable.h"
 #include "trace/effect_curve.h"
 #include "trace/leads.h"
+#include "trace/order_search.h"
 #include "trace/refit_traced.h"
 #include "trace/scatter.h"
 #include "trace/uncertainty.h"
@@ -44,12 +45,13 @@ public:
     trace.notes = search_.candidates.notes;
     add_tried(trace);
     delivery_ = deliver(search_, trace);
-    trace.validation_shift = validation_shift_of(search_, delivery_.rival);
+    trace.validation_searched = !in_.searched.empty();
+    if (!trace.validation_searched)
+      trace.validation_shift = validation_shift_of(search_, delivery_.rival);
     add_law(trace);
     add_effects(trace);
     const Progress progress("what would have been seen", 0);
     add_scatter(trace, search_, delivery_.rival);
-    add_detectable(trace, search_, in_.seed);
     add_leads(trace, search_, delivery_.rival);
     trace.cannot_tell = find_aliases(in_.training, in_.fit.model, in_.options);
     add_verdict(trace, search_, delivery_.contradicted);
@@ -61,20 +63,27 @@ private:
     if (!search_.candidates.constant.empty())
       trace.notes.push_back("never varied, so nothing can be said about it: " +
                             join(search_.candidates.constant, ", "));
+    if (search_.one_factor)
+      trace.notes.push_back(
+          "the tests change one state at a time: what several do together no test "
+          "shows, nor what a law with effects is worth there");
     trace.n_columns = search_.candidates.columns.size();
-    trace.n_candidates = search_.last_screen.directions.size() + search_.test_shapes.size();
-    trace.n_flips = search_.last_screen.flipped_maxima.size();
-    trace.smallest_seen = search_.last_between.smallest_seen;
-    for (const std::size_t s : search_.last_screen.absorbed) {
-      const Cause& cause = search_.causes[s];
-      if (!cause.is_joint() && !search_.shapes[s].empty() && !chosen(cause))
-        trace.not_identifiable.push_back(cause_name(cause, search_.candidates));
+    const Leftover& leftover = search_.leftover;
+    trace.n_candidates = leftover.terms;
+    trace.n_flips = leftover.flips;
+    trace.smallest_seen = leftover.smallest_seen;
+    for (const Seen& seen : leftover.seen) {
+      const CandidateColumn& column = search_.candidates.columns[seen.cause.columns[0]];
+      Detectable entry{
+          column.name,      column.derived ? column.name : "", effects::ActsOn::mu, 0, 0,
+          seen.identifiable};
+      if (seen.identifiable) {
+        entry.share = seen.size;
+        entry.size_MPa = seen.size * search_.tau_scale_MPa;
+      } else
+        trace.not_identifiable.push_back(column.name);
+      trace.detectable.push_back(std::move(entry));
     }
-  }
-
-  bool chosen(const Cause& cause) const {
-    return std::find(search_.last().causes.begin(), search_.last().causes.end(), cause) !=
-           search_.last().causes.end();
   }
 
   calibrate::Metrics errors(const data::Dataset& data, const std::vector<double>& predicted) const {
@@ -85,6 +94,17 @@ private:
   // left out in turn.
   void judge(Trace& trace) const {
     calibrate::ModelFit& fit = trace.extended;
+    if (!in_.searched.empty()) {
+      std::vector<calibrate::ErrorSums> sums;
+      for (std::size_t i = 0; i < in_.searched.size(); ++i) {
+        sums.push_back(delivery_.unseen[in_.searched[i]]);
+        fit.unseen.push_back(
+            calibrate::error_of(in_.validation.experiments[i], true, sums.back(), no_value));
+      }
+      fit.validation = calibrate::metrics(sums, in_.bootstrap, in_.seed);
+      fit.band = calibrate::check_band(fit.model, {}, in_.training.subset({}));
+      return;
+    }
     if (in_.validation.experiments.empty()) {
       fit.validation = trace.after.validation;
       fit.band = calibrate::check_band(fit.model, {}, in_.validation);
@@ -140,8 +160,6 @@ private:
       const Finding& finding = search_.findings[delivery_.findings[i]];
       effect.between = finding.between;
       effect.p_value = finding.p_value;
-      effect.statistic = finding.statistic;
-      effect.threshold = finding.threshold;
       const std::size_t count = effects::fitted_parameters(effect.placed).size();
       add_parameters(effect, trace.extended, parameter);
       add_alternatives(effect, finding);
@@ -186,9 +204,16 @@ private:
                : fmt::format("explains less than {} (log likelihood {:.1f} lower)", name, behind)});
     }
     effect.design = design_for(search_, finding);
-    effect.order_confounded =
-        search_.order.found &&
-        constant_in_experiments(finding.rival.causes.back(), search_.candidates);
+    const Cause& cause = finding.rival.causes.back();
+    effect.order_confounded = may_stand_for_time(search_, cause);
+    if (effect.order_confounded && effect.design.tests.empty())
+      effect.design = design_in_turn(search_, cause, gains_scatter());
+  }
+
+  // Relative, between tests.
+  double gains_scatter() const {
+    const Eigen::VectorXd& gain = search_.gains;
+    return std::sqrt((gain.array() - gain.mean()).square().mean());
   }
 
   std::size_t experiments() const { return in_.training.experiments.size(); }
@@ -212,6 +237,14 @@ data::Dataset in_order_of_names(const data::Dataset& data) {
   return sorted;
 }
 
+bool of_another_world(const TraceInput& in) {
+  const models::Model& model = in.fit.model;
+  return shift_of(test_gains(in.training, calibrate::predict(model, in.training)),
+                  test_gains(in.validation, calibrate::predict(model, in.validation)),
+                  static_cast<double>(model.parameters.size()))
+      .found;
+}
+
 } // namespace
 
 double tests_for(double alpha) {
@@ -233,13 +266,25 @@ const char* verdict_name(Verdict verdict) {
 }
 
 Trace trace(const TraceInput& input) {
-  const data::Dataset training = in_order_of_names(input.training);
   const data::Dataset all = input.all ? in_order_of_names(*input.all) : data::Dataset{};
-  const TraceInput sorted{
-      training,   input.validation,          input.fit, input.options, input.bootstrap,
-      input.seed, input.all ? &all : nullptr};
-  const std::unique_ptr<Search> search = search_effects(sorted);
-  return Reporter(sorted, *search).run();
+  const auto run = [&](const data::Dataset& training, std::vector<std::size_t> searched) {
+    const TraceInput sorted{
+        training,   input.validation,           input.fit,          input.options, input.bootstrap,
+        input.seed, input.all ? &all : nullptr, std::move(searched)};
+    const std::unique_ptr<Search> search = search_effects(sorted);
+    return Reporter(sorted, *search).run();
+  };
+  const std::size_t few = input.validation.experiments.size();
+  if (few == 0 || few >= enough_validation || of_another_world(input))
+    return run(in_order_of_names(input.training), {});
+  const data::Dataset both = data::together(input.training, input.validation);
+  const data::Dataset sorted = in_order_of_names(both);
+  std::vector<std::size_t> places;
+  for (std::size_t e = both.experiments.size() - few; e < both.experiments.size(); ++e)
+    places.push_back(static_cast<std::size_t>(
+        std::find(sorted.experiments.begin(), sorted.experiments.end(), both.experiments[e]) -
+        sorted.experiments.begin()));
+  return run(sorted, std::move(places));
 }
 
 } // namespace frictab::trace

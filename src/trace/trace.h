@@ -10,27 +10,29 @@
 //     candidates       columns, histories and pairs that an effect may follow (a Cause)
 //     shapes           forms of an effect of a cause, before it is fitted
 //     law_on_blocks    a law on blocks: predictions, derivatives, weighted fits (gram: their sums)
-//     noise, noise_fit the covariance of residuals, and its fit (tile: for many directions)
+//     noise, noise_fit the covariance of residuals, and its fit
 //     rivals           a law with some effects, fitted together with the noise (a Rival)
 //     directions       derivatives of tau_R: what is known, what an effect would change
 //     projection       bases, to take what is known out of what is tested
 //   the search
-//     search           its state, and its two tests
-//     search_effects   the recipe: between, within, between once more, order
-//     between_search   between tests: one gain per test, with test_shapes and path_search
-//     screen           within tests: scores of thousands of directions, a tile at a time, and
-//     sign_flips       their signs flipped
-//     choose_effect    which cause, in which form, with smooth and plausibility
+//     search           its state
+//     search_effects   the recipe: one search, then what follows the order of tests
+//     joint            response, law and terms of a campaign, and what was found in its words
+//     modes, terms     tests as means and cosines; curves, factors and products as columns
+//     joint_model      one penalised mixed model of all that
+//     joint_search     which terms the residual follows more than any would by chance
+//     joint_choice     which of them pay on tests left out
+//     choose_effect    which of the causes near a finding, in which form, with smooth and
+//                      plausibility
 //     order_search     what the order of tests explains as well, with order_test
 //   what comes of it
-//     nested_errors    the whole search repeated without some tests
+//     nested_errors    the law with what is found without some tests, on those
 //     delivery         which findings are delivered with the law
 //     leads, design    what is not, and the tests that would settle it, with candidate_tests;
 //                      followers: what may follow from friction
 //     refit_traced     the law with them, fitted again to all experiments
 //     uncertainty      standard errors of its parameters
 //     scatter          what stays unexplained
-//     detectable       what would have been found
 //     effect_curve     curves for plots
 //     aliases          what the design ties to a state: neither found nor missing
 //     verdict          one word and a few sentences
@@ -88,9 +90,8 @@ struct TracedEffect {
   std::vector<std::string> columns; // recorded ones
   std::string derived;              // what was computed from them
   std::vector<TracedParameter> parameters;
-  bool between = false; // found on one value per test, not on what changes within tests
-  double p_value = 1;   // family-wise, over all candidates of its family
-  double statistic = 0, threshold = 0; // within tests only
+  bool between = false;          // found on one value per test, not on what changes within tests
+  double p_value = 1;            // family-wise, over all candidates of its family
   double gain_MPa = 0;           // MAE on unseen tests without it, all refitted, minus with it
   bool order_confounded = false; // cannot be told from a drift over the order of tests
   Design design;                 // what would decide within the set
@@ -131,9 +132,10 @@ struct Lead {
   std::string form;
   bool between = false;
   double p_value = 1;
-  double share = 0; // change of tau_R over the column's range, relative; 0: not known
-  std::string why;  // "no gain on left-out tests (-0.2 +- 0.3 %)"
-  Design design;    // of the strongest, where there is a point in it
+  double share = 0;         // change of tau_R over the column's range, relative; 0: not known
+  std::string why;          // "no gain on left-out tests (-0.2 +- 0.3 %)"
+  Design design;            // of the strongest, where there is a point in it
+  bool significant = false; // by the search, which found it; what came after speaks against it
 };
 
 // What the tests cannot tell from a state of the law (aliases.h).
@@ -187,6 +189,7 @@ struct Trace {
   TraceErrors after;
   // | nested_cross_validation | leave_one_out: nothing was found | nothing: one test, the fit
   std::string unseen = "validation";
+  bool validation_searched = false;  // they are few, and were searched as the training tests
   calibrate::Difference improvement; // MAE on unseen tests before minus after, paired by experiment
   // The same against the law as it was calibrated, which effects must also beat: the weights of the
   // trace may cost a law that lacks something more than the effects gain. On validation tests only.
@@ -217,7 +220,7 @@ struct Trace {
 };
 
 struct TraceInput {
-  const data::Dataset& training;
+  const data::Dataset& training;   // those that are searched
   const data::Dataset& validation; // without rows: fit.unseen has the errors of tests left out
   const calibrate::ModelFit& fit;
   const TraceOptions& options;
@@ -225,6 +228,9 @@ struct TraceInput {
   std::uint64_t seed = 1;
   // deliver = all: training and validation together, to which a law with effects is fitted again.
   const data::Dataset* all = nullptr;
+  // Where validation tests are searched as well: their places in `training`, as `validation` has
+  // them.
+  std::vector<std::size_t> searched = {};
 };
 
 // An effect that shows in all of E experiments has a p-value of 2^(1-E) at best: how many of them

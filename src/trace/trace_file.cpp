@@ -132,8 +132,6 @@ Json effect_json(const TracedEffect& e) {
           {"parameters", parameters_json(e)},
           {"family", family_name(e.between)},
           {"p_value", e.p_value},
-          {"statistic", e.statistic},
-          {"threshold", e.threshold},
           {"gain_MPa", e.gain_MPa},
           {"order_confounded", e.order_confounded},
           {"discriminating_design", design_json(e.design)},
@@ -207,8 +205,6 @@ TracedEffect parse_effect_json(const Json& j) {
                             p.value("no_error_because", "")});
   e.between = j.at("family") == family_name(true);
   e.p_value = number_or_nan(j.at("p_value"));
-  e.statistic = number_or_nan(j.at("statistic"));
-  e.threshold = number_or_nan(j.at("threshold"));
   e.gain_MPa = number_or_nan(j.at("gain_MPa"));
   e.order_confounded = j.at("order_confounded");
   e.design = parse_design(j.at("discriminating_design"));
@@ -234,7 +230,8 @@ Json leads_json(const std::vector<Lead>& leads) {
                     {"p_value", lead.p_value},
                     {"share", lead.share},
                     {"why_not_added", lead.why},
-                    {"design", design_json(lead.design)}});
+                    {"design", design_json(lead.design)},
+                    {"significant", lead.significant}});
   return list;
 }
 
@@ -245,7 +242,7 @@ std::vector<Lead> parse_leads(const Json& j) {
                      parse_derived(lead.at("derived")), lead.at("form"),
                      lead.at("family") == family_name(true), number_or_nan(lead.at("p_value")),
                      number_or_nan(lead.at("share")), lead.at("why_not_added"),
-                     parse_design(lead.at("design"))});
+                     parse_design(lead.at("design")), lead.at("significant")});
   return leads;
 }
 
@@ -344,6 +341,7 @@ Json one_json(const Trace& t) {
           {"alpha", t.alpha},
           {"effects", effects},
           {"unseen", t.unseen},
+          {"validation_searched", t.validation_searched},
           {"as_calibrated", errors_json(t.as_calibrated)},
           {"before", errors_json(t.before)},
           {"after", errors_json(t.after)},
@@ -405,6 +403,7 @@ Trace parse_one(const Json& j) {
   for (const Json& effect : j.at("effects"))
     t.effects.push_back(parse_effect_json(effect));
   t.unseen = j.at("unseen");
+  t.validation_searched = j.at("validation_searched");
   t.as_calibrated = parse_errors(j.at("as_calibrated"));
   t.before = parse_errors(j.at("before"));
   const Json& nested = j.at("nested_cross_validation");

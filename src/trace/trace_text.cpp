@@ -112,6 +112,9 @@ void add_effect(std::string& out, const TracedEffect& e) {
     if (a.in_set) same.push_back(a.name);
   if (!same.empty())
     out += fmt::format("      these experiments cannot tell it from: {}\n", join(same, ", "));
+  if (e.order_confounded)
+    out += "      may stand for time: a drift over the tests would look the same; name their order "
+           "([trace] order), or run tests at both ends of it in turn\n";
   if (belongs_to_the_experiment(e))
     out += fmt::format("      no simulation has {}: it is a property or constant of routines; "
                        "[trace] ignore leaves it out\n",
@@ -130,9 +133,11 @@ std::string unseen_line(const Trace& t) {
     return fmt::format(
         "  unseen: each of the {} tests predicted by the law calibrated without it\n",
         t.after.validation.n_experiments);
-  return fmt::format("  unseen: each of the {} tests predicted by a search without it ({} folds); "
-                     "before is the law without the effects, fitted with the same weights\n",
-                     t.after.validation.n_experiments, t.nested.folds);
+  return fmt::format(
+      "  unseen: each of the {} tests predicted by a search without it ({} folds){}; "
+      "before is the law without the effects, fitted with the same weights\n",
+      t.after.validation.n_experiments, t.nested.folds,
+      t.validation_searched ? ", those to validate among them, which are few" : "");
 }
 
 // What was left out though it is recorded; the first few of a thousand columns.
@@ -206,19 +211,36 @@ std::string design_sentence(const Design& d) {
   return text;
 }
 
-const char* headline(const Trace& t) {
+namespace {
+
+// "not confirmed: v_rel_mm_s (p = 0.001)", or that nothing was found; with what is left over.
+std::string nothing_text(const Trace& t) {
+  if (t.least_p_value > t.alpha) return "nothing that so few tests can prove";
+  std::vector<std::string> names;
+  for (const Lead& lead : t.leads)
+    if (lead.significant) names.push_back(fmt::format("{} (p = {:.2g})", lead.name, lead.p_value));
+  std::string text = names.empty() ? "nothing was found" : "not confirmed: " + join(names, ", ");
+  if (!t.repeatability && t.noise_floor.n_experiments > 1)
+    text +=
+        fmt::format("; tests differ by {:.2g} % that nothing explains", 100 * t.scatter_between);
+  return text;
+}
+
+std::string headline(const Trace& t) {
   switch (t.verdict) {
   case Verdict::effect_added:
     return "effect added";
   case Verdict::nothing_missing:
     return "nothing is missing: what is left is no more than the rig repeats";
   case Verdict::nothing_found:
-    return t.least_p_value > t.alpha ? "nothing that so few tests can prove" : "nothing was found";
+    return nothing_text(t);
   case Verdict::unexplained_structure:
     break;
   }
   return "unexplained structure";
 }
+
+} // namespace
 
 std::string lead_name(const Lead& lead) {
   return lead.derived.empty() ? lead.name : lead.name + " (from " + join(lead.columns, ", ") + ")";

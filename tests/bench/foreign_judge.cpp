@@ -69,24 +69,6 @@ Trace traced(const Campaign& campaign, const calibrate::ModelFit& fit, const Opt
   return found;
 }
 
-// What knowing the shape of the cause would find: the test within tests, which judges what is
-// constant in a test as well, with the planted shape alone.
-void judge_truth(const Campaign& campaign, const calibrate::ModelFit& fit, double alpha,
-                 std::uint64_t seed, Score& score) {
-  trace::TraceOptions how;
-  how.alpha = alpha;
-  const trace::TraceInput input{campaign.training, campaign.validation, fit, how, 50, seed};
-  trace::Search search(input);
-  const double threshold = trace::screen_within_tests(search).result.threshold(alpha);
-  const Eigen::VectorXd shape = search.blocks.mean(campaign.planted);
-  search.causes.assign(1, search.causes.front());
-  search.shapes.assign(1, {{{}, shape.cast<float>()}});
-  const trace::ScreenResult alone = trace::screen_within_tests(search).result;
-  if (alone.directions.empty()) return; // the law's own parameters imitate it
-  score.p_truth = alone.p_value;
-  score.truth_passes = std::abs(alone.directions[alone.best].statistic) > threshold;
-}
-
 // --- what is the same column --------------------------------------------------------------------
 
 // Columns of one campaign: those that go together in its data have found each other.
@@ -257,7 +239,6 @@ Score judged(const Options& options, double alpha) try {
       (options.search_only ? of_search : of_trace)(campaign, fit, options, alpha, score);
   const auto end = std::chrono::steady_clock::now();
   score.seconds = std::chrono::duration<double>(end - begin).count();
-  if (!options.effect.empty()) judge_truth(campaign, fit, alpha, options.seed, score);
   Judge(campaign, outcome.found).score(score);
   const auto error_of = [&](const models::Model& model) {
     return mean_error(held_out.values("tau_R_MPa"), calibrate::predict(model, held_out));

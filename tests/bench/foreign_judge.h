@@ -22,11 +22,7 @@ struct Score {
   std::size_t causes = 0, causes_named = 0;
   std::size_t wrong = 0; // effects of other columns
   double p_value = 1;    // of the first effect
-  // What could be found: the p-value of the planted shape itself, tried alone, and whether its
-  // statistic passes the threshold of all that is tried.
-  double p_truth = 1;
-  bool truth_passes = false;
-  std::string why; // what was turned down or only led, and why
+  std::string why;       // what was turned down or only led, and why
   // Held-out mean absolute errors, MPa: of the law as calibrated, as delivered, and of the truth.
   double before = 0, after = 0, oracle = 0;
   double gain_scatter = 0, gain_sample = 0; // true

@@ -58,18 +58,15 @@ double wrong_per_case(const Results& results) {
 }
 
 void print_effect_row(const std::string& name, const Results& some) {
-  const auto alone = [](const Score& s) { return s.p_truth <= 0.02; };
-  fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.0f} % | {} | {:.2f} |\n", name,
-             some.size(), count(some, alone), count(some, &Score::truth_passes),
+  fmt::print("| {} | {} | {} | {} | {} | {} | {} | {:.0f} % | {} | {:.2f} |\n", name, some.size(),
              count(some, &Score::delivered), count(some, &Score::right_first),
              count(some, &Score::right_anywhere), count(some, &Score::complete),
              count(some, &Score::in_set), 100 * removed(some), worse(some), wrong_per_case(some));
 }
 
 constexpr const char* effect_header =
-    "| n | the true shape alone: p <= 0.02 | passes among all | detected | right first | right "
-    "anywhere | complete | in set | removed | worse | wrong "
-    "columns |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+    "| n | detected | right first | right anywhere | complete | in set | removed | worse | wrong "
+    "columns |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
 
 void print_effects(const Results& all, const std::vector<double>& strengths) {
   if (where(all, "effect").empty()) return;

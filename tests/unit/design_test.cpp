@@ -78,6 +78,20 @@ TEST(CandidateTests, SettingsAreTheCampaignsRangeWidenedByATenth) {
   EXPECT_THAT(settings[2].text, ElementsAre("12", "60", "108"));
 }
 
+TEST(CandidateTests, NumbersThatTestsShareAreSetToTheseAndNothingBelowZero) {
+  std::vector<TestRun> tests;
+  for (int e = 0; e < 8; ++e)
+    tests.push_back(
+        {100.0 + 10 * e,
+         10,
+         20,
+         {{"coated", e % 2 == 0 ? 0.0 : 1.0}, {"dose_pct", 0.5 * e}, {"run_order", 1.0 + e}}});
+  const auto settings = settings_of(campaign_of(tests), {"coated", "dose_pct", "run_order"});
+  ASSERT_EQ(settings.size(), 2u) << "nobody sets the order of tests";
+  EXPECT_THAT(settings[0].text, ElementsAre("0", "1"));
+  EXPECT_THAT(settings[1].text, ElementsAre("0", "1.93", "3.85"));
+}
+
 TEST(CandidateTests, WhatFollowsFromOthersIsSetThroughThem) {
   const Dataset data = campaign_of(three_tests());
   const auto names = [&](const char* column) {

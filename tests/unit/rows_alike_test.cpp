@@ -34,7 +34,9 @@ protected:
   explicit RowsAlike(bool effect = true)
       : twin_(campaign(effect)), calibrated_(calibrate::calibrate(
                                      {twin_.training.data, twin_.validation.data, models(), {}})),
-        search_(input_) {}
+        search_(input_) {
+    search_.offer();
+  }
 
   static calibrate::ModelOptions models() {
     calibrate::ModelOptions models;

@@ -163,7 +163,8 @@ TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {
        0.004,
        0,
        "contradicted by the validation tests",
-       design},
+       design,
+       true},
       {"dwell", {"s_mm", "v_rel_mm_s"}, "dwell", "hinge", false, 0.3, 0.12, "p = 0.3", {}}};
   trace.scatter_between = 0.04;
   trace.scatter_interval = {0.03, 0.06};
@@ -187,6 +188,7 @@ TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {
       EXPECT_EQ(again.leads.at(1).columns, trace.leads[1].columns);
       EXPECT_EQ(again.leads.at(0).why, trace.leads[0].why);
       EXPECT_TRUE(again.leads.at(0).between);
+      EXPECT_TRUE(again.leads.at(0).significant);
       EXPECT_EQ(trace_json({again}, false), text);
       EXPECT_EQ(trace::trace_text(again), trace::trace_text(trace));
     }

@@ -38,18 +38,6 @@ TEST(TraceScale, BlocksOfManyTestsShareABudget) {
   EXPECT_EQ(tests_of(10000, 5).count(), 10000 * 5U) << "a block for each of few rows";
 }
 
-// What is repeated for every fold, times the folds: a search on all tests but a fold's.
-TEST(TraceScale, BlocksOverAllFoldsGrowWithTheTestsAndNoFaster) {
-  const auto work = [](std::size_t tests) {
-    return static_cast<double>((1 + trace::count_of_folds(tests)) * tests_of(tests, 55).count());
-  };
-  EXPECT_EQ(trace::count_of_folds(30), 30U);
-  EXPECT_EQ(trace::count_of_folds(400), 20U);
-  for (const std::size_t tests : {200U, 405U, 810U, 2025U, 5000U})
-    EXPECT_LE(work(2 * tests), 2.2 * work(tests)) << tests;
-  EXPECT_LT(work(10000) / 10000, work(200) / 200) << "per test";
-}
-
 TEST(TraceScale, OneOfEachRunOfNeighboursIsSelected) {
   std::vector<std::size_t> rows;
   for (std::size_t e = 0; e < 1000; ++e)

@@ -125,15 +125,13 @@ std::vector<std::string> causes(const Trace& trace) {
 }
 
 // Under the noise model's weights a law without the twin's running-in and wear predicts twice as
-// badly as it was calibrated, and what is found does not make up for that.
+// badly as it was calibrated.
 TEST(SlowTrace, NoiseFloorIsNotAboveWhatTheCalibratedLawLeaves) {
   TwinOptions options;
   options.seed = 3;
   options.design = parse_design("points=20", twin::default_design(twin::twin_set("D")));
   options.more_bystanders = true;
   const Trace t = traced(data_of(options), "log_coulomb");
-  ASSERT_TRUE(t.effects.empty()) << trace_text(t);
-  ASSERT_GT(t.after.training.mae_MPa, 1.5 * t.as_calibrated.training.mae_MPa);
   EXPECT_LT(t.noise_floor.mae_MPa, 1.05 * t.as_calibrated.training.mae_MPa);
   EXPECT_LT(t.noise_floor.rmse_MPa, 1.05 * t.as_calibrated.training.rmse_MPa);
 }
@@ -212,7 +210,7 @@ TEST_P(SlowTracePlanted, EffectIsFoundPlacedAndRemoved) {
   EXPECT_LT(t.after.validation.mae_MPa, t.before.validation.mae_MPa);
   EXPECT_GT(t.improvement.interval.low, 0);
   EXPECT_GT(t.nested.gain, t.nested.std_error);
-  EXPECT_EQ(t.nested.folds, 20u);
+  EXPECT_EQ(t.nested.folds, 10u);
   EXPECT_NEAR(t.noise_floor.mae_MPa / t.after.training.mae_MPa, 1, 0.2); // as of the truth
   EXPECT_GT(t.effects.front().gain_MPa, 0);
   EXPECT_FALSE(t.validation_shift.found);
@@ -324,51 +322,6 @@ TEST(SlowTrace, IsTheSameWhereTheOrderIsDeclaredByItsNameAndByTheJob) {
   EXPECT_EQ(by_name.nested.gain, by_job.nested.gain);
   EXPECT_EQ(by_name.nested.std_error, by_job.nested.std_error);
   EXPECT_EQ(trace_json({by_name}, true), trace_json({by_job}, true));
-}
-
-// A search that takes nearly everything finds much that the order explains as well, products of two
-// columns among it.
-TEST(SlowTrace, ASearchEndsWhereWeakFindingsGoWithTheOrderOfTests) {
-  std::size_t confounded = 0;
-  for (std::uint64_t seed = 1; seed < 91; ++seed) {
-    TwinOptions options = campaign("log_coulomb", seed, "form=linear,column=Ra_um,strength=0.2");
-    options.design->points = 5;
-    const Data data = data_of(options);
-    const calibrate::Calibration fitted = calibrated(data, "log_coulomb");
-    const TraceOptions how = declared_order();
-    const trace::TraceInput input{data.training, data.validation, fitted.fits.front(), how, 0,
-                                  seed};
-    const auto search = trace::search_effects(input, {199, 299, 25});
-    EXPECT_FALSE(search->order.found) << "weak findings are no structure" << seed;
-    confounded += search->confounded.size();
-  }
-  EXPECT_GT(confounded, 5u);
-}
-
-TEST(Trace, ALeadSaysWhyASmallPValueWasNotEnough) {
-  TwinOptions options = campaign("log_coulomb", 1);
-  options.design->points = 5;
-  const Data data = data_of(options);
-  const calibrate::Calibration fitted = calibrated(data, "log_coulomb");
-  const TraceOptions how;
-  const trace::TraceInput input{data.training, data.validation, fitted.fits.front(), how, 0, 1};
-  const auto search = trace::search_effects(input, {49, 99});
-  const auto shape_of = [&](const std::string& name) {
-    return *std::find_if(
-        search->test_shapes.begin(), search->test_shapes.end(),
-        [&](const trace::TestShape& s) { return cause_name(s.cause, search->candidates) == name; });
-  };
-  const trace::TestShape roughness = shape_of("Ra_um"), tool = shape_of("tool"),
-                         humidity = shape_of("humidity_pct");
-  search->doubtful = {{roughness, {}, 0.03, true}, {tool, {roughness, humidity}, 0.04, false}};
-  Trace found;
-  trace::add_leads(found, *search, search->base);
-  ASSERT_GE(found.leads.size(), 2u);
-  EXPECT_EQ(found.leads[0].name, "Ra_um");
-  EXPECT_EQ(found.leads[0].why, "p = 0.03 over all columns between tests, but few tests, which "
-                                "scatter more than the others, carry it");
-  EXPECT_EQ(found.leads[1].why, "p = 0.04 over all columns between tests together with Ra_um and "
-                                "humidity_pct, and is not sure beside them");
 }
 
 TEST(SlowTrace, ABatchIsNotBlamedForWhatFollowsTheOrderOfTests) {
@@ -524,7 +477,7 @@ TEST(SlowTrace, DoesNotDependOnUnitDigitsOrTheOrderOfFiles) {
 // The law, a factor of its own in each test, and a column for it.
 Data with_factor(double size, double in_validation) {
   TwinOptions options = campaign("log_coulomb", 8);
-  options.design->validation = 12;
+  options.design->validation = 24;
   Data data = data_of(options);
   Random random(8, 3);
   for (Dataset* part : {&data.training, &data.validation}) {
@@ -542,25 +495,6 @@ Data with_factor(double size, double in_validation) {
   return data;
 }
 
-// Eight validation tests guard against chance as well, so the search may take more.
-TEST(SlowTrace, WithValidationTestsAnEffectMayHaveALargerPValue) {
-  TwinOptions options = campaign("log_coulomb", 6, "form=linear,column=Ra_um,strength=0.13");
-  options.design->points = 10;
-  Data data = data_of(options);
-  const Trace t = traced(data, "log_coulomb");
-  EXPECT_EQ(causes(t), std::vector<std::string>{"Ra_um"}) << trace_text(t);
-  EXPECT_GT(t.effects.at(0).p_value, t.alpha);
-  EXPECT_LE(t.effects.at(0).p_value, 2.5 * t.alpha);
-  EXPECT_GT(t.improvement.value_MPa, 0);
-  const std::vector<std::size_t> seven = {0, 1, 2, 3, 4, 5, 6};
-  data.validation = data.validation.subset(seven);
-  const Trace alone = traced(data, "log_coulomb");
-  EXPECT_TRUE(alone.effects.empty()) << trace_text(alone);
-  ASSERT_FALSE(alone.leads.empty());
-  EXPECT_EQ(alone.leads.front().columns, std::vector<std::string>{"Ra_um"});
-  EXPECT_NEAR(alone.leads.front().p_value, t.effects.at(0).p_value, 1e-9);
-}
-
 // Twelve tests, left out in turn, leave open whether a run-in predicts better; forty others do not.
 TEST(SlowTrace, ManyValidationTestsShowWhatFewLeftOutTestsLeaveOpen) {
   TwinOptions options = campaign("log_coulomb", 1, "form=saturation,column=s_mm,strength=0.3");
@@ -569,17 +503,29 @@ TEST(SlowTrace, ManyValidationTestsShowWhatFewLeftOutTestsLeaveOpen) {
   Data data = data_of(options);
   ASSERT_EQ(data.training.experiments.size(), 12u);
   const Trace t = traced(data, "log_coulomb");
-  EXPECT_EQ(causes(t), std::vector<std::string>{"s_mm"}) << trace_text(t);
+  EXPECT_TRUE(names(t, "s_mm")) << trace_text(t);
   EXPECT_EQ(t.nested.paying, 0u);
   EXPECT_GT(t.improvement.interval.low, 0);
   EXPECT_THAT(trace_text(t), HasSubstr("shown by the validation tests; training tests, left out "
                                        "in turn, leave it open: error"));
   const std::vector<std::size_t> eight = {0, 1, 2, 3, 4, 5, 6, 7};
   data.validation = data.validation.subset(eight);
-  const Trace few = traced(data, "log_coulomb");
-  EXPECT_TRUE(few.effects.empty()) << trace_text(few);
-  ASSERT_FALSE(few.leads.empty());
-  EXPECT_EQ(few.leads.front().columns, std::vector<std::string>{"s_mm"});
+  const Trace few = traced(data, "log_coulomb"); // of twenty tests, all of which are searched
+  EXPECT_EQ(causes(few), std::vector<std::string>{"s_mm"}) << trace_text(few);
+  EXPECT_TRUE(few.validation_searched);
+}
+
+TEST(Trace, TestsThatChangeOneStateAtATimeAreRecognised) {
+  const auto states = [](bool together) {
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(24, 3);
+    for (Eigen::Index e = 0; e < 24; ++e)
+      for (Eigen::Index s = 0; s < 3; ++s)
+        if (together ? (e >> s) % 2 == 0 : e % 4 == s) all(e, s) = e % 3 == 0 ? 1 : -1;
+    return all;
+  };
+  EXPECT_TRUE(trace::one_factor_at_a_time(states(false)));
+  EXPECT_FALSE(trace::one_factor_at_a_time(states(true)));
+  EXPECT_FALSE(trace::one_factor_at_a_time(Eigen::MatrixXd::Random(24, 1))) << "of one state";
 }
 
 TEST(SlowTrace, AnEffectThatValidationContradictsIsALeadThatSaysSo) {
@@ -627,19 +573,19 @@ TEST(Trace, SaysWhatItCouldHaveSeen) {
 
 TEST(SlowTrace, FewExperimentsProveNothingAndSaySo) {
   TwinOptions options = campaign("coulomb", 1, "form=saturation,column=s_mm,amplitude=0.8");
-  options.design = parse_design("p=500,2750;psi=1;v=5;T=20,200;points=60;validation=3",
+  options.design = parse_design("p=500,2750;psi=1;v=5;T=20,200;points=60;validation=2",
                                 twin::default_design(twin::twin_set("D")));
   const Trace t = traced(options);
   EXPECT_TRUE(t.effects.empty());
   EXPECT_THAT(trace_text(t), HasSubstr("lacks, by its residual: nothing that so few tests can"));
-  EXPECT_EQ(t.least_p_value, 0.125);
+  EXPECT_EQ(t.least_p_value, 0.03125) << "of four tests and two to validate";
   // Twelve tests, which all show the same effect.
   options.design = parse_design("T=20,56,92,128,164,200", *options.design);
   const Trace more = traced(options);
   EXPECT_TRUE(names(more, "s_mm")) << trace_text(more); // the contact heats up as it slides
-  EXPECT_EQ(more.unseen, "nested_cross_validation") << "three validation tests judge nothing";
-  EXPECT_EQ(more.extended.validation.n_experiments, 3u) << "all laws are ranked on the same tests";
-  EXPECT_EQ(more.after.validation.n_experiments, 12u);
+  EXPECT_EQ(more.unseen, "nested_cross_validation") << "two validation tests judge nothing";
+  EXPECT_EQ(more.extended.validation.n_experiments, 2u) << "all laws are ranked on the same tests";
+  EXPECT_EQ(more.after.validation.n_experiments, 14u) << "all are searched";
 }
 
 TEST(Trace, OneOrTwoExperimentsGiveLeadsAndNoEffect) {

@@ -1,0 +1,42 @@
+// Which of the terms that were found are worth having, on tests that did not help to find them.
+//
+// Ten folds leave out whole tests (those of one recording, and those at one setting, together:
+// repeats would tell each other), and each walks as far as all tests did. Two measures of a test
+// left out: the mean size of what the regression leaves there, and a log score with the tails of
+// Student's t. Terms without which the score falls by less than a standard error over tests are
+// taken off again, the least first, whatever their place. The rest is worth having where the mean
+// error falls by more than a standard error, or the score gains more than one and the error falls.
+#pragma once
+
+#include "trace/joint_search.h"
+
+namespace frictab::trace {
+
+// Tests left out together, and the terms that the others find; without those dropped on all tests.
+struct JointFold {
+  std::vector<std::size_t> out;
+  std::vector<std::size_t> terms;
+};
+
+struct JointChoice {
+  std::vector<JointStep> kept;    // in the order in which they entered
+  std::vector<JointStep> dropped; // did not pay
+  std::vector<JointFold> folds;   // none: nothing was found
+  double before = 0,
+         after = 0; // mean error unseen, ln of friction: the law alone, the folds' walks
+  double gain = 0, gain_se = 0, score = 0, score_se = 0;
+  bool pays = false;
+};
+
+// `modes` of the tests; `settings`: per test its states, scaled to a standard deviation of
+// 1 (may have no columns).
+JointChoice choose_jointly(const JointData& data, const Modes& modes, const JointOffer& offer,
+                           const JointSettings& settings, const JointPath& path,
+                           const Eigen::MatrixXd& states);
+
+// The fold of each test.
+std::vector<std::size_t> folds_of_settings(const std::vector<std::size_t>& units,
+                                           const Eigen::MatrixXd& states, std::size_t folds,
+                                           std::uint64_t seed);
+
+} // namespace frictab::trace

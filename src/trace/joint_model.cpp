@@ -1,0 +1,518 @@
+// Normal equations from products of columns, and likelihood ratios of terms beside them.
+#include "trace/joint_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+
+#include "core/parallel.h"
+
+namespace frictab::trace {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Sizes that a search tries, and a fit of what is in: in ln of friction.
+constexpr double coarse_sizes[] = {0, 0.02, 0.1, 0.5};
+constexpr double fine_sizes[] = {0, 0.008, 0.015, 0.03, 0.06, 0.12, 0.25, 0.5, 1};
+constexpr double least_variance = 1e-9;
+constexpr double least_freedom = 3; // a class with less takes the variance of the one before it
+constexpr double least_left = 1e-6; // of a class's squares, that a term may leave
+constexpr double ridge = 1e-8;      // of the law's own directions, which may be one another
+
+double sum_of(const ByClass& weight, const ByClass& value) {
+  double sum = 0;
+  for (std::size_t c = 0; c < mode_classes; ++c)
+    sum += weight[c] * value[c];
+  return sum;
+}
+
+// Standard deviation of each column of a term.
+VectorXd spread_of(const JointTerm& term, TermSize size) {
+  VectorXd spread = VectorXd::Constant(term.count, size.bent);
+  spread.head(term.straight).setConstant(size.straight);
+  return spread;
+}
+
+// Sizes that a term may have; those of parts that it has not are left out.
+template <std::size_t count>
+std::vector<TermSize> sizes_to_try(const JointTerm& term, const double (&grid)[count]) {
+  std::vector<TermSize> all;
+  for (const double straight : grid)
+    for (const double bent : grid)
+      if (straight + bent > 0 && (straight == 0 || term.straight > 0) &&
+          (bent == 0 || term.count > term.straight))
+        all.push_back({straight, bent});
+  return all;
+}
+
+// I + D C D, factored.
+Eigen::LLT<MatrixXd> information_of(const MatrixXd& normal, const VectorXd& spread) {
+  MatrixXd information = spread.asDiagonal() * normal * spread.asDiagonal();
+  const double slack = 1e-9 * information.cwiseAbs().maxCoeff();
+  information.diagonal().array() += 1 + slack;
+  return information.llt();
+}
+
+double log_root_det(const Eigen::LLT<MatrixXd>& factored) {
+  return factored.matrixLLT().diagonal().array().log().sum();
+}
+
+} // namespace
+
+bool JointFit::has(std::size_t term) const {
+  return std::find(terms.begin(), terms.end(), term) != terms.end();
+}
+
+JointData JointData::part(const std::vector<char>& keep_test) const {
+  std::vector<Index> rows;
+  JointData some;
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    some.first[c] = static_cast<Index>(rows.size());
+    for (Index i = first[c]; i < first[c + 1]; ++i)
+      if (keep_test[test[static_cast<std::size_t>(i)]]) rows.push_back(i);
+  }
+  some.first[mode_classes] = static_cast<Index>(rows.size());
+  some.response = response(rows);
+  some.columns = columns(rows, Eigen::all);
+  some.law = law;
+  some.terms = terms;
+  for (const Index i : rows)
+    some.test.push_back(test[static_cast<std::size_t>(i)]);
+  return some;
+}
+
+JointData JointData::with_terms(const std::vector<std::size_t>& some) const {
+  JointData few;
+  few.response = response;
+  few.law = law;
+  few.first = first;
+  few.test = test;
+  std::vector<Index> kept(static_cast<std::size_t>(law));
+  std::iota(kept.begin(), kept.end(), 0);
+  for (const std::size_t t : some) {
+    few.terms.push_back({static_cast<Index>(kept.size()), terms[t].straight, terms[t].count});
+    for (Index k = 0; k < terms[t].count; ++k)
+      kept.push_back(terms[t].first + k);
+  }
+  few.columns = columns(Eigen::all, kept);
+  return few;
+}
+
+JointData JointData::weighted(const VectorXd& factor) const {
+  JointData all = *this;
+  all.response = response.cwiseProduct(factor);
+  all.columns = factor.asDiagonal() * columns;
+  return all;
+}
+
+JointModel::JointModel(JointData data)
+    : data_(std::move(data)), of_data_(moments(data_.response)), own_(data_.terms.size()) {
+  parallel_for(own_.size(), [&](std::size_t t) {
+    const JointTerm& term = data_.terms[t];
+    for (std::size_t c = 0; c < mode_classes; ++c) {
+      const auto x = data_.columns.block(data_.first[c], term.first,
+                                         data_.first[c + 1] - data_.first[c], term.count);
+      own_[t][c] = x.transpose() * x;
+    }
+  });
+}
+
+Moments JointModel::moments(const VectorXd& response) const {
+  Moments out;
+  out.along.resize(data_.columns.cols(), mode_classes);
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    const Index begin = data_.first[c], rows = data_.first[c + 1] - begin;
+    out.along.col(static_cast<Index>(c)) =
+        data_.columns.middleRows(begin, rows).transpose() * response.segment(begin, rows);
+    out.squares[c] = response.segment(begin, rows).squaredNorm();
+  }
+  return out;
+}
+
+VectorXd JointModel::residual(const JointFit& fit) const {
+  return data_.response - data_.columns(Eigen::all, fit.columns) * fit.coefficients;
+}
+
+const JointModel::Cross& JointModel::cross_of(Index first, Index count) const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = cross_.find(first); known != cross_.end()) return *known->second;
+  }
+  auto cross = std::make_unique<Cross>();
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    const auto rows = data_.columns.middleRows(data_.first[c], data_.first[c + 1] - data_.first[c]);
+    (*cross)[c] = rows.transpose() * rows.middleCols(first, count);
+  }
+  const std::lock_guard lock(mutex_);
+  return *cross_.emplace(first, std::move(cross)).first->second;
+}
+
+ByClass JointModel::weights(const JointFit& fit) const {
+  ByClass weight{};
+  for (std::size_t c = 0; c < mode_classes; ++c)
+    if (data_.first[c + 1] > data_.first[c]) weight[c] = 1 / fit.variance[c];
+  return weight;
+}
+
+std::vector<const JointModel::Cross*> JointModel::crosses_of(const JointFit& fit) const {
+  std::vector<const Cross*> all{&cross_of(0, data_.law)};
+  for (const std::size_t t : fit.terms)
+    all.push_back(&cross_of(data_.terms[t].first, data_.terms[t].count));
+  return all;
+}
+
+// Calls take(cross products with all columns, column of these, place among the fit's columns).
+template <class Take> void JointModel::for_columns(const JointFit& fit, const Take& take) const {
+  const std::vector<const Cross*> crosses = crosses_of(fit);
+  std::size_t part = 0;
+  for (std::size_t at = 0; at < fit.columns.size(); ++at) {
+    const auto first = [&](std::size_t p) {
+      return p == 0 ? 0 : data_.terms[fit.terms[p - 1]].first;
+    };
+    const auto end = [&](std::size_t p) {
+      return p == 0 ? data_.law : first(p) + data_.terms[fit.terms[p - 1]].count;
+    };
+    while (fit.columns[at] < first(part) || fit.columns[at] >= end(part))
+      ++part;
+    take(*crosses[part], fit.columns[at] - first(part), static_cast<Index>(at));
+  }
+}
+
+std::array<MatrixXd, mode_classes> JointModel::products_of(const JointFit& fit) const {
+  const auto count = static_cast<Index>(fit.columns.size());
+  std::array<MatrixXd, mode_classes> all;
+  all.fill(MatrixXd(count, count));
+  for_columns(fit, [&](const Cross& cross, Index column, Index at) {
+    for (std::size_t c = 0; c < mode_classes; ++c)
+      all[c].col(at) = cross[c].col(column)(fit.columns);
+  });
+  return all;
+}
+
+JointFit JointModel::solve(const std::vector<std::size_t>& terms,
+                           const std::vector<TermSize>& sizes, const ByClass& variance,
+                           const Moments& moments) const {
+  JointFit fit;
+  fit.terms = terms;
+  fit.sizes = sizes;
+  fit.variance = variance;
+  std::vector<double> spread; // of the terms' columns
+  for (Index i = 0; i < data_.law; ++i)
+    fit.columns.push_back(i);
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    const JointTerm& term = data_.terms[terms[t]];
+    const VectorXd own = spread_of(term, sizes[t]);
+    for (Index k = 0; k < term.count; ++k)
+      if (own(k) > 0) {
+        fit.columns.push_back(term.first + k);
+        spread.push_back(own(k));
+      }
+  }
+  const ByClass weight = weights(fit);
+  const std::array<MatrixXd, mode_classes> own = products_of(fit);
+  const auto coefficients = static_cast<Index>(fit.columns.size());
+  MatrixXd normal = MatrixXd::Zero(coefficients, coefficients);
+  VectorXd along = VectorXd::Zero(coefficients), penalty(coefficients);
+  for (std::size_t c = 0; c < mode_classes; ++c)
+    if (weight[c] > 0) {
+      normal += weight[c] * own[c];
+      along += weight[c] * moments.along.col(static_cast<Index>(c))(fit.columns);
+    }
+  double log_sizes = 0;
+  for (Index i = 0; i < coefficients; ++i)
+    if (i < data_.law) {
+      penalty(i) = ridge * normal(i, i) + 1e-10;
+    } else {
+      const double sd = spread[static_cast<std::size_t>(i - data_.law)];
+      penalty(i) = 1 / (sd * sd);
+      log_sizes += std::log(sd);
+    }
+  normal.diagonal() += penalty;
+  const Eigen::LLT<MatrixXd> factored(normal);
+  fit.inverse = factored.solve(MatrixXd::Identity(coefficients, coefficients));
+  fit.coefficients = fit.inverse * along;
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    if (!(weight[c] > 0)) continue;
+    const VectorXd here = moments.along.col(static_cast<Index>(c))(fit.columns);
+    fit.squares[c] = std::max(moments.squares[c] - 2 * here.dot(fit.coefficients) +
+                                  fit.coefficients.dot(own[c] * fit.coefficients),
+                              0.0);
+    fit.used[c] = weight[c] * fit.inverse.cwiseProduct(own[c]).sum();
+  }
+  double likelihood = -0.5 * sum_of(weight, fit.squares) - log_sizes - log_root_det(factored);
+  for (std::size_t c = 0; c < mode_classes; ++c)
+    likelihood -= 0.5 * static_cast<double>(data_.first[c + 1] - data_.first[c]) *
+                  std::log(std::max(variance[c], 1e-300));
+  for (Index i = data_.law; i < coefficients; ++i)
+    likelihood -= 0.5 * penalty(i) * fit.coefficients(i) * fit.coefficients(i);
+  fit.log_likelihood = likelihood;
+  return fit;
+}
+
+ByClass JointModel::estimated_noise(const JointFit& fit) const {
+  ByClass variance = fit.variance;
+  double before = 0; // variance of the class in front
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    const auto rows = static_cast<double>(data_.first[c + 1] - data_.first[c]);
+    if (rows == 0) continue;
+    const double free = rows - fit.used[c];
+    variance[c] = free < least_freedom && before > 0 && c > 1
+                      ? before
+                      : std::max(fit.squares[c] / std::max(free, 1.0), least_variance);
+    before = variance[c];
+  }
+  return variance;
+}
+
+JointFit JointModel::fit(const std::vector<std::size_t>& terms, const std::vector<TermSize>& sizes,
+                         const ByClass& start, const Moments& moments, int rounds) const {
+  ByClass variance = start;
+  for (std::size_t c = 0; c < mode_classes; ++c)
+    if (!(variance[c] > 0))
+      variance[c] = moments.squares[c] /
+                        std::max(1.0, static_cast<double>(data_.first[c + 1] - data_.first[c])) +
+                    least_variance;
+  for (int round = 0; round < rounds; ++round)
+    variance = estimated_noise(solve(terms, sizes, variance, moments));
+  return solve(terms, sizes, variance, moments);
+}
+
+JointFit JointModel::tuned(const JointFit& from, const Moments& moments) const {
+  std::vector<TermSize> sizes = from.sizes;
+  for (std::size_t i = 0; i < from.terms.size(); ++i) {
+    std::vector<std::size_t> others = from.terms;
+    std::vector<TermSize> their = sizes;
+    others.erase(others.begin() + static_cast<long>(i));
+    their.erase(their.begin() + static_cast<long>(i));
+    sizes[i] =
+        fine_ratio(solve(others, their, from.variance, moments), moments, from.terms[i]).size;
+  }
+  return fit(from.terms, sizes, from.variance, moments, 2);
+}
+
+// The columns of a fit, Z, and those of all terms.
+struct JointModel::Beside {
+  const JointFit& fit;
+  ByClass weight, free;                       // degrees of freedom that are left
+  std::array<MatrixXd, mode_classes> cross;   // X' Z
+  std::array<MatrixXd, mode_classes> product; // Z' Z
+  MatrixXd turned;                            // X' W Z K: what the fit explains of X, as Z' columns
+};
+
+JointModel::Beside JointModel::beside(const JointFit& fit) const {
+  Beside out{fit, weights(fit), {}, {}, products_of(fit), {}};
+  out.cross.fill(MatrixXd(data_.columns.cols(), static_cast<Index>(fit.columns.size())));
+  for_columns(fit, [&](const Cross& cross, Index column, Index at) {
+    for (std::size_t c = 0; c < mode_classes; ++c)
+      out.cross[c].col(at) = cross[c].col(column);
+  });
+  MatrixXd weighted = MatrixXd::Zero(data_.columns.cols(), static_cast<Index>(fit.columns.size()));
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    if (out.weight[c] > 0) weighted += out.weight[c] * out.cross[c];
+    out.free[c] =
+        std::max(static_cast<double>(data_.first[c + 1] - data_.first[c]) - fit.used[c], 0.0);
+  }
+  out.turned = weighted * fit.inverse;
+  return out;
+}
+
+std::array<MatrixXd, mode_classes> JointModel::own_products(const Beside& beside,
+                                                            std::size_t term) const {
+  const JointTerm& at = data_.terms[term];
+  const MatrixXd turned = beside.turned.middleRows(at.first, at.count);
+  std::array<MatrixXd, mode_classes> own;
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    const MatrixXd both = beside.cross[c].middleRows(at.first, at.count) * turned.transpose();
+    own[c] =
+        own_[term][c] - both - both.transpose() + turned * beside.product[c] * turned.transpose();
+  }
+  return own;
+}
+
+std::array<VectorXd, mode_classes>
+JointModel::own_along(const Beside& beside, const Moments& moments, std::size_t term) const {
+  const JointTerm& at = data_.terms[term];
+  const JointFit& fit = beside.fit;
+  const MatrixXd turned = beside.turned.middleRows(at.first, at.count);
+  std::array<VectorXd, mode_classes> along;
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    const auto all = moments.along.col(static_cast<Index>(c));
+    const VectorXd of_fit = all(fit.columns) - beside.product[c] * fit.coefficients;
+    along[c] = all.segment(at.first, at.count) -
+               beside.cross[c].middleRows(at.first, at.count) * fit.coefficients - turned * of_fit;
+  }
+  return along;
+}
+
+namespace {
+
+// Of one size: the factored information, spread, and products by class.
+struct SizedTerm {
+  VectorXd spread;
+  Eigen::LLT<MatrixXd> factored;
+  double log_det;
+
+  SizedTerm(const JointTerm& term, TermSize size, const ByClass& weight,
+            const std::array<MatrixXd, mode_classes>& own)
+      : spread(spread_of(term, size)) {
+    MatrixXd normal = MatrixXd::Zero(term.count, term.count);
+    for (std::size_t c = 0; c < mode_classes; ++c)
+      if (weight[c] > 0) normal += weight[c] * own[c];
+    factored = information_of(normal, spread);
+    log_det = log_root_det(factored);
+  }
+
+  // Gain of log likelihood, noise estimated with the term: of a response with these squares.
+  double gain(const ByClass& weight, const ByClass& free, const ByClass& squares,
+              const std::array<MatrixXd, mode_classes>& own,
+              const std::array<VectorXd, mode_classes>& along) const {
+    VectorXd score = VectorXd::Zero(spread.size());
+    for (std::size_t c = 0; c < mode_classes; ++c)
+      if (weight[c] > 0) score += weight[c] * along[c];
+    const VectorXd scaled = factored.solve(spread.cwiseProduct(score)), // coefficients over spread
+        coefficients = spread.cwiseProduct(scaled);
+    double gain = -log_det - 0.5 * scaled.squaredNorm();
+    for (std::size_t c = 0; c < mode_classes; ++c) {
+      if (!(weight[c] > 0) || !(squares[c] > 0)) continue;
+      const double left =
+          squares[c] - 2 * coefficients.dot(along[c]) + coefficients.dot(own[c] * coefficients);
+      gain -= 0.5 * free[c] * std::log(std::max(left / squares[c], least_left));
+    }
+    return gain;
+  }
+};
+
+} // namespace
+
+std::vector<JointModel::Ratio> JointModel::ratios(const JointFit& fit, const Moments& moments,
+                                                  const std::vector<std::size_t>& terms) const {
+  const Beside with = beside(fit);
+  std::vector<Ratio> all(terms.size());
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const auto own = own_products(with, terms[i]);
+    const auto along = own_along(with, moments, terms[i]);
+    for (const TermSize& size : sizes_to_try(data_.terms[terms[i]], coarse_sizes)) {
+      const SizedTerm sized(data_.terms[terms[i]], size, with.weight, own);
+      const double gain = sized.gain(with.weight, with.free, fit.squares, own, along);
+      if (gain > all[i].value) all[i] = {gain, size};
+    }
+  }
+  return all;
+}
+
+JointModel::Ratio JointModel::fine_ratio(const JointFit& fit, const Moments& moments,
+                                         std::size_t term) const {
+  const Beside with = beside(fit);
+  const auto own = own_products(with, term);
+  const auto along = own_along(with, moments, term);
+  Ratio best;
+  for (const TermSize& size : sizes_to_try(data_.terms[term], fine_sizes)) {
+    const SizedTerm sized(data_.terms[term], size, with.weight, own);
+    const double gain = sized.gain(with.weight, with.free, fit.squares, own, along);
+    if (gain > best.value) best = {gain, size};
+  }
+  return best;
+}
+
+std::vector<JointModel::Information>
+JointModel::information(const JointFit& fit, const std::vector<std::size_t>& terms) const {
+  const Beside with = beside(fit);
+  std::vector<Information> all;
+  for (const std::size_t term : terms) {
+    const auto own = own_products(with, term);
+    const Index straight = data_.terms[term].straight;
+    Information& sum = all.emplace_back();
+    for (std::size_t c = 0; c < mode_classes; ++c) {
+      sum.alone += with.weight[c] * own_[term][c].diagonal().head(straight).mean();
+      sum.beside += with.weight[c] * own[c].diagonal().head(straight).mean();
+    }
+  }
+  return all;
+}
+
+namespace {
+
+// Of many responses, a row each: X~' r by class, squares, and the gain of one size.
+struct Responses {
+  std::array<MatrixXd, mode_classes> along; // responses x columns of the term
+  MatrixXd score;                           // their sum by weights
+
+  // Columns whose spread is 0 take no part.
+  void raise(const JointTerm& term, TermSize size, const ByClass& weight, const ByClass& free,
+             const std::array<MatrixXd, mode_classes>& own, const Eigen::ArrayXXd& squares,
+             Eigen::ArrayXd& greatest) const {
+    const Index begin = size.straight > 0 ? 0 : term.straight,
+                count = (size.bent > 0 ? term.count : term.straight) - begin;
+    const VectorXd spread = spread_of(term, size).segment(begin, count);
+    MatrixXd normal = MatrixXd::Zero(count, count);
+    for (std::size_t c = 0; c < mode_classes; ++c)
+      if (weight[c] > 0) normal += weight[c] * own[c].block(begin, begin, count, count);
+    const Eigen::LLT<MatrixXd> factored = information_of(normal, spread);
+    const MatrixXd inverse = spread.asDiagonal() * factored.solve(MatrixXd(spread.asDiagonal()));
+    const MatrixXd coefficients = score.middleCols(begin, count) * inverse;
+    Eigen::ArrayXd gain = Eigen::ArrayXd::Constant(greatest.size(), -log_root_det(factored));
+    for (Index j = 0; j < count; ++j)
+      gain -= 0.5 / (spread(j) * spread(j)) * coefficients.col(j).array().square();
+    for (std::size_t c = 0; c < mode_classes; ++c) {
+      if (!(weight[c] > 0)) continue;
+      const MatrixXd turned = coefficients * own[c].block(begin, begin, count, count);
+      Eigen::ArrayXd left = squares.col(static_cast<Index>(c));
+      for (Index j = 0; j < count; ++j)
+        left += coefficients.col(j).array() *
+                (turned.col(j).array() - 2 * along[c].col(begin + j).array());
+      gain -= 0.5 * free[c] * (left / squares.col(static_cast<Index>(c))).max(least_left).log();
+    }
+    greatest = greatest.max(gain);
+  }
+};
+
+constexpr Index at_once = 250; // responses, whose numbers stay near the processor
+
+} // namespace
+
+MatrixXd JointModel::ratios_of(const JointFit& fit, const MatrixXd& responses,
+                               const std::vector<std::size_t>& terms) const {
+  const Beside with = beside(fit);
+  const MatrixXd z = data_.columns(Eigen::all, fit.columns);
+  std::array<MatrixXd, mode_classes> of_fit; // responses x Z: r' Z
+  Eigen::ArrayXXd squares(responses.cols(), static_cast<Index>(mode_classes));
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    const Index begin = data_.first[c], rows = data_.first[c + 1] - begin;
+    of_fit[c] = responses.middleRows(begin, rows).transpose() * z.middleRows(begin, rows);
+    squares.col(static_cast<Index>(c)) =
+        responses.middleRows(begin, rows).colwise().squaredNorm().transpose().array().max(1e-300);
+  }
+  MatrixXd best(responses.cols(), static_cast<Index>(terms.size()));
+  parallel_for(terms.size(), [&](std::size_t i) {
+    const JointTerm& term = data_.terms[terms[i]];
+    const auto own = own_products(with, terms[i]);
+    const MatrixXd turned = with.turned.middleRows(term.first, term.count).transpose();
+    const std::vector<TermSize> sizes = sizes_to_try(term, coarse_sizes);
+    for (Index from = 0; from < responses.cols(); from += at_once) {
+      const Index count = std::min(at_once, responses.cols() - from);
+      Responses some;
+      some.score = MatrixXd::Zero(count, term.count);
+      for (std::size_t c = 0; c < mode_classes; ++c) {
+        const Index begin = data_.first[c], rows = data_.first[c + 1] - begin;
+        some.along[c] = responses.block(begin, from, rows, count).transpose() *
+                            data_.columns.block(begin, term.first, rows, term.count) -
+                        of_fit[c].middleRows(from, count) * turned;
+        if (with.weight[c] > 0) some.score += with.weight[c] * some.along[c];
+      }
+      Eigen::ArrayXd greatest = Eigen::ArrayXd::Zero(count);
+      const Eigen::ArrayXXd own_squares = squares.middleRows(from, count);
+      for (const TermSize& size : sizes)
+        some.raise(term, size, with.weight, with.free, own, own_squares, greatest);
+      best.col(static_cast<Index>(i)).segment(from, count) = greatest.matrix();
+    }
+  });
+  return best;
+}
+
+} // namespace frictab::trace
