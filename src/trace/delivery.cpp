@@ -14,6 +14,7 @@
 #include "calibrate/metrics.h"
 #include "trace/choose_effect.h"
 #include "trace/design.h"
+#include "trace/joint_choice.h"
 #include "trace/rows_alike.h"
 
 namespace frictab::trace {
@@ -182,9 +183,7 @@ private:
       const std::size_t weights = other.better_weights(true);
       const VectorXd gain =
           d_.nested.weighted[weights_].all.relative - other.weighted[weights].all.relative;
-      const auto n = static_cast<double>(gain.size());
-      const double se = std::sqrt((gain.array() - gain.mean()).square().sum() / (n - 1) / n);
-      if (!(gain.mean() > clearly_better * se)) continue;
+      if (!(gain.mean() > clearly_better * std_error(gain))) continue;
       law_ = *smooth;
       of_law_ = judged_;
       take(judged_);

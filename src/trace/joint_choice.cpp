@@ -26,11 +26,6 @@ constexpr std::uint64_t fold_stream = 0x666f6c64; // "fold"
 // Per test: the error, and the score.
 using Errors = MatrixXd;
 
-double std_error(const VectorXd& x) {
-  const auto n = static_cast<double>(x.size());
-  return std::sqrt((x.array() - x.mean()).square().sum() / (n - 1) / n);
-}
-
 class Chooser {
 public:
   Chooser(const JointData& data, const Modes& modes, const JointOffer& offer, const JointPath& path)
@@ -55,15 +50,9 @@ public:
         fold.terms.push_back(step.term);
       progress.tick();
     });
-    choice.before = before.col(0).mean();
-    choice.after = after.col(0).mean();
     const VectorXd gain = before.col(0) - after.col(0), score = after.col(1) - before.col(1);
-    choice.gain = gain.mean();
-    choice.gain_se = std_error(gain);
-    choice.score = score.mean();
-    choice.score_se = std_error(score);
     choice.pays =
-        choice.gain > choice.gain_se || (choice.score > choice.score_se && choice.gain > 0);
+        gain.mean() > std_error(gain) || (score.mean() > std_error(score) && gain.mean() > 0);
     keep_what_pays(choice);
     for (JointFold& fold : choice.folds)
       std::erase_if(fold.terms, [&](std::size_t term) {
@@ -184,6 +173,11 @@ private:
 };
 
 } // namespace
+
+double std_error(const VectorXd& per_test) {
+  const auto n = static_cast<double>(per_test.size());
+  return std::sqrt((per_test.array() - per_test.mean()).square().sum() / (n - 1) / n);
+}
 
 std::vector<std::size_t> folds_of_settings(const std::vector<std::size_t>& units,
                                            const MatrixXd& states, std::size_t folds,

@@ -22,10 +22,7 @@ struct JointChoice {
   std::vector<JointStep> kept;    // in the order in which they entered
   std::vector<JointStep> dropped; // did not pay
   std::vector<JointFold> folds;   // none: nothing was found
-  double before = 0,
-         after = 0; // mean error unseen, ln of friction: the law alone, the folds' walks
-  double gain = 0, gain_se = 0, score = 0, score_se = 0;
-  bool pays = false;
+  bool pays = false;              // what the folds find, on the tests that they leave out
 };
 
 // `modes` of the tests; `settings`: per test its states, scaled to a standard deviation of
@@ -33,6 +30,9 @@ struct JointChoice {
 JointChoice choose_jointly(const JointData& data, const Modes& modes, const JointOffer& offer,
                            const JointSettings& settings, const JointPath& path,
                            const Eigen::MatrixXd& states);
+
+// Of the mean over tests.
+double std_error(const Eigen::VectorXd& per_test);
 
 // The fold of each test.
 std::vector<std::size_t> folds_of_settings(const std::vector<std::size_t>& units,

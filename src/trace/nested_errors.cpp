@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "trace/choose_effect.h"
+#include "trace/joint_choice.h"
 #include "trace/rows_alike.h"
 
 namespace frictab::trace {
@@ -166,11 +167,7 @@ NestedErrors::Gain NestedErrors::gain(std::size_t weights) const {
   const VectorXd score_gain = weighted[weights].all.score - weighted[weights].none.score,
                  error_gain =
                      weighted[better_weights(false)].none.relative - weighted[weights].all.relative;
-  const auto n = static_cast<double>(score_gain.size());
-  if (n < 2) return {};
-  const auto std_error = [&](const VectorXd& x) {
-    return std::sqrt((x.array() - x.mean()).square().sum() / (n - 1) / n);
-  };
+  if (score_gain.size() < 2) return {};
   return {score_gain.mean(), std_error(score_gain), error_gain.mean(), std_error(error_gain)};
 }
 

@@ -5,10 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/QR>
-#include <fmt/format.h>
-
-#include "core/error.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "data/recordings.h"
