@@ -165,13 +165,15 @@ TEST_F(SlowLargeTable, SourceReadsItsValuesFromAFileAndIsVerifiedWithThem) {
   EXPECT_EQ(run("verify", set).exit_code, 0); // the sources as they lie there
 }
 
-TEST_F(SlowLargeTable, ProgressSaysHowMuchIsLeftAndQuietIsSilent) {
+// The first line comes after one second: how far the work is by then depends on the machine.
+TEST_F(SlowLargeTable, ProgressSaysWhereTheWorkIsAndQuietIsSilent) {
   EXPECT_EQ(run("tabulate", {"-q", "--progress", "--set", quarter}).err, "");
   const CommandResult shown =
       run("tabulate", {"--progress", "-j", "1", "--set", "table.axes.psi.nodes=100"});
   EXPECT_EQ(shown.exit_code, 0) << shown.err;
-  EXPECT_THAT(shown.err, testing::ContainsRegex("sampling log_coulomb \\[#*\\.*\\] [0-9]+/29, "
-                                                "[0-9]+ s, [0-9]+ s left"));
+  const char* const sampling = "sampling log_coulomb \\[#*\\.*\\] [0-9]+/29, [0-9]+ s";
+  EXPECT_THAT(shown.err, testing::AnyOf(testing::ContainsRegex(sampling),
+                                        testing::ContainsRegex("^tabulating, [0-9]+ s\n")));
 }
 
 } // namespace
