@@ -11,6 +11,7 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "trace/projection.h"
+#include "trace/shapes.h"
 #include "trace/smooth.h"
 
 namespace frictab::trace {

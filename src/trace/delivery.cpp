@@ -126,13 +126,10 @@ private:
   }
 
   bool is_parent(std::size_t finding) const {
-    const Cause& own = s_.findings[finding].rival.causes.back();
-    return !own.is_joint() &&
-           std::any_of(d_.findings.begin(), d_.findings.end(), [&](std::size_t f) {
-             const Cause& other = s_.findings[f].rival.causes.back();
-             return other.is_joint() && std::find(other.columns.begin(), other.columns.end(),
-                                                  own.columns[0]) != other.columns.end();
-           });
+    std::vector<std::vector<std::size_t>> columns;
+    for (const std::size_t f : d_.findings)
+      columns.push_back(s_.findings[f].rival.causes.back().columns);
+    return is_in_product(s_.findings[finding].rival.causes.back().columns, columns);
   }
 
   // Effects without which left-out tests are predicted better, the worst first.

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "trace/order_search.h"
 #include "trace/projection.h"
+#include "trace/shapes.h"
 #include "trace/terms.h"
 
 namespace frictab::trace {
@@ -16,9 +18,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double farthest_factor =
-    5;                              // that measured friction is taken to be from the law, a factor
-constexpr double same_site = 0.995; // correlation of what two sites can change
+constexpr double farthest_factor = 5; // between measured friction and the law's
+constexpr double same_site = 0.995;   // correlation of what two sites can change
 constexpr int walk_waves = 8;
 // Few terms are tried on more flips, which cost little there and leave less to chance.
 constexpr std::size_t flips_of_terms = 1000000, most_flips = 4999;
@@ -116,7 +117,12 @@ private:
     const auto& columns = s_.candidates.columns;
     for (const CandidateColumn& column : columns)
       offer_.in_law.push_back(column.in_law);
-    for (const Cause& cause : s_.causes) {
+    shapes_.resize(columns.size());
+    parallel_for(shapes_.size(), [&](std::size_t c) {
+      if (columns[c].levels.empty() && !constant_in_experiments({{c}}, s_.candidates))
+        shapes_[c] = shapes_of({{c}}, s_.candidates);
+    });
+    for (const Cause& cause : all_causes(s_.candidates)) {
       const auto& in = s_.last().causes;
       if (cause.columns.size() > 2 || !may_be_offered(cause) ||
           std::find(in.begin(), in.end(), cause) != in.end())
@@ -141,14 +147,12 @@ private:
   // What a smooth curve sees badly: a threshold near an end, a step, a narrow hump.
   std::vector<SharpShape> sharp_shapes(const Cause& cause) const {
     std::vector<SharpShape> all;
-    for (std::size_t i = 0; i < s_.causes.size(); ++i)
-      if (s_.causes[i] == cause && s_.candidates.columns[cause.columns[0]].levels.empty())
-        for (const GridShape& shape : s_.shapes[i]) {
-          VectorXd x = shape.direction.cast<double>();
-          x.array() -= x.mean();
-          const double size = x.norm() / std::sqrt(static_cast<double>(x.size()));
-          if (size > 0) all.push_back({{x / size, 1}, &shape.effect});
-        }
+    for (const GridShape& shape : shapes_[cause.columns[0]]) {
+      VectorXd x = shape.direction.cast<double>();
+      x.array() -= x.mean();
+      const double size = x.norm() / std::sqrt(static_cast<double>(x.size()));
+      if (size > 0) all.push_back({{x / size, 1}, &shape.effect});
+    }
     return all;
   }
 
@@ -271,7 +275,8 @@ private:
   const TermMaker maker_;
   const VectorXd floor_;
   std::vector<std::pair<std::size_t, VectorXd>> sites_;
-  std::vector<Cause> causes_; // per term
+  std::vector<std::vector<GridShape>> shapes_; // per column: of those that move in tests
+  std::vector<Cause> causes_;                  // per term
   std::vector<std::size_t> site_of_;
   std::vector<const effects::PlacedEffect*> shape_of_; // of one shape alone; else null
   JointOffer offer_;

@@ -151,14 +151,11 @@ private:
     }
   }
 
-  // A column stays for its products.
   bool is_parent(const std::vector<JointStep>& steps, std::size_t i) const {
-    const auto& own = o_.columns[steps[i].term];
-    return own.size() == 1 && std::any_of(steps.begin(), steps.end(), [&](const JointStep& other) {
-             const auto& columns = o_.columns[other.term];
-             return columns.size() > 1 &&
-                    std::find(columns.begin(), columns.end(), own[0]) != columns.end();
-           });
+    std::vector<std::vector<std::size_t>> columns;
+    for (const JointStep& step : steps)
+      columns.push_back(o_.columns[step.term]);
+    return is_in_product(columns[i], columns);
   }
 
   const JointData& data_; // not weighted: what is left out is judged as it is
@@ -173,6 +170,14 @@ private:
 };
 
 } // namespace
+
+bool is_in_product(const std::vector<std::size_t>& columns,
+                   const std::vector<std::vector<std::size_t>>& of_all) {
+  return columns.size() == 1 && std::any_of(of_all.begin(), of_all.end(), [&](const auto& other) {
+           return other.size() > 1 &&
+                  std::find(other.begin(), other.end(), columns[0]) != other.end();
+         });
+}
 
 double std_error(const VectorXd& per_test) {
   const auto n = static_cast<double>(per_test.size());

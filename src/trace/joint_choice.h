@@ -25,11 +25,15 @@ struct JointChoice {
   bool pays = false;              // what the folds find, on the tests that they leave out
 };
 
-// `modes` of the tests; `settings`: per test its states, scaled to a standard deviation of
-// 1 (may have no columns).
+// `modes` of the tests; `states`: per test, scaled to a standard deviation of 1 (may have no
+// columns).
 JointChoice choose_jointly(const JointData& data, const Modes& modes, const JointOffer& offer,
                            const JointSettings& settings, const JointPath& path,
                            const Eigen::MatrixXd& states);
+
+// Whether a column is in one of the products of `of_all`: it stays for these.
+bool is_in_product(const std::vector<std::size_t>& columns,
+                   const std::vector<std::vector<std::size_t>>& of_all);
 
 // Of the mean over tests.
 double std_error(const Eigen::VectorXd& per_test);

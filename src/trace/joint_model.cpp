@@ -352,37 +352,45 @@ JointModel::own_along(const Beside& beside, const Moments& moments, std::size_t 
 
 namespace {
 
-// Of one size: the factored information, spread, and products by class.
-struct SizedTerm {
-  VectorXd spread;
-  Eigen::LLT<MatrixXd> factored;
-  double log_det;
+// Of one term beside a fit, and responses, a row each.
+struct TermOnResponses {
+  const JointTerm& term;
+  const ByClass &weight, &free;
+  const std::array<MatrixXd, mode_classes>& own; // X~' X~
+  std::array<MatrixXd, mode_classes> along;      // r' X~
+  Eigen::ArrayXXd squares;                       // r' r, a column per class
+  MatrixXd score = {};                           // r' W X~
 
-  SizedTerm(const JointTerm& term, TermSize size, const ByClass& weight,
-            const std::array<MatrixXd, mode_classes>& own)
-      : spread(spread_of(term, size)) {
-    MatrixXd normal = MatrixXd::Zero(term.count, term.count);
-    for (std::size_t c = 0; c < mode_classes; ++c)
-      if (weight[c] > 0) normal += weight[c] * own[c];
-    factored = information_of(normal, spread);
-    log_det = log_root_det(factored);
-  }
-
-  // Gain of log likelihood, noise estimated with the term: of a response with these squares.
-  double gain(const ByClass& weight, const ByClass& free, const ByClass& squares,
-              const std::array<MatrixXd, mode_classes>& own,
-              const std::array<VectorXd, mode_classes>& along) const {
-    VectorXd score = VectorXd::Zero(spread.size());
+  void add_up() {
+    score = MatrixXd::Zero(squares.rows(), term.count);
     for (std::size_t c = 0; c < mode_classes; ++c)
       if (weight[c] > 0) score += weight[c] * along[c];
-    const VectorXd scaled = factored.solve(spread.cwiseProduct(score)), // coefficients over spread
-        coefficients = spread.cwiseProduct(scaled);
-    double gain = -log_det - 0.5 * scaled.squaredNorm();
+  }
+
+  // Gain of log likelihood by a size, the noise estimated with the term, per response. Columns
+  // whose spread is 0 take no part.
+  Eigen::ArrayXd gains(TermSize size) const {
+    const Index begin = size.straight > 0 ? 0 : term.straight,
+                count = (size.bent > 0 ? term.count : term.straight) - begin;
+    const VectorXd spread = spread_of(term, size).segment(begin, count);
+    MatrixXd normal = MatrixXd::Zero(count, count);
+    for (std::size_t c = 0; c < mode_classes; ++c)
+      if (weight[c] > 0) normal += weight[c] * own[c].block(begin, begin, count, count);
+    const Eigen::LLT<MatrixXd> factored = information_of(normal, spread);
+    const MatrixXd inverse = spread.asDiagonal() * factored.solve(MatrixXd(spread.asDiagonal()));
+    const MatrixXd coefficients = score.middleCols(begin, count) * inverse;
+    Eigen::ArrayXd gain = Eigen::ArrayXd::Constant(squares.rows(), -log_root_det(factored));
+    for (Index j = 0; j < count; ++j)
+      gain -= 0.5 / (spread(j) * spread(j)) * coefficients.col(j).array().square();
     for (std::size_t c = 0; c < mode_classes; ++c) {
-      if (!(weight[c] > 0) || !(squares[c] > 0)) continue;
-      const double left =
-          squares[c] - 2 * coefficients.dot(along[c]) + coefficients.dot(own[c] * coefficients);
-      gain -= 0.5 * free[c] * std::log(std::max(left / squares[c], least_left));
+      if (!(weight[c] > 0)) continue;
+      const auto before = squares.col(static_cast<Index>(c));
+      const MatrixXd turned = coefficients * own[c].block(begin, begin, count, count);
+      Eigen::ArrayXd left = before;
+      for (Index j = 0; j < count; ++j)
+        left += coefficients.col(j).array() *
+                (turned.col(j).array() - 2 * along[c].col(begin + j).array());
+      gain -= 0.5 * free[c] * (left / before).max(least_left).log();
     }
     return gain;
   }
@@ -390,34 +398,39 @@ struct SizedTerm {
 
 } // namespace
 
+// The likeliest of the sizes of a grid.
+template <class Grid>
+JointModel::Ratio JointModel::likeliest(const Beside& with, const Moments& moments,
+                                        std::size_t term, const Grid& grid) const {
+  ByClass weight = with.weight;
+  const auto own = own_products(with, term);
+  const auto along = own_along(with, moments, term);
+  TermOnResponses one{data_.terms[term], weight, with.free, own, {}, {}};
+  one.squares.resize(1, static_cast<Index>(mode_classes));
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    one.along[c] = along[c].transpose();
+    one.squares(0, static_cast<Index>(c)) = with.fit.squares[c];
+    if (!(with.fit.squares[c] > 0)) weight[c] = 0; // nothing is left there
+  }
+  one.add_up();
+  Ratio best;
+  for (const TermSize& size : sizes_to_try(data_.terms[term], grid))
+    if (const double gain = one.gains(size)(0); gain > best.value) best = {gain, size};
+  return best;
+}
+
 std::vector<JointModel::Ratio> JointModel::ratios(const JointFit& fit, const Moments& moments,
                                                   const std::vector<std::size_t>& terms) const {
   const Beside with = beside(fit);
-  std::vector<Ratio> all(terms.size());
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    const auto own = own_products(with, terms[i]);
-    const auto along = own_along(with, moments, terms[i]);
-    for (const TermSize& size : sizes_to_try(data_.terms[terms[i]], coarse_sizes)) {
-      const SizedTerm sized(data_.terms[terms[i]], size, with.weight, own);
-      const double gain = sized.gain(with.weight, with.free, fit.squares, own, along);
-      if (gain > all[i].value) all[i] = {gain, size};
-    }
-  }
+  std::vector<Ratio> all;
+  for (const std::size_t term : terms)
+    all.push_back(likeliest(with, moments, term, coarse_sizes));
   return all;
 }
 
 JointModel::Ratio JointModel::fine_ratio(const JointFit& fit, const Moments& moments,
                                          std::size_t term) const {
-  const Beside with = beside(fit);
-  const auto own = own_products(with, term);
-  const auto along = own_along(with, moments, term);
-  Ratio best;
-  for (const TermSize& size : sizes_to_try(data_.terms[term], fine_sizes)) {
-    const SizedTerm sized(data_.terms[term], size, with.weight, own);
-    const double gain = sized.gain(with.weight, with.free, fit.squares, own, along);
-    if (gain > best.value) best = {gain, size};
-  }
-  return best;
+  return likeliest(beside(fit), moments, term, fine_sizes);
 }
 
 std::vector<JointModel::Information>
@@ -436,45 +449,7 @@ JointModel::information(const JointFit& fit, const std::vector<std::size_t>& ter
   return all;
 }
 
-namespace {
-
-// Of many responses, a row each: X~' r by class, squares, and the gain of one size.
-struct Responses {
-  std::array<MatrixXd, mode_classes> along; // responses x columns of the term
-  MatrixXd score;                           // their sum by weights
-
-  // Columns whose spread is 0 take no part.
-  void raise(const JointTerm& term, TermSize size, const ByClass& weight, const ByClass& free,
-             const std::array<MatrixXd, mode_classes>& own, const Eigen::ArrayXXd& squares,
-             Eigen::ArrayXd& greatest) const {
-    const Index begin = size.straight > 0 ? 0 : term.straight,
-                count = (size.bent > 0 ? term.count : term.straight) - begin;
-    const VectorXd spread = spread_of(term, size).segment(begin, count);
-    MatrixXd normal = MatrixXd::Zero(count, count);
-    for (std::size_t c = 0; c < mode_classes; ++c)
-      if (weight[c] > 0) normal += weight[c] * own[c].block(begin, begin, count, count);
-    const Eigen::LLT<MatrixXd> factored = information_of(normal, spread);
-    const MatrixXd inverse = spread.asDiagonal() * factored.solve(MatrixXd(spread.asDiagonal()));
-    const MatrixXd coefficients = score.middleCols(begin, count) * inverse;
-    Eigen::ArrayXd gain = Eigen::ArrayXd::Constant(greatest.size(), -log_root_det(factored));
-    for (Index j = 0; j < count; ++j)
-      gain -= 0.5 / (spread(j) * spread(j)) * coefficients.col(j).array().square();
-    for (std::size_t c = 0; c < mode_classes; ++c) {
-      if (!(weight[c] > 0)) continue;
-      const MatrixXd turned = coefficients * own[c].block(begin, begin, count, count);
-      Eigen::ArrayXd left = squares.col(static_cast<Index>(c));
-      for (Index j = 0; j < count; ++j)
-        left += coefficients.col(j).array() *
-                (turned.col(j).array() - 2 * along[c].col(begin + j).array());
-      gain -= 0.5 * free[c] * (left / squares.col(static_cast<Index>(c))).max(least_left).log();
-    }
-    greatest = greatest.max(gain);
-  }
-};
-
 constexpr Index at_once = 250; // responses, whose numbers stay near the processor
-
-} // namespace
 
 MatrixXd JointModel::ratios_of(const JointFit& fit, const MatrixXd& responses,
                                const std::vector<std::size_t>& terms) const {
@@ -496,19 +471,17 @@ MatrixXd JointModel::ratios_of(const JointFit& fit, const MatrixXd& responses,
     const std::vector<TermSize> sizes = sizes_to_try(term, coarse_sizes);
     for (Index from = 0; from < responses.cols(); from += at_once) {
       const Index count = std::min(at_once, responses.cols() - from);
-      Responses some;
-      some.score = MatrixXd::Zero(count, term.count);
+      TermOnResponses some{term, with.weight, with.free, own, {}, squares.middleRows(from, count)};
       for (std::size_t c = 0; c < mode_classes; ++c) {
         const Index begin = data_.first[c], rows = data_.first[c + 1] - begin;
         some.along[c] = responses.block(begin, from, rows, count).transpose() *
                             data_.columns.block(begin, term.first, rows, term.count) -
                         of_fit[c].middleRows(from, count) * turned;
-        if (with.weight[c] > 0) some.score += with.weight[c] * some.along[c];
       }
+      some.add_up();
       Eigen::ArrayXd greatest = Eigen::ArrayXd::Zero(count);
-      const Eigen::ArrayXXd own_squares = squares.middleRows(from, count);
       for (const TermSize& size : sizes)
-        some.raise(term, size, with.weight, with.free, own, own_squares, greatest);
+        greatest = greatest.max(some.gains(size));
       best.col(static_cast<Index>(i)).segment(from, count) = greatest.matrix();
     }
   });

@@ -130,6 +130,9 @@ private:
   // What is needed of all terms beside a fit.
   struct Beside;
   Beside beside(const JointFit& fit) const;
+  template <class Grid>
+  Ratio likeliest(const Beside& beside, const Moments& moments, std::size_t term,
+                  const Grid& grid) const;
   // Of one: X~' X~ by class, X~ its columns less what those of the fit explain of them.
   std::array<Eigen::MatrixXd, mode_classes> own_products(const Beside& beside,
                                                          std::size_t term) const;

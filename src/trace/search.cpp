@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/parallel.h"
 #include "core/progress.h"
 #include "data/recordings.h"
 #include "trace/directions.h"
@@ -86,6 +85,7 @@ Search::Search(const TraceInput& in, const NoiseModel* earlier) : input(in) {
   make_candidates();
   make_campaign(earlier != nullptr);
   fit_base(earlier);
+  if (!earlier) gains = test_gains(in.training, calibrate::predict(in.fit.model, in.training)).gain;
 }
 
 void Search::make_candidates() {
@@ -94,16 +94,6 @@ void Search::make_candidates() {
                                calibrate::predict(model, input.training),
                                models::inputs(*model.law, model.conventions), input.options);
   order.column = candidates.order_column;
-}
-
-void Search::offer() {
-  causes = all_causes(candidates);
-  shapes.resize(causes.size());
-  parallel_for(shapes.size(), [&](std::size_t c) {
-    if (!causes[c].is_joint() && !constant_in_experiments(causes[c], candidates))
-      shapes[c] = shapes_of(causes[c], candidates);
-  });
-  gains = test_gains(input.training, calibrate::predict(input.fit.model, input.training)).gain;
 }
 
 void Search::make_campaign(bool quick) {

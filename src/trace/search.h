@@ -12,7 +12,6 @@
 
 #include "trace/gains.h"
 #include "trace/rivals.h"
-#include "trace/shapes.h"
 #include "trace/trace.h"
 
 namespace frictab::trace {
@@ -72,8 +71,6 @@ public:
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
 
-  // What a search looks for; a fit alone does without.
-  void offer();
   void move_to(Rival rival);
   // The same effects once more, from where they are: after the nuisance changed.
   void fit_again();
@@ -103,9 +100,7 @@ public:
   const TraceInput& input;
   Blocks blocks;
   Candidates candidates;
-  std::vector<Cause> causes;
-  std::vector<std::vector<GridShape>> shapes; // per cause: of single columns that move in tests
-  Eigen::VectorXd gains;                      // per test, of the calibrated law (gains.h)
+  Eigen::VectorXd gains; // per test, of the calibrated law (gains.h); a fold does without
   double tau_scale_MPa = 1;
   bool one_factor = false;       // tests change one state at a time
   Rival base;                    // without effects

@@ -17,7 +17,6 @@ public:
   explicit Tracer(Search& search) : s_(search) {}
 
   void run() {
-    s_.offer();
     find_all();
     find_order(s_);
     reconsider_order(s_);

@@ -34,9 +34,7 @@ protected:
   explicit RowsAlike(bool effect = true)
       : twin_(campaign(effect)), calibrated_(calibrate::calibrate(
                                      {twin_.training.data, twin_.validation.data, models(), {}})),
-        search_(input_) {
-    search_.offer();
-  }
+        search_(input_) {}
 
   static calibrate::ModelOptions models() {
     calibrate::ModelOptions models;
@@ -49,7 +47,7 @@ protected:
     std::vector<effects::PlacedEffect> effects;
     std::vector<Cause> causes;
     for (const std::string& name : columns)
-      for (const Cause& cause : search_.causes)
+      for (const Cause& cause : trace::all_causes(search_.candidates))
         if (trace::cause_name(cause, search_.candidates) == name) {
           effects.push_back(trace::plain_effect(search_, cause));
           causes.push_back(cause);
