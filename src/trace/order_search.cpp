@@ -23,8 +23,12 @@ constexpr std::size_t order_permutations = 999;
 constexpr int nuisance_functions = 12;
 constexpr std::size_t neighbours = 3;  // that may still be alike behind the slow functions
 constexpr double share_of_alpha = 0.5; // that the order's test may spend
-constexpr const char* environment[] = {"lab", "room",    "hall", "ambient", "air",  "baro",
-                                       "rh",  "weather", "day",  "date",    "week", "hour"};
+// Parts of names, and whole words between underscores.
+constexpr const char* of_environment[] = {"humid",    "ambient",  "room",   "weather", "climate",
+                                          "dewpoint", "umgebung", "feucht", "klima",   "wetter"};
+constexpr const char* environment[] = {"lab",  "hall", "air",  "amb",  "baro",  "rh",
+                                       "day",  "date", "week", "hour", "month", "season",
+                                       "raum", "luft", "tag",  "datum"};
 constexpr const char* reference = "the mean of the campaign's tests";
 
 // At most one per so many experiments.
@@ -108,8 +112,9 @@ bool is_environment(std::string name) {
     const std::string all = "_" + name + "_";
     return all.find(std::string("_") + word + "_") != std::string::npos;
   };
-  return name.find("humid") != std::string::npos ||
-         std::any_of(std::begin(environment), std::end(environment), has);
+  return std::any_of(std::begin(environment), std::end(environment), has) ||
+         std::any_of(std::begin(of_environment), std::end(of_environment),
+                     [&](const char* part) { return name.find(part) != std::string::npos; });
 }
 
 // Neighbours by name are more alike than by chance (von Neumann's ratio, one side of 1 %).
