@@ -105,8 +105,9 @@ int run_stages(const std::string& file, const CommonOptions& common, const std::
     for (const std::string& line : pipeline.data()->training.notes)
       note(common, line);
   // One stage has little to say; all of them together have a page.
-  const bool brief = command == "run" && !common.verbose;
-  const run::Detail detail = brief ? run::Detail::brief : run::Detail::full;
+  const run::Detail detail = common.verbose     ? run::Detail::verbose
+                             : command == "run" ? run::Detail::brief
+                                                : run::Detail::full;
   if (common.json)
     show(run::summary_json(pipeline));
   else

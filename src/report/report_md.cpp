@@ -5,6 +5,7 @@
 
 #include "calibrate/influence.h"
 #include "core/text.h"
+#include "effects/change_text.h"
 #include "report/benchmark_parts.h"
 #include "report/judged.h"
 #include "report/numbers.h"
@@ -77,13 +78,17 @@ void add_md_traces(std::string& out, const ReportInput& input) {
   const int decimals = error_decimals(input.calibration);
   out += "\n## What the law lacks\n";
   for (const trace::Trace& t : input.traces) {
-    out += fmt::format("- {}: {}.\n", markdown_cell(t.model), markdown_cell(t.remaining.note));
+    std::string left = trace::not_confirmed(t);
+    left += (left.empty() ? "" : "; ") + t.remaining.note;
+    out += fmt::format("- {}: {}.\n", markdown_cell(t.model), markdown_cell(left));
     for (const trace::Alias& alias : t.cannot_tell)
       out += fmt::format("- {}: {}.\n", markdown_cell(t.model), markdown_cell(alias.text));
     for (const trace::TracedEffect& effect : t.effects)
-      out += fmt::format("- {}: {} ({}), p {}, {} MPa on unseen tests.\n", markdown_cell(t.model),
-                         markdown_cell(trace::cause_text(effect)), effect.placed.form->title,
-                         p_text(effect.p_value), fixed(effect.gain_MPa, decimals));
+      out +=
+          fmt::format("- {}: {}: {}; {}, p {}, {} MPa on unseen tests.\n", markdown_cell(t.model),
+                      markdown_cell(trace::cause_text(effect)),
+                      markdown_cell(effects::change_text(effect.placed)), effect.placed.form->title,
+                      p_text(effect.p_value), fixed(effect.gain_MPa, decimals));
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "calibrate/input_columns.h"
 #include "core/text.h"
+#include "effects/change_text.h"
 #include "report/judged.h"
 #include "report/law_plots.h"
 #include "report/numbers.h"
@@ -39,7 +40,7 @@ const char* badge_of(Verdict verdict) {
 }
 
 const char* class_of(Verdict verdict) {
-  return verdict == Verdict::unexplained_structure ? "none" : "pass";
+  return verdict == Verdict::effect_added || verdict == Verdict::nothing_missing ? "pass" : "none";
 }
 
 // Rows as cells, with the quartiles of neighbours as lines.
@@ -206,6 +207,7 @@ TemplateValues effect_values(const ReportInput& input, const trace::Trace& trace
   values.text = {{"cause", svg::escape(trace::cause_text(effect))},
                  {"form", effect.placed.form->title},
                  {"place", trace::site_text(effect.placed.acts_on)},
+                 {"change", svg::escape(effects::change_text(effect.placed))},
                  {"formula", svg::escape(effects::formula_text(effect.placed))},
                  {"parameters", parameters_of(effect)},
                  {"p", p_text(effect.p_value)},
@@ -218,6 +220,8 @@ TemplateValues effect_values(const ReportInput& input, const trace::Trace& trace
 
 std::string sentence_of(const trace::Trace& t) {
   std::string text = svg::escape(t.remaining.note) + ". ";
+  if (const std::string found = trace::not_confirmed(t); !found.empty())
+    text.insert(0, "N" + svg::escape(found.substr(1)) + ". ");
   for (const trace::Alias& alias : t.cannot_tell)
     text += svg::escape(alias.text) + ". ";
   for (const std::string& rejected : t.rejected)

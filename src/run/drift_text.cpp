@@ -222,7 +222,7 @@ void add_drift(std::string& out, const verify::Verification& verification, Detai
   for (const std::string& chosen : verify::chosen_tolerances(verification))
     out += "  allowed, " + chosen + "\n";
   add_outside(out, verification, models);
-  if (detail == Detail::full) {
+  if (detail != Detail::brief) {
     add_below(out, verification, models);
     add_single(out, verification, models);
   }

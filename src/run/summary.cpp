@@ -146,11 +146,12 @@ std::string summary_text(const Pipeline& p, Detail detail) {
   std::string out = data_text(p);
   if (p.calibration()) out += "\n" + ranking_text(*p.calibration());
   for (const trace::Trace& trace : p.traces())
-    out += "\n" + (detail == Detail::full ? trace::trace_text(trace) : trace::trace_brief(trace));
+    out += "\n" + (detail == Detail::brief ? trace::trace_brief(trace)
+                                           : trace::trace_text(trace, detail == Detail::verbose));
   out += tables_text(p);
   if (p.verification() && !p.verification()->records.empty())
     out += "\n" + drift_text(*p.verification(), detail);
-  if (detail == Detail::full && !p.forms().empty()) out += "\n" + verify::forms_text(p.forms());
+  if (detail != Detail::brief && !p.forms().empty()) out += "\n" + verify::forms_text(p.forms());
   if (detail == Detail::brief) add_in_short(out, p);
   const auto files = p.files();
   out += fmt::format("\nWrote {} to {}: {}\n", report::count_of(files.size(), "file"),

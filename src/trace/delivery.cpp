@@ -193,6 +193,12 @@ private:
                               in_.seed);
   }
 
+  double searched_mae(const Rival& rival) const {
+    return calibrate::metrics(in_.training, calibrate::predict(s_.model_of(rival), in_.training), 0,
+                              in_.seed)
+        .mae_MPa;
+  }
+
   bool by_validation() const {
     return in_.searched.empty() && in_.validation.experiments.size() >= enough_validation;
   }
@@ -379,6 +385,8 @@ private:
       lead.between = finding.between;
       lead.p_value = finding.p_value;
       lead.significant = true;
+      lead.without_MPa = searched_mae(i == 0 ? s_.base : s_.findings[i - 1].rival);
+      lead.with_MPa = searched_mae(finding.rival);
       const auto against = against_.find(i);
       lead.why = against->second.why;
       d_.contradicted |= against != against_.end() && against->second.contradicted;

@@ -222,16 +222,18 @@ TracedEffect parse_effect_json(const Json& j) {
 Json leads_json(const std::vector<Lead>& leads) {
   Json list = Json::array();
   for (const Lead& lead : leads)
-    list.push_back({{"name", lead.name},
-                    {"columns", lead.columns},
-                    {"derived", derived_json(lead.derived)},
-                    {"form", lead.form},
-                    {"family", family_name(lead.between)},
-                    {"p_value", lead.p_value},
-                    {"share", lead.share},
-                    {"why_not_added", lead.why},
-                    {"design", design_json(lead.design)},
-                    {"significant", lead.significant}});
+    list.push_back(
+        {{"name", lead.name},
+         {"columns", lead.columns},
+         {"derived", derived_json(lead.derived)},
+         {"form", lead.form},
+         {"family", family_name(lead.between)},
+         {"p_value", lead.p_value},
+         {"share", lead.share},
+         {"why_not_added", lead.why},
+         {"design", design_json(lead.design)},
+         {"significant", lead.significant},
+         {"searched_tests_mae_MPa", {{"without", lead.without_MPa}, {"with", lead.with_MPa}}}});
   return list;
 }
 
@@ -242,7 +244,9 @@ std::vector<Lead> parse_leads(const Json& j) {
                      parse_derived(lead.at("derived")), lead.at("form"),
                      lead.at("family") == family_name(true), number_or_nan(lead.at("p_value")),
                      number_or_nan(lead.at("share")), lead.at("why_not_added"),
-                     parse_design(lead.at("design")), lead.at("significant")});
+                     parse_design(lead.at("design")), lead.at("significant"),
+                     lead.at("searched_tests_mae_MPa").at("without"),
+                     lead.at("searched_tests_mae_MPa").at("with")});
   return leads;
 }
 

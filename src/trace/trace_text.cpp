@@ -9,6 +9,7 @@
 #include "core/column_width.h"
 #include "core/text.h"
 #include "data/derived.h"
+#include "effects/change_text.h"
 #include "trace/candidates.h"
 
 namespace frictab::trace {
@@ -102,11 +103,13 @@ std::string design_lines(const Design& d, const std::string& indent) {
   return out;
 }
 
-void add_effect(std::string& out, const TracedEffect& e) {
+void add_effect(std::string& out, const TracedEffect& e, bool coefficients) {
   out +=
       fmt::format("  + {}: {}, {}, p = {:.3g}, gains {} MPa on unseen tests\n", cause_text(e),
                   e.placed.form->name, site_text(e.placed.acts_on), e.p_value, digits(e.gain_MPa));
-  out += fmt::format("      {}: {}\n", effects::formula_text(e.placed), parameter_text(e));
+  out += "      " + effects::change_text(e.placed) + "\n";
+  if (coefficients)
+    out += fmt::format("      {}: {}\n", effects::formula_text(e.placed), parameter_text(e));
   std::vector<std::string> same;
   for (const Alternative& a : e.alternatives)
     if (a.in_set) same.push_back(a.name);
@@ -213,13 +216,31 @@ std::string design_sentence(const Design& d) {
 
 namespace {
 
-// "not confirmed: v_rel_mm_s (p = 0.001)", or that nothing was found; with what is left over.
-std::string nothing_text(const Trace& t) {
-  if (t.least_p_value > t.alpha) return "nothing that so few tests can prove";
+// "v_rel_mm_s (p = 0.001, would take 15.0 to about 10.2 MPa)"
+std::string unconfirmed_text(const Lead& lead) {
+  std::string text = fmt::format("{} (p = {:.2g}", lead_name(lead), lead.p_value);
+  if (lead.with_MPa < lead.without_MPa)
+    text += fmt::format(", would take {} to about {} MPa", digits(lead.without_MPa),
+                        digits(lead.with_MPa));
+  return text + ")";
+}
+
+} // namespace
+
+std::string not_confirmed(const Trace& t) {
   std::vector<std::string> names;
   for (const Lead& lead : t.leads)
-    if (lead.significant) names.push_back(fmt::format("{} (p = {:.2g})", lead.name, lead.p_value));
-  std::string text = names.empty() ? "nothing was found" : "not confirmed: " + join(names, ", ");
+    if (lead.significant) names.push_back(unconfirmed_text(lead));
+  return names.empty() ? "" : "not confirmed: " + join(names, ", ");
+}
+
+namespace {
+
+// What is not confirmed, or that nothing was found; with what is left over.
+std::string nothing_text(const Trace& t) {
+  if (t.least_p_value > t.alpha) return "nothing that so few tests can prove";
+  std::string text = not_confirmed(t);
+  if (text.empty()) text = "nothing was found";
   if (!t.repeatability && t.noise_floor.n_experiments > 1)
     text +=
         fmt::format("; tests differ by {:.2g} % that nothing explains", 100 * t.scatter_between);
@@ -249,12 +270,12 @@ std::string lead_name(const Lead& lead) {
 namespace {
 
 // Verdict, effects, errors before and after.
-std::string found_text(const Trace& t) {
+std::string found_text(const Trace& t, bool coefficients) {
   std::string out = fmt::format("What {} lacks, by its residual: {}\n", t.model, headline(t));
   for (const Alias& alias : t.cannot_tell)
     out += "  " + alias.text + "\n";
   for (const TracedEffect& effect : t.effects)
-    add_effect(out, effect);
+    add_effect(out, effect, coefficients);
   if (t.extended_model.empty()) return out;
   if (t.effects.empty())
     out += "  calibrated again without what follows the order of tests: " + t.extended_model + "\n";
@@ -278,8 +299,8 @@ std::string lead_text(const Lead& lead) {
 
 } // namespace
 
-std::string trace_text(const Trace& t) {
-  std::string out = found_text(t);
+std::string trace_text(const Trace& t, bool coefficients) {
+  std::string out = found_text(t, coefficients);
   out += fmt::format("  scatter by the noise model: {} MPa, if nothing else is missing\n",
                      digits(t.noise_floor.mae_MPa));
   out += "  left: " + t.remaining.note + "\n";
@@ -294,10 +315,13 @@ std::string trace_text(const Trace& t) {
 }
 
 std::string trace_brief(const Trace& t) {
-  std::string out = found_text(t);
+  std::string out = found_text(t, false);
   std::vector<std::string> names;
   for (const Lead& lead : t.leads)
-    names.push_back(lead_name(lead));
+    if (lead.significant)
+      out += lead_text(lead);
+    else
+      names.push_back(lead_name(lead));
   if (!names.empty()) out += "  leads, which prove nothing: " + join(names, ", ") + "\n";
   return out + not_searched_text(t.notes);
 }
@@ -319,8 +343,8 @@ std::string trace_in_short(const Trace& t) {
   for (const TracedEffect& effect : t.effects)
     causes.push_back(cause_text(effect));
   if (causes.empty())
-    return fmt::format("{} in the residual of {}{}; scatter by the noise model {} MPa", headline(t),
-                       t.model, aliases_in_short(t), digits(t.noise_floor.mae_MPa));
+    return fmt::format("{}: {}{}; scatter by the noise model {} MPa", t.model, headline(t),
+                       aliases_in_short(t), digits(t.noise_floor.mae_MPa));
   return fmt::format("{} in {}: {} -> {} MPa on unseen tests, scatter by the noise model {}{}",
                      join(causes, ", "), t.model, digits(t.before.validation.mae_MPa),
                      digits(t.after.validation.mae_MPa), digits(t.noise_floor.mae_MPa),

@@ -9,9 +9,12 @@
 namespace frictab::trace {
 
 // Verdict, effects, errors before and after, what is left, leads and what was tried.
-std::string trace_text(const Trace& trace);
-// The same without what is left and tried, and of the leads their names.
+std::string trace_text(const Trace& trace, bool coefficients = false);
+// The same without what is left and tried, and of leads that were not found their names.
 std::string trace_brief(const Trace& trace);
+// "not confirmed: v_rel_mm_s (p = 0.001, would take 15.0 to about 10.2 MPa)": what was found and is
+// not delivered; empty: there is none.
+std::string not_confirmed(const Trace& trace);
 // Where training tests that were left out would not have been enough: that, without a full stop;
 // empty: they were.
 std::string shown_by_validation(const Trace& trace);

@@ -123,7 +123,7 @@ TEST(Aliases, StandBesideNothingWasFound) {
   t.cannot_tell = trace::find_aliases(data, fit.model, {});
   EXPECT_THAT(trace::trace_brief(t), HasSubstr("\n  batch cannot be told from sigma_n_MPa: A"));
   EXPECT_THAT(trace::trace_in_short(t),
-              HasSubstr("in the residual of wzl; batch cannot be told from sigma_n_MPa;"));
+              HasSubstr("wzl: nothing was found; batch cannot be told from sigma_n_MPa;"));
 }
 
 } // namespace

@@ -140,7 +140,8 @@ TEST(TraceFile, AParameterWithoutAnErrorSaysWhyInTextAndFile) {
   trace.effects[0].parameters = {{"a", 0.2, 0.01, "1", ""},
                                  {"x0", 60, none, "%", "at its bound"},
                                  {"w", 2, none, "%", ""}}; // a reference: nobody asks
-  EXPECT_THAT(trace::trace_text(trace), HasSubstr(": a = 0.2 +- 0.01, x0 = 60 % (at its bound)\n"));
+  EXPECT_THAT(trace::trace_text(trace, true),
+              HasSubstr(": a = 0.2 +- 0.01, x0 = 60 % (at its bound)\n"));
   const std::string text = trace_json({trace}, false);
   EXPECT_THAT(text, HasSubstr("\"no_error_because\": \"at its bound\""));
   EXPECT_EQ(trace_json(parse_traces(text, "trace.json"), false), text);
@@ -164,7 +165,9 @@ TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {
        0,
        "contradicted by the validation tests",
        design,
-       true},
+       true,
+       15,
+       10.2},
       {"dwell", {"s_mm", "v_rel_mm_s"}, "dwell", "hinge", false, 0.3, 0.12, "p = 0.3", {}}};
   trace.scatter_between = 0.04;
   trace.scatter_interval = {0.03, 0.06};
@@ -192,6 +195,29 @@ TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {
       EXPECT_EQ(trace_json({again}, false), text);
       EXPECT_EQ(trace::trace_text(again), trace::trace_text(trace));
     }
+}
+
+TEST(TraceText, WhatIsNotConfirmedComesFirstWithWhatItWouldGain) {
+  Trace trace;
+  trace.model = "coulomb";
+  trace::Lead lead;
+  lead.name = "v_rel_mm_s";
+  lead.columns = {"v_rel_mm_s"};
+  lead.form = "spline";
+  lead.p_value = 0.001;
+  lead.why = "a search without some of the tests does not find it (10 folds)";
+  lead.significant = true;
+  lead.without_MPa = 15;
+  lead.with_MPa = 10.24;
+  trace.leads = {lead};
+  const std::string found =
+      "not confirmed: v_rel_mm_s (p = 0.001, would take 15.0 to about 10.2 MPa)";
+  EXPECT_THAT(trace::trace_in_short(trace), testing::StartsWith("coulomb: " + found));
+  EXPECT_THAT(trace::trace_brief(trace), HasSubstr(lead.why));
+  trace.leads[0].with_MPa = 15.1; // fits under weights: no such promise
+  EXPECT_EQ(trace::not_confirmed(trace), "not confirmed: v_rel_mm_s (p = 0.001)");
+  trace.leads[0].significant = false;
+  EXPECT_THAT(trace::trace_in_short(trace), testing::StartsWith("coulomb: nothing was found;"));
 }
 
 } // namespace

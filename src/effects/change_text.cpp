@@ -1,0 +1,162 @@
+// Evaluates the factor along its first quantity, at the ends of the second.
+#include "effects/change_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/columns.h"
+#include "core/text.h"
+#include "effects/extended_law.h"
+
+namespace frictab::effects {
+
+namespace {
+
+constexpr std::size_t points = 101;     // along a quantity
+constexpr double worth_telling = 0.1;   // of the whole change: an extreme between the ends
+constexpr std::size_t levels_shown = 6; // of more, those with the least and the most friction
+constexpr double no_base = 0.05; // of the largest factor: a change from less is no percentage
+
+class Teller {
+public:
+  explicit Teller(const PlacedEffect& effect) : e_(effect), program_(factor_program(effect)) {}
+
+  std::string run() const {
+    if (e_.inputs.size() == 1) {
+      if (is_text(0)) return levels();
+      const Curve curve = along(0, {middle(0)});
+      return what() + " " + change(curve.front(), curve.back()) + range(0) + extreme(curve);
+    }
+    return of_two(is_text(0) ? 1 : 0, is_text(0) ? 0 : 1);
+  }
+
+private:
+  using Curve = std::vector<double>;
+
+  bool is_text(std::size_t input) const { return !e_.inputs[input].levels.empty(); }
+  double middle(std::size_t input) const {
+    return 0.5 * (e_.inputs[input].low + e_.inputs[input].high);
+  }
+  double place(std::size_t input, std::size_t i) const {
+    const EffectInput& x = e_.inputs[input];
+    return x.low + (x.high - x.low) * static_cast<double>(i) / static_cast<double>(points - 1);
+  }
+
+  Curve factors(const std::vector<std::vector<double>>& columns) const {
+    Curve factor(columns[0].size());
+    program_.evaluate(factor.size(), pointers(columns), fitted_values(e_), factor.data());
+    return factor;
+  }
+
+  // Along one input, the others at these values.
+  Curve along(std::size_t input, const std::vector<double>& at) const {
+    std::vector<std::vector<double>> columns;
+    for (const double value : at)
+      columns.emplace_back(points, value);
+    for (std::size_t i = 0; i < points; ++i)
+      columns[input][i] = place(input, i);
+    return factors(columns);
+  }
+
+  std::string what() const {
+    switch (e_.acts_on) {
+    case ActsOn::m:
+      return "limit";
+    case ActsOn::tau:
+      return "tau_R";
+    case ActsOn::mu:
+    case ActsOn::mu_m:
+      break;
+    }
+    return "friction";
+  }
+
+  std::string change(double from, double to) const {
+    if (e_.acts_on == ActsOn::tau) return signed_text(e_.tau_scale_MPa * (to - from)) + " MPa";
+    if (!(std::abs(from) > no_base * std::max(std::abs(to), 1.0)))
+      return fmt::format("{:.2g} to {:.2g} of the law's", from, to);
+    return signed_text(100 * (to / from - 1)) + " %";
+  }
+
+  // Two digits at least; what rounding left over is nothing.
+  static std::string signed_text(double value) {
+    constexpr double rounding = 1e-9;
+    if (std::abs(value) < rounding) return "+0";
+    return std::abs(value) < 10 ? fmt::format("{:+.2g}", value) : fmt::format("{:+.0f}", value);
+  }
+
+  std::string range(std::size_t input) const {
+    const EffectInput& x = e_.inputs[input];
+    return fmt::format(" from {:.4g} to {:.4g}", x.low, x.high);
+  }
+
+  // Between the ends, where friction is clearly higher or lower there than at both.
+  std::string extreme(const Curve& curve) const {
+    const auto [low, high] = std::minmax_element(curve.begin(), curve.end());
+    const double enough = worth_telling * (*high - *low);
+    const auto [small, large] = std::minmax(curve.front(), curve.back());
+    std::string text;
+    const auto tell = [&](const char* word, Curve::const_iterator at) {
+      text += fmt::format(", {} ({}) at {:.4g}", word, change(curve.front(), *at),
+                          place(0, static_cast<std::size_t>(at - curve.begin())));
+    };
+    if (small - *low > enough) tell("lowest", low);
+    if (*high - large > enough) tell("highest", high);
+    return text;
+  }
+
+  std::string levels() const {
+    const auto& names = e_.inputs[0].levels;
+    std::vector<double> number;
+    for (std::size_t level = 0; level < names.size(); ++level)
+      number.push_back(static_cast<double>(level));
+    const Curve factor = factors({number});
+    std::vector<std::string> changes;
+    for (std::size_t level = 1; level < names.size(); ++level)
+      changes.push_back(names[level] + " " + change(factor[0], factor[level]));
+    std::string more;
+    if (names.size() > levels_shown) {
+      const auto [low, high] = std::minmax_element(factor.begin(), factor.end());
+      changes.clear();
+      for (const auto at : {low, high})
+        changes.push_back(names[static_cast<std::size_t>(at - factor.begin())] + " " +
+                          change(factor[0], *at));
+      more = fmt::format(", the other {} between them", names.size() - 2);
+    }
+    return what() + " against " + names[0] + ": " + join(changes, ", ") + more;
+  }
+
+  // Along `input`, at each level or at the ends of `other`.
+  std::string of_two(std::size_t input, std::size_t other) const {
+    const auto from_to = [&](double value) {
+      std::vector<double> at;
+      for (std::size_t i = 0; i < e_.inputs.size(); ++i)
+        at.push_back(i == other ? value : middle(i));
+      const Curve curve = along(input, at);
+      return change(curve.front(), curve.back());
+    };
+    std::vector<std::string> changes;
+    const EffectInput& y = e_.inputs[other];
+    for (std::size_t level = 0; level < std::min(y.levels.size(), levels_shown); ++level)
+      changes.push_back(y.levels[level] + " " + from_to(static_cast<double>(level)));
+    if (y.levels.size() > levels_shown)
+      changes.push_back(fmt::format("{} more", y.levels.size() - levels_shown));
+    if (y.levels.empty())
+      changes = {fmt::format("{} at {} = {:.4g}", from_to(y.low), y.column, y.low),
+                 fmt::format("{} at {:.4g}", from_to(y.high), y.high)};
+    return what() + " with " + e_.inputs[input].column + range(input) + ": " + join(changes, ", ");
+  }
+
+  const PlacedEffect& e_;
+  const expr::Program program_;
+};
+
+} // namespace
+
+std::string change_text(const PlacedEffect& effect) {
+  return Teller(effect).run();
+}
+
+} // namespace frictab::effects
