@@ -512,18 +512,6 @@ std::vector<Cause> all_causes(const Candidates& candidates) {
   for (std::size_t a = 0; a < columns.size(); ++a)
     for (std::size_t b = a + 1; b < columns.size(); ++b)
       if (every_pair || columns[a].in_law || columns[b].in_law) add({{a}}, b);
-  std::vector<std::size_t> states;
-  for (std::size_t c = 0; c < columns.size(); ++c)
-    if (columns[c].in_law && columns[c].within) states.push_back(c);
-  std::set<Cause> seen;
-  for (std::size_t i = 0; i < states.size(); ++i)
-    for (std::size_t j = i + 1; j < states.size(); ++j)
-      for (std::size_t c = 0; c < columns.size(); ++c) {
-        const std::size_t a = states[i], b = states[j];
-        if (c == a || c == b || !columns[c].levels.empty() || !columns[c].within) continue;
-        const Cause three = joined_cause(joined_cause({{a}}, b, candidates), c, candidates);
-        if (may_act_together(three, candidates) && seen.insert(three).second) all.push_back(three);
-      }
   return all;
 }
 

@@ -61,7 +61,7 @@ Eigen::MatrixXd state_means(const Candidates& candidates, const Blocks& blocks);
 // Whether hardly a test changes more than one state: what several do together, none can show.
 bool one_factor_at_a_time(const Eigen::MatrixXd& states);
 
-// What an effect may follow: one column, or two or three of them that act together.
+// What an effect may follow: one column, or two of them that act together.
 struct Cause {
   std::vector<std::size_t> columns; // a text column first, else ascending
   bool is_joint() const { return columns.size() > 1; }
@@ -69,7 +69,7 @@ struct Cause {
 };
 Cause joined_cause(const Cause& cause, std::size_t column, const Candidates& candidates);
 
-// All columns, then pairs of those that differ, then two states of the law with a third quantity.
+// All columns, then pairs of those that differ.
 std::vector<Cause> all_causes(const Candidates& candidates);
 // Whether these columns together are another thing than one of them alone.
 bool may_act_together(const Cause& cause, const Candidates& candidates);

@@ -148,8 +148,7 @@ const char* plain_form(const Cause& cause, bool text) {
 }
 
 const char* smooth_form(const Cause& cause, bool text, bool two_values) {
-  if (cause.columns.size() == 3) return "product3";
-  if (cause.columns.size() == 2) return text ? "spline_by_level" : "surface";
+  if (cause.is_joint()) return text ? "spline_by_level" : "surface";
   if (two_values) return plain_form(cause, text);
   return text ? "category" : "spline";
 }
@@ -242,7 +241,7 @@ public:
     for (std::size_t p = 0; p < sites.size(); ++p) {
       if (s_.sensitivities()[p].size() == 0) continue;
       add_closed(shapes, p, starts);
-      if (cause_.columns.size() < 3) add_smooth(p, starts);
+      add_smooth(p, starts);
     }
     std::stable_sort(starts.begin(), starts.end(),
                      [](const Start& a, const Start& b) { return a.explained > b.explained; });

@@ -12,7 +12,6 @@
 #include "calibrate/comparison.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/metrics.h"
-#include "trace/choose_effect.h"
 #include "trace/design.h"
 #include "trace/joint_choice.h"
 #include "trace/rows_alike.h"
@@ -28,7 +27,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double unlikely_share = 1e-3; // of the mean square that is left: R^2 above 0.999
-constexpr double clearly_better = 2;    // standard errors, that a curve without a formula has to be
 constexpr double apart_level = 1e-3;    // p-value at which validation is another world
 
 class Deliverer {
@@ -37,8 +35,6 @@ public:
 
   Delivery run() {
     t_.as_calibrated = {in_.fit.training, in_.fit.validation};
-    law_ = s_.last();
-    of_law_ = all_found();
     take(all_found());
     if (d_.findings.empty() && !in_.searched.empty() && s_.order.found) judge_by_folds();
     if (!d_.findings.empty()) {
@@ -53,10 +49,7 @@ public:
                    s_.findings.size(),
                    pays ? s_.findings.size() : 0};
       if (!pays && !(by_validation() && shown_by_validation())) take_all_back({does_not_pay()});
-      if (pays) {
-        drop_losses();
-        smooth_where_clearly_better();
-      }
+      if (pays) drop_losses();
     }
     drop_contradicted();
     compare_errors();
@@ -97,9 +90,9 @@ private:
   void take(std::vector<std::size_t> findings) {
     d_.findings = std::move(findings);
     d_.baseline = weighted(s_.base);
-    d_.rival = law_;
-    for (std::size_t i = of_law_.size(); i-- > 0;)
-      if (std::find(d_.findings.begin(), d_.findings.end(), of_law_[i]) == d_.findings.end())
+    d_.rival = s_.last();
+    for (std::size_t i = s_.findings.size(); i-- > 0;)
+      if (std::find(d_.findings.begin(), d_.findings.end(), i) == d_.findings.end())
         d_.rival = without_effect(s_.campaign(), d_.rival, i);
     if (d_.findings.empty()) d_.rival = s_.base;
     offered_ = d_.rival;
@@ -163,29 +156,6 @@ private:
       if (std::find(kept.begin(), kept.end(), f) == kept.end())
         against_[f] = {"none within its error where all rows weigh alike, as in the law delivered"};
     d_.findings = std::move(kept);
-  }
-
-  // A formula that people can read stays unless a smooth curve predicts left-out tests clearly
-  // better.
-  void smooth_where_clearly_better() {
-    for (std::size_t i = 0; i < judged_.size(); ++i) {
-      const effects::PlacedEffect& effect = offered_.effects[i];
-      if (effect.form->penalty || effect.form->categorical) continue;
-      const std::vector<Rival> forms = choose_form(s_, offered_, i);
-      const auto smooth = std::find_if(forms.begin(), forms.end(), [&](const Rival& rival) {
-        return rival.effects[i].form->penalty && rival.effects[i].acts_on == effect.acts_on;
-      });
-      if (smooth == forms.end()) continue;
-      const NestedErrors other = nested_errors(s_, *smooth, false);
-      const std::size_t weights = other.better_weights(true);
-      const VectorXd gain =
-          d_.nested.weighted[weights_].all.relative - other.weighted[weights].all.relative;
-      if (!(gain.mean() > clearly_better * std_error(gain))) continue;
-      law_ = *smooth;
-      of_law_ = judged_;
-      take(judged_);
-      judge_by_folds();
-    }
   }
 
   calibrate::Metrics errors(const data::Dataset& data, const Rival& rival) const {
@@ -411,8 +381,6 @@ private:
   const TraceInput& in_;
   Trace& t_;
   Delivery d_;
-  Rival law_; // with the findings of_law_
-  std::vector<std::size_t> of_law_;
   Rival offered_;                   // with the findings, before rows weigh alike
   std::vector<std::size_t> judged_; // findings of the law that the folds judged
   std::size_t weights_ = 0;

@@ -20,9 +20,10 @@ using Eigen::VectorXd;
 
 constexpr double farthest_factor = 5; // between measured friction and the law's
 constexpr double same_site = 0.995;   // correlation of what two sites can change
+constexpr double same_shape = 0.97;   // of shapes of which one is tried
 constexpr int walk_waves = 8;
 // Few terms are tried on more flips, which cost little there and leave less to chance.
-constexpr std::size_t flips_of_terms = 1000000, most_flips = 4999;
+constexpr std::size_t flips_of_terms = 500000, most_flips = 4999;
 constexpr double least_own = 0.02; // of a column's information, beside the parameters of the law
 
 class Campaigner {
@@ -124,9 +125,7 @@ private:
     });
     for (const Cause& cause : all_causes(s_.candidates)) {
       const auto& in = s_.last().causes;
-      if (cause.columns.size() > 2 || !may_be_offered(cause) ||
-          std::find(in.begin(), in.end(), cause) != in.end())
-        continue;
+      if (!may_be_offered(cause) || std::find(in.begin(), in.end(), cause) != in.end()) continue;
       const auto& all = cause.columns;
       const bool of_states = cause.is_joint() && is_state(columns[all[1]]) &&
                              (is_state(columns[all[0]]) || !columns[all[0]].levels.empty());
@@ -151,7 +150,13 @@ private:
       VectorXd x = shape.direction.cast<double>();
       x.array() -= x.mean();
       const double size = x.norm() / std::sqrt(static_cast<double>(x.size()));
-      if (size > 0) all.push_back({{x / size, 1}, &shape.effect});
+      if (!(size > 0)) continue;
+      x /= size;
+      if (std::none_of(all.begin(), all.end(), [&](const SharpShape& other) {
+            return std::abs(x.dot(other.basis.columns.col(0))) >
+                   same_shape * static_cast<double>(x.size());
+          }))
+        all.push_back({{x, 1}, &shape.effect});
     }
     return all;
   }

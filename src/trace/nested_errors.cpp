@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -64,12 +65,13 @@ public:
   FoldJudge(const Search& all, const Rival& law, const CauseFold& fold)
       : all_(all), law_(law), fold_(fold), kept_(all.input.training.subset(others())),
         left_out_(all.input.training.subset(fold.out)), options_(all.input.options) {
+    ignore_what_is_not_needed();
     options_.order = all.candidates.order_column; // a part of the tests is not numbered 1 to n
     const data::Column* order = kept_.find(options_.order);
     if (order && values_of_tests(*order, kept_) < 3) options_.order.clear();
   }
 
-  std::array<NestedErrors::Weighted, 2> run(bool each) const {
+  std::array<NestedErrors::Weighted, 2> run() const {
     const TraceInput& in = all_.input;
     const TraceInput part{kept_, in.validation, in.fit, options_, in.bootstrap, in.seed};
     const Search search(part, &all_.base.noise);
@@ -79,7 +81,7 @@ public:
     for (NestedErrors::Weighted& one : errors)
       one.all = one.none;
     judge(search, with, errors, [](auto& w) -> LeftOut& { return w.all; });
-    for (const Cause& cause : each ? law_.causes : std::vector<Cause>{}) {
+    for (const Cause& cause : law_.causes) {
       for (NestedErrors::Weighted& one : errors)
         one.without.push_back(one.all);
       const auto at = std::find(causes_.begin(), causes_.end(), cause);
@@ -97,6 +99,25 @@ private:
     for (std::size_t e = 0; e < all_.input.training.experiments.size(); ++e)
       if (std::find(fold_.out.begin(), fold_.out.end(), e) == fold_.out.end()) kept.push_back(e);
     return kept;
+  }
+
+  // Columns that neither the law nor any of the causes has: of hundreds it would take long to say
+  // again which are alike.
+  void ignore_what_is_not_needed() {
+    std::set<std::string> needed{all_.candidates.order_column, options_.tool_distance};
+    const auto need = [&](const std::vector<Cause>& causes) {
+      for (const Cause& cause : causes)
+        for (const std::size_t c : cause.columns) {
+          const CandidateColumn& column = all_.candidates.columns[c];
+          needed.insert(column.name);
+          needed.insert(column.recorded.begin(), column.recorded.end());
+        }
+    };
+    need(law_.causes);
+    need(fold_.causes);
+    for (const CandidateColumn& column : all_.candidates.columns)
+      if (!column.in_law && !is_state(column) && !needed.count(column.name))
+        options_.ignore.push_back(column.name);
   }
 
   // The fold's own causes; those that the search on all tests has found and taken off are left out.
@@ -179,12 +200,12 @@ std::size_t NestedErrors::better_weights(bool with_effects) const {
   return error(1) < clearly * error(0) ? 1 : 0;
 }
 
-NestedErrors nested_errors(const Search& search, const Rival& law, bool each) {
+NestedErrors nested_errors(const Search& search, const Rival& law) {
   const std::size_t tests = search.input.training.experiments.size();
   std::vector<std::array<NestedErrors::Weighted, 2>> parts(search.folds.size());
   Progress progress("fitting without some tests", parts.size());
   parallel_for(parts.size(), [&](std::size_t f) {
-    parts[f] = FoldJudge(search, law, search.folds[f]).run(each);
+    parts[f] = FoldJudge(search, law, search.folds[f]).run();
     progress.tick();
   });
   NestedErrors all;

@@ -44,7 +44,7 @@ struct NestedErrors {
   std::size_t better_weights(bool with_effects) const;
 };
 
-// `law`: with some of the effects of the search. `each`: also without each of them.
-NestedErrors nested_errors(const Search& search, const Rival& law, bool each = true);
+// `law`: with some of the effects of the search; also without each of them.
+NestedErrors nested_errors(const Search& search, const Rival& law);
 
 } // namespace frictab::trace

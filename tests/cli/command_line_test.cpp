@@ -149,7 +149,8 @@ protected:
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(SmallCampaign::SetUp());
     write_job("[models]\nuse = [\"coulomb\", \"shear\"]\n[table]\nmodel = \"all\"\n"
-              "tolerance_MPa = 3\n[export]\ntargets = [\"c\"]\n");
+              "tolerance_MPa = 3\n[export]\ntargets = [\"c\"]\n" +
+              std::string(test::no_causes));
     directory.write("study.toml", "job = \"job.toml\"\n[[campaign]]\nname = \"a\"\n"
                                   "files = \"data/training.csv\"\n"
                                   "validation = \"data/validation.csv\"\n");

@@ -26,7 +26,8 @@ protected:
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(SmallCampaign::SetUp());
     write_job("[models]\nuse = [\"coulomb\", \"shear\"]\n"
-              "[table]\nmodel = \"shear\"\n[export]\ntargets = []\n");
+              "[table]\nmodel = \"shear\"\n[export]\ntargets = []\n" +
+              std::string(test::no_causes));
   }
 
   Files results() const {

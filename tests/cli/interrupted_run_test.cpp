@@ -32,7 +32,7 @@ protected:
     write_job("[models]\nuse = [\"coulomb\", \"shear\", \"levanov\"]\n"
               "[table]\nmodel = [\"shear\", \"levanov\"]\n"
               "[export]\ntargets = " +
-              targets + "\n");
+              targets + "\n" + test::no_causes);
   }
   Files results() const {
     Files files;

@@ -10,6 +10,7 @@
 #include "io/atomic_file.h"
 #include "support/json.h"
 #include "support/run_command.h"
+#include "support/small_campaign.h"
 
 namespace frictab::pipeline_test {
 namespace {
@@ -38,9 +39,6 @@ use = ["coulomb_0.04", "coulomb_0.08", "shear_0.12", "coulomb_mean", "shear_mean
 model = ["best", "levanov"]
 [verify]
 samples = 5000
-[trace] # what it finds is not the matter here: without a possible cause it has little to do
-ignore = ["humidity_pct", "film_um", "Ra_um", "tool", "run_order", "time_s", "s_mm", "T_tool_C",
-          "T_contact_C", "psi", "v_rel_mm_s", "sigma_n_MPa", "sigma_f_MPa"]
 )";
 // A law with an effect in it comes out with this.
 const char* const with_effect = "trace.ignore=[\"humidity_pct\", \"film_um\", \"Ra_um\", "
@@ -59,7 +57,7 @@ class MainJob : public testing::Test {
 protected:
   void SetUp() override {
     write_campaign(directory);
-    job = directory.write("job.toml", job_text);
+    job = directory.write("job.toml", std::string(job_text) + test::no_causes);
   }
   TemporaryDirectory directory;
   std::string job;
@@ -288,7 +286,7 @@ TEST_F(SlowMainJob, SourcesOfStatesThatSomeTargetsDoNotKnowAreToldForAllOfThemAt
 }
 
 TEST_F(SlowMainJob, SectionOfOneTargetHoldsForItAlone) {
-  directory.write("job.toml", std::string(job_text) +
+  directory.write("job.toml", std::string(job_text) + test::no_causes +
                                   "[export]\n"
                                   "targets = [\"abaqus_vfric\", \"marc_ufric\"]\n"
                                   "[export.inputs]\n"

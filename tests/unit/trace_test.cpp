@@ -626,7 +626,8 @@ TEST(SlowTraceRates, CampaignsThatLackNothingGiveFalseAlarmsAsRarelyAsAsked) {
     for (const char* noise : {"normal", "t4", "heteroscedastic"}) {
       TwinOptions options = campaign(seed % 2 ? "orowan" : "exp_coulomb", seed);
       options.noise = noise;
-      options.design->points = 15;
+      options.more_bystanders = false;
+      options.design = parse_design("psi=1,20;T=20,200;points=15", *options.design);
       const Trace t = traced(options);
       found += t.nested.offered > 0;
       added += !t.effects.empty();
