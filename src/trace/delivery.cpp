@@ -12,6 +12,7 @@
 #include "calibrate/comparison.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/metrics.h"
+#include "core/error.h"
 #include "trace/design.h"
 #include "trace/joint_choice.h"
 #include "trace/rows_alike.h"
@@ -163,10 +164,18 @@ private:
                               in_.seed);
   }
 
-  double searched_mae(const Rival& rival) const {
-    return calibrate::metrics(in_.training, calibrate::predict(s_.model_of(rival), in_.training), 0,
-                              in_.seed)
-        .mae_MPa;
+  // What a lead would gain; not told where the stress of a history of itself does not settle.
+  void add_errors(Lead& lead, const Rival& without, const Rival& with) const {
+    const auto mae = [&](const Rival& rival) {
+      const auto predicted = calibrate::predict(s_.model_of(rival), in_.training);
+      return calibrate::metrics(in_.training, predicted, 0, in_.seed).mae_MPa;
+    };
+    try {
+      const double before = mae(without);
+      lead.with_MPa = mae(with);
+      lead.without_MPa = before;
+    } catch (const InputError&) {
+    }
   }
 
   bool by_validation() const {
@@ -355,8 +364,7 @@ private:
       lead.between = finding.between;
       lead.p_value = finding.p_value;
       lead.significant = true;
-      lead.without_MPa = searched_mae(i == 0 ? s_.base : s_.findings[i - 1].rival);
-      lead.with_MPa = searched_mae(finding.rival);
+      add_errors(lead, i == 0 ? s_.base : s_.findings[i - 1].rival, finding.rival);
       const auto against = against_.find(i);
       lead.why = against->second.why;
       d_.contradicted |= against != against_.end() && against->second.contradicted;
