@@ -23,6 +23,9 @@ namespace {
 constexpr std::size_t most_resamples = 10'000;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-12; // of the sum of two errors
+// Of a standard error, that a resample's may be: one that has hardly any of the few experiments in
+// which two laws differ would say that it knows the difference to any number of digits.
+constexpr double least_error = 0.1;
 
 // One measure of error of all laws in one resample.
 struct Estimates {
@@ -92,7 +95,8 @@ void fill_pairs(const Problem& p, const Estimates& now, const Estimates& all,
     for (std::size_t j = i + 1; j < p.laws(); ++j, ++pair)
       s.again[pair][b] =
           studentised(all.value[j] - all.value[i] - s.difference[pair],
-                      p.error_of(all, i, j, times), now.value[i] + now.value[j], rounding);
+                      std::max(p.error_of(all, i, j, times), least_error * s.error[pair]),
+                      now.value[i] + now.value[j], rounding);
 }
 
 Studentised studentise(const Problem& p, std::size_t resamples, std::uint64_t seed) {

@@ -101,6 +101,21 @@ TEST(SlowComparison, OfLawsThatCountAsTheSameHasZeroInItsInterval) {
   }
 }
 
+// Of forty experiments two tell the laws apart: a resample without them knows nothing, and must not
+// say that it knows the difference to any number of digits.
+TEST(SlowComparison, OfLawsThatDifferInTwoExperimentsHasAnIntervalOfTheSizeOfWhatTheyDiffer) {
+  std::vector<double> mae, other;
+  for (int e = 0; e < 40; ++e) {
+    mae.push_back(10 + e % 7);
+    other.push_back(mae.back() + (e < 2 ? 1 : 1e-8 * (e % 3)));
+  }
+  const Comparisons c = compare(std::vector<LawErrors>{law("a", mae), law("b", other)}, 999, 1);
+  EXPECT_NEAR(c.pairs[0].mae.value_MPa, 0.05, 1e-6);
+  EXPECT_LT(c.pairs[0].mae.interval.low, 0) << "two experiments prove nothing";
+  EXPECT_GT(c.pairs[0].mae.interval.low, -1);
+  EXPECT_LT(c.pairs[0].mae.interval.high, 1);
+}
+
 TEST(SlowComparison, OfALawThatIsAlwaysWorseByOneMPaIsOneMPa) {
   std::vector<double> mae{3, 8, 1, 12, 5, 6, 2}, worse = mae;
   for (double& value : worse)
