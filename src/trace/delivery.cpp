@@ -40,6 +40,7 @@ public:
     if (d_.findings.empty() && !in_.searched.empty() && s_.order.found) judge_by_folds();
     if (!d_.findings.empty()) {
       judge_by_folds();
+      drop_losses(); // first: one of them would speak against all
       const NestedErrors::Gain gain = d_.nested.gain(weights_);
       const bool pays = gain.error > 0 && (s_.pays || gain.error > gain.error_se);
       t_.nested = {d_.nested.folds,
@@ -50,7 +51,6 @@ public:
                    s_.findings.size(),
                    pays ? s_.findings.size() : 0};
       if (!pays && !(by_validation() && shown_by_validation())) take_all_back({does_not_pay()});
-      if (pays) drop_losses();
     }
     drop_contradicted();
     compare_errors();
