@@ -25,6 +25,7 @@ constexpr int walk_waves = 8;
 // Few terms are tried on more flips, which cost little there and leave less to chance.
 constexpr std::size_t flips_of_terms = 500000, most_flips = 4999;
 constexpr double least_own = 0.02; // of a column's information, beside the parameters of the law
+constexpr double imitated = 0.5;   // of the variance of a history's means of tests, by states
 
 class Campaigner {
 public:
@@ -123,6 +124,7 @@ private:
       if (columns[c].levels.empty() && !constant_in_experiments({{c}}, s_.candidates))
         shapes_[c] = shapes_of({{c}}, s_.candidates);
     });
+    find_imitated();
     for (const Cause& cause : all_causes(s_.candidates)) {
       const auto& in = s_.last().causes;
       if (!may_be_offered(cause) || std::find(in.begin(), in.end(), cause) != in.end()) continue;
@@ -172,9 +174,31 @@ private:
     offer_.sharp.push_back(shape != nullptr);
     shape_of_.push_back(shape);
     const MatrixXd changes = sites_[site].second.asDiagonal() * basis.columns;
-    terms_.push_back({count_, basis.straight, changes.cols()});
+    terms_.push_back({count_, basis.straight, changes.cols(), is_imitated(cause)});
     count_ += changes.cols();
     parts_.push_back(modes_.of(changes));
+  }
+
+  // A history whose means of tests follow from the states: between tests it would stand for these.
+  bool is_imitated(const Cause& cause) const {
+    return std::any_of(cause.columns.begin(), cause.columns.end(),
+                       [&](std::size_t c) { return imitated_[c] != 0; });
+  }
+
+  void find_imitated() {
+    const MatrixXd states = orthonormal(state_means(s_.candidates, s_.blocks));
+    for (std::size_t c = 0; c < s_.candidates.columns.size(); ++c) {
+      const CandidateColumn& column = s_.candidates.columns[c];
+      imitated_.push_back(0);
+      if (column.between || !column.within || !column.levels.empty()) continue;
+      VectorXd x = s_.blocks.experiment_means(maker_.of({{c}}).columns.leftCols(1)).col(0);
+      x.array() -= x.mean();
+      const VectorXd left = x - states * (states.transpose() * x);
+      const auto n = static_cast<double>(x.size()),
+                 free = n - 1 - static_cast<double>(states.cols());
+      imitated_.back() =
+          free < 1 || left.squaredNorm() / free < (1 - imitated) * x.squaredNorm() / (n - 1);
+    }
   }
 
   // Cosines of the order of tests, the k-th of standard deviation 1/k, at each site.
@@ -194,7 +218,7 @@ private:
     offer_.first.push_back(0);
     offer_.sharp.push_back(0);
     shape_of_.push_back(nullptr);
-    terms_.push_back({count_, 0, per_block.cols()});
+    terms_.push_back({count_, 0, per_block.cols(), false});
     count_ += per_block.cols();
     parts_.push_back(modes_.of(per_block));
   }
@@ -281,6 +305,7 @@ private:
   const VectorXd floor_;
   std::vector<std::pair<std::size_t, VectorXd>> sites_;
   std::vector<std::vector<GridShape>> shapes_; // per column: of those that move in tests
+  std::vector<char> imitated_;                 // per column
   std::vector<Cause> causes_;                  // per term
   std::vector<std::size_t> site_of_;
   std::vector<const effects::PlacedEffect*> shape_of_; // of one shape alone; else null

@@ -96,7 +96,8 @@ JointData JointData::with_terms(const std::vector<std::size_t>& some) const {
   std::vector<Index> kept(static_cast<std::size_t>(law));
   std::iota(kept.begin(), kept.end(), 0);
   for (const std::size_t t : some) {
-    few.terms.push_back({static_cast<Index>(kept.size()), terms[t].straight, terms[t].count});
+    few.terms.push_back(terms[t]);
+    few.terms.back().first = static_cast<Index>(kept.size());
     for (Index k = 0; k < terms[t].count; ++k)
       kept.push_back(terms[t].first + k);
   }
@@ -112,7 +113,7 @@ JointData JointData::weighted(const VectorXd& factor) const {
 }
 
 JointModel::JointModel(JointData data)
-    : data_(std::move(data)), of_data_(moments(data_.response)), own_(data_.terms.size()) {
+    : data_(std::move(data)), of_data_(moments(data_.response).front()), own_(data_.terms.size()) {
   parallel_for(own_.size(), [&](std::size_t t) {
     const JointTerm& term = data_.terms[t];
     for (std::size_t c = 0; c < mode_classes; ++c) {
@@ -123,16 +124,21 @@ JointModel::JointModel(JointData data)
   });
 }
 
-Moments JointModel::moments(const VectorXd& response) const {
-  Moments out;
-  out.along.resize(data_.columns.cols(), mode_classes);
+std::vector<Moments> JointModel::moments(const MatrixXd& responses) const {
+  std::vector<Moments> all(static_cast<std::size_t>(responses.cols()));
+  for (Moments& one : all)
+    one.along.resize(data_.columns.cols(), mode_classes);
   for (std::size_t c = 0; c < mode_classes; ++c) {
     const Index begin = data_.first[c], rows = data_.first[c + 1] - begin;
-    out.along.col(static_cast<Index>(c)) =
-        data_.columns.middleRows(begin, rows).transpose() * response.segment(begin, rows);
-    out.squares[c] = response.segment(begin, rows).squaredNorm();
+    const auto here = responses.middleRows(begin, rows);
+    const MatrixXd along = data_.columns.middleRows(begin, rows).transpose() * here;
+    for (Index r = 0; r < responses.cols(); ++r) {
+      Moments& one = all[static_cast<std::size_t>(r)];
+      one.along.col(static_cast<Index>(c)) = along.col(r);
+      one.squares[c] = here.col(r).squaredNorm();
+    }
   }
-  return out;
+  return all;
 }
 
 VectorXd JointModel::residual(const JointFit& fit) const {
@@ -296,58 +302,63 @@ JointFit JointModel::tuned(const JointFit& from, const Moments& moments) const {
   return fit(from.terms, sizes, from.variance, moments, 2);
 }
 
-// The columns of a fit, Z, and those of all terms.
+// The columns of a fit, Z.
 struct JointModel::Beside {
   const JointFit& fit;
-  ByClass weight, free;                       // degrees of freedom that are left
-  std::array<MatrixXd, mode_classes> cross;   // X' Z
-  std::array<MatrixXd, mode_classes> product; // Z' Z
-  MatrixXd turned;                            // X' W Z K: what the fit explains of X, as Z' columns
+  ByClass weight, free;                                // degrees of freedom that are left
+  std::vector<std::pair<const Cross*, Index>> columns; // where products with each column stand
+  std::array<MatrixXd, mode_classes> product;          // Z' Z
 };
 
+// The columns of a term, X, beside those of a fit.
+struct JointModel::OfTerm {
+  std::array<MatrixXd, mode_classes> cross; // X' Z
+  MatrixXd turned;                          // X' W Z K: what the fit explains of X, as Z' columns
+};
+
+ByClass JointModel::counted(const Beside& with, const JointTerm& term) {
+  ByClass weight = with.weight;
+  if (term.within) weight[0] = 0;
+  return weight;
+}
+
 JointModel::Beside JointModel::beside(const JointFit& fit) const {
-  Beside out{fit, weights(fit), {}, {}, products_of(fit), {}};
-  out.cross.fill(MatrixXd(data_.columns.cols(), static_cast<Index>(fit.columns.size())));
-  for_columns(fit, [&](const Cross& cross, Index column, Index at) {
-    for (std::size_t c = 0; c < mode_classes; ++c)
-      out.cross[c].col(at) = cross[c].col(column);
+  Beside out{fit, weights(fit), {}, {}, products_of(fit)};
+  for_columns(fit, [&](const Cross& cross, Index column, Index) {
+    out.columns.emplace_back(&cross, column);
   });
-  MatrixXd weighted = MatrixXd::Zero(data_.columns.cols(), static_cast<Index>(fit.columns.size()));
-  for (std::size_t c = 0; c < mode_classes; ++c) {
-    if (out.weight[c] > 0) weighted += out.weight[c] * out.cross[c];
+  for (std::size_t c = 0; c < mode_classes; ++c)
     out.free[c] =
         std::max(static_cast<double>(data_.first[c + 1] - data_.first[c]) - fit.used[c], 0.0);
-  }
-  out.turned = weighted * fit.inverse;
   return out;
 }
 
-std::array<MatrixXd, mode_classes> JointModel::own_products(const Beside& beside,
-                                                            std::size_t term) const {
+JointModel::OfTerm JointModel::of_term(const Beside& beside, std::size_t term) const {
   const JointTerm& at = data_.terms[term];
-  const MatrixXd turned = beside.turned.middleRows(at.first, at.count);
-  std::array<MatrixXd, mode_classes> own;
+  const auto count = static_cast<Index>(beside.columns.size());
+  OfTerm out;
+  MatrixXd weighted = MatrixXd::Zero(at.count, count);
   for (std::size_t c = 0; c < mode_classes; ++c) {
-    const MatrixXd both = beside.cross[c].middleRows(at.first, at.count) * turned.transpose();
-    own[c] =
-        own_[term][c] - both - both.transpose() + turned * beside.product[c] * turned.transpose();
+    out.cross[c].resize(at.count, count);
+    for (Index i = 0; i < count; ++i) {
+      const auto& [cross, column] = beside.columns[static_cast<std::size_t>(i)];
+      out.cross[c].col(i) = (*cross)[c].col(column).segment(at.first, at.count);
+    }
+    if (beside.weight[c] > 0) weighted += beside.weight[c] * out.cross[c];
   }
-  return own;
+  out.turned = weighted * beside.fit.inverse;
+  return out;
 }
 
-std::array<VectorXd, mode_classes>
-JointModel::own_along(const Beside& beside, const Moments& moments, std::size_t term) const {
-  const JointTerm& at = data_.terms[term];
-  const JointFit& fit = beside.fit;
-  const MatrixXd turned = beside.turned.middleRows(at.first, at.count);
-  std::array<VectorXd, mode_classes> along;
+std::array<MatrixXd, mode_classes> JointModel::own_products(const Beside& beside, const OfTerm& of,
+                                                            std::size_t term) const {
+  std::array<MatrixXd, mode_classes> own;
   for (std::size_t c = 0; c < mode_classes; ++c) {
-    const auto all = moments.along.col(static_cast<Index>(c));
-    const VectorXd of_fit = all(fit.columns) - beside.product[c] * fit.coefficients;
-    along[c] = all.segment(at.first, at.count) -
-               beside.cross[c].middleRows(at.first, at.count) * fit.coefficients - turned * of_fit;
+    const MatrixXd both = of.cross[c] * of.turned.transpose();
+    own[c] = own_[term][c] - both - both.transpose() +
+             of.turned * beside.product[c] * of.turned.transpose();
   }
-  return along;
+  return own;
 }
 
 namespace {
@@ -400,37 +411,52 @@ struct TermOnResponses {
 
 // The likeliest of the sizes of a grid.
 template <class Grid>
-JointModel::Ratio JointModel::likeliest(const Beside& with, const Moments& moments,
-                                        std::size_t term, const Grid& grid) const {
-  ByClass weight = with.weight;
-  const auto own = own_products(with, term);
-  const auto along = own_along(with, moments, term);
-  TermOnResponses one{data_.terms[term], weight, with.free, own, {}, {}};
+JointModel::Ratio JointModel::likeliest(const Beside& with, const Left& left,
+                                        const Moments& moments, std::size_t term, ByClass weight,
+                                        const Grid& grid) const {
+  const JointTerm& at = data_.terms[term];
+  const OfTerm of = of_term(with, term);
+  const auto own = own_products(with, of, term);
+  TermOnResponses one{at, weight, with.free, own, {}, {}};
   one.squares.resize(1, static_cast<Index>(mode_classes));
   for (std::size_t c = 0; c < mode_classes; ++c) {
-    one.along[c] = along[c].transpose();
-    one.squares(0, static_cast<Index>(c)) = with.fit.squares[c];
+    const auto column = static_cast<Index>(c);
+    one.along[c] = (moments.along.col(column).segment(at.first, at.count) -
+                    of.cross[c] * with.fit.coefficients - of.turned * left[c])
+                       .transpose();
+    one.squares(0, column) = with.fit.squares[c];
     if (!(with.fit.squares[c] > 0)) weight[c] = 0; // nothing is left there
   }
   one.add_up();
   Ratio best;
-  for (const TermSize& size : sizes_to_try(data_.terms[term], grid))
+  for (const TermSize& size : sizes_to_try(at, grid))
     if (const double gain = one.gains(size)(0); gain > best.value) best = {gain, size};
   return best;
+}
+
+JointModel::Left JointModel::left_along(const Beside& with, const Moments& moments) const {
+  Left left;
+  for (std::size_t c = 0; c < mode_classes; ++c)
+    left[c] = moments.along.col(static_cast<Index>(c))(with.fit.columns) -
+              with.product[c] * with.fit.coefficients;
+  return left;
 }
 
 std::vector<JointModel::Ratio> JointModel::ratios(const JointFit& fit, const Moments& moments,
                                                   const std::vector<std::size_t>& terms) const {
   const Beside with = beside(fit);
+  const Left left = left_along(with, moments);
   std::vector<Ratio> all;
   for (const std::size_t term : terms)
-    all.push_back(likeliest(with, moments, term, coarse_sizes));
+    all.push_back(
+        likeliest(with, left, moments, term, counted(with, data_.terms[term]), coarse_sizes));
   return all;
 }
 
 JointModel::Ratio JointModel::fine_ratio(const JointFit& fit, const Moments& moments,
                                          std::size_t term) const {
-  return likeliest(beside(fit), moments, term, fine_sizes);
+  const Beside with = beside(fit);
+  return likeliest(with, left_along(with, moments), moments, term, with.weight, fine_sizes);
 }
 
 std::vector<JointModel::Information>
@@ -438,7 +464,7 @@ JointModel::information(const JointFit& fit, const std::vector<std::size_t>& ter
   const Beside with = beside(fit);
   std::vector<Information> all;
   for (const std::size_t term : terms) {
-    const auto own = own_products(with, term);
+    const auto own = own_products(with, of_term(with, term), term);
     const Index straight = data_.terms[term].straight;
     Information& sum = all.emplace_back();
     for (std::size_t c = 0; c < mode_classes; ++c) {
@@ -466,17 +492,18 @@ MatrixXd JointModel::ratios_of(const JointFit& fit, const MatrixXd& responses,
   MatrixXd best(responses.cols(), static_cast<Index>(terms.size()));
   parallel_for(terms.size(), [&](std::size_t i) {
     const JointTerm& term = data_.terms[terms[i]];
-    const auto own = own_products(with, terms[i]);
-    const MatrixXd turned = with.turned.middleRows(term.first, term.count).transpose();
+    const OfTerm of = of_term(with, terms[i]);
+    const auto own = own_products(with, of, terms[i]);
     const std::vector<TermSize> sizes = sizes_to_try(term, coarse_sizes);
+    const ByClass weight = counted(with, term);
     for (Index from = 0; from < responses.cols(); from += at_once) {
       const Index count = std::min(at_once, responses.cols() - from);
-      TermOnResponses some{term, with.weight, with.free, own, {}, squares.middleRows(from, count)};
+      TermOnResponses some{term, weight, with.free, own, {}, squares.middleRows(from, count)};
       for (std::size_t c = 0; c < mode_classes; ++c) {
         const Index begin = data_.first[c], rows = data_.first[c + 1] - begin;
         some.along[c] = responses.block(begin, from, rows, count).transpose() *
                             data_.columns.block(begin, term.first, rows, term.count) -
-                        of_fit[c].middleRows(from, count) * turned;
+                        of_fit[c].middleRows(from, count) * of.turned.transpose();
       }
       some.add_up();
       Eigen::ArrayXd greatest = Eigen::ArrayXd::Zero(count);

@@ -33,6 +33,8 @@ struct TermSize {
 
 struct JointTerm {
   Eigen::Index first = 0, straight = 0, count = 0; // columns; the straight ones in front
+  // A ratio counts what it explains within tests alone: between them others imitate it.
+  bool within = false;
 };
 
 // Rows are modes, the classes one behind the other.
@@ -79,7 +81,7 @@ public:
   explicit JointModel(JointData data);
 
   const JointData& data() const { return data_; }
-  Moments moments(const Eigen::VectorXd& response) const;
+  std::vector<Moments> moments(const Eigen::MatrixXd& responses) const; // modes x responses
   const Moments& of_data() const { return of_data_; }
   Eigen::VectorXd residual(const JointFit& fit) const;
 
@@ -101,7 +103,7 @@ public:
   };
   std::vector<Ratio> ratios(const JointFit& fit, const Moments& moments,
                             const std::vector<std::size_t>& terms) const;
-  // The same of one term on a fine grid.
+  // Of one term on a fine grid, by all that it explains.
   Ratio fine_ratio(const JointFit& fit, const Moments& moments, std::size_t term) const;
   // Responses x terms, gains alone. `responses`: modes x responses, beside the fit.
   Eigen::MatrixXd ratios_of(const JointFit& fit, const Eigen::MatrixXd& responses,
@@ -127,18 +129,20 @@ private:
   std::array<Eigen::MatrixXd, mode_classes> products_of(const JointFit& fit) const; // Z' Z
   ByClass weights(const JointFit& fit) const;
   ByClass estimated_noise(const JointFit& fit) const;
-  // What is needed of all terms beside a fit.
+  // What is needed beside a fit: of it, of a term, and of what it leaves of a response (Z' r).
   struct Beside;
+  struct OfTerm;
+  using Left = std::array<Eigen::VectorXd, mode_classes>;
   Beside beside(const JointFit& fit) const;
+  static ByClass counted(const Beside& beside, const JointTerm& term); // weights in a ratio
+  OfTerm of_term(const Beside& beside, std::size_t term) const;
+  Left left_along(const Beside& beside, const Moments& moments) const;
   template <class Grid>
-  Ratio likeliest(const Beside& beside, const Moments& moments, std::size_t term,
-                  const Grid& grid) const;
-  // Of one: X~' X~ by class, X~ its columns less what those of the fit explain of them.
-  std::array<Eigen::MatrixXd, mode_classes> own_products(const Beside& beside,
+  Ratio likeliest(const Beside& beside, const Left& left, const Moments& moments, std::size_t term,
+                  ByClass weight, const Grid& grid) const;
+  // X~' X~ by class, X~ the columns of a term less what those of the fit explain of them.
+  std::array<Eigen::MatrixXd, mode_classes> own_products(const Beside& beside, const OfTerm& of,
                                                          std::size_t term) const;
-  // X~' r by class.
-  std::array<Eigen::VectorXd, mode_classes> own_along(const Beside& beside, const Moments& moments,
-                                                      std::size_t term) const;
 
   JointData data_;
   Moments of_data_;

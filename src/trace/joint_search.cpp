@@ -26,7 +26,9 @@ constexpr std::size_t longest_look = 3, most_terms = 8, leads_shown = 12;
 // that false alarms stay rarer than trace.alpha all the same (docs/measurements.md).
 constexpr std::array<double, 2> shares_of_alpha = {1, 0.5};
 constexpr double of_look_ahead = 0.25; // of the level of its round
-constexpr double rare_enough = 2;      // thresholds, from which on the likelihood alone decides
+constexpr Index few_flips = 49;        // on which a path that is nothing shows, by its p-value
+constexpr double far_from_rare = 0.2;
+constexpr double rare_enough = 2;  // thresholds, from which on the likelihood alone decides
 constexpr double walk_ratio = 2;   // log likelihood ratio from which a walk is part of the noise
 constexpr double near_share = 0.7; // of a log likelihood ratio
 constexpr std::size_t most_near = 12;
@@ -37,6 +39,8 @@ constexpr double free_size = 1;     // of a coefficient that is hardly held: fri
 constexpr double found_with = 0.84; // standard errors above a threshold: 80 %
 constexpr std::uint64_t joint_stream = 0x6a6f696e74; // "joint"
 
+constexpr double same_value = 1e-6;
+
 // With so many values of mean 1 that a ratio's tail has in theory beside those seen.
 constexpr double theory_counts = 5;
 
@@ -46,11 +50,11 @@ Rarity rarity_of(VectorXd values) {
   std::nth_element(values.begin(), values.end() - count, values.end());
   Rarity rarity;
   rarity.from = std::max(values(values.size() - count), 0.0);
-  double above = 0, excess = 0;
+  double above = 0, excess = 0; // of few tests many flips are the same but for rounding
   for (const double value : values)
-    if (value > rarity.from) {
+    if (value > rarity.from || (value > 0 && value > (1 - same_value) * rarity.from)) {
       ++above;
-      excess += value - rarity.from;
+      excess += std::max(value - rarity.from, 0.0);
     }
   rarity.share = (above + 1) / (n + 1);
   rarity.mean = (excess + theory_counts) / (above + theory_counts);
@@ -122,32 +126,44 @@ public:
     return footing.of_cause[o_.cause[term]].of(footing.of_term[term].of(ratio));
   }
 
-  // A greedy path of so many terms.
+  // The place of the rarest of ratios; where all are rare, of the greatest.
+  std::size_t rarest(const Footing& footing, const std::vector<std::size_t>& terms,
+                     const std::vector<double>& ratios) const {
+    std::size_t best = 0;
+    double rarest = -1;
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      if (const double own = std::min(rarity(footing, terms[i], ratios[i]), footing.enough);
+          own > rarest || (own == rarest && ratios[i] > ratios[best])) {
+        best = i;
+        rarest = own;
+      }
+    return best;
+  }
+
+  // A greedy path of so many terms; of the first one, where it is known.
   Ahead ahead(const JointFit& from, const Moments& moments, const Footing& footing,
-              std::size_t round, std::size_t depth, bool sharp) const {
-    JointFit fit = m_.fit(from.terms, from.sizes, from.variance, moments, 1);
+              std::size_t round, std::size_t depth, bool sharp,
+              std::optional<std::size_t> first = {}) const {
+    JointFit fit = m_.solve(from.terms, from.sizes, from.variance, moments);
     const double before = fit.log_likelihood;
     Ahead path;
     for (std::size_t k = 0; k < depth; ++k) {
-      const std::vector<std::size_t> terms = open(fit, round, sharp);
+      const std::vector<std::size_t> terms =
+          first && k == 0 ? std::vector{*first} : open(fit, round, sharp);
       if (terms.empty()) break;
-      const auto ratios = m_.ratios(fit, moments, terms);
-      std::size_t best = 0;
-      double rarest = -1;
-      for (std::size_t i = 0; i < terms.size(); ++i)
-        if (const double own = std::min(rarity(footing, terms[i], ratios[i].value), footing.enough);
-            own > rarest || (own == rarest && ratios[i].value > ratios[best].value)) {
-          best = i;
-          rarest = own;
-        }
-      if (!(ratios[best].value > 0)) break;
+      std::vector<double> ratios;
+      const auto found = m_.ratios(fit, moments, terms);
+      for (const JointModel::Ratio& one : found)
+        ratios.push_back(one.value);
+      const std::size_t best = rarest(footing, terms, ratios);
+      if (!(ratios[best] > 0)) break;
       path.terms.push_back(terms[best]);
-      path.sizes.push_back(ratios[best].size);
-      path.ratios.push_back(ratios[best].value);
+      path.sizes.push_back(found[best].size);
+      path.ratios.push_back(ratios[best]);
       std::vector<std::size_t> in = fit.terms;
       std::vector<TermSize> sizes = fit.sizes;
       in.push_back(terms[best]);
-      sizes.push_back(ratios[best].size);
+      sizes.push_back(found[best].size);
       fit = m_.fit(in, sizes, fit.variance, moments, 2);
       path.gains.push_back(fit.log_likelihood - before);
     }
@@ -235,6 +251,8 @@ public:
     for (std::size_t round = 0; round < 2; ++round)
       while (count(path_.fit) < most_terms && step(round)) {
       }
+    for (JointStep& step : path_.steps)
+      step.near = rivals_of(step.term);
     return std::move(path_);
   }
 
@@ -340,7 +358,7 @@ private:
         return true;
       }
     for (std::size_t i = 0; i < take; ++i)
-      path_.steps.push_back({path.terms[i], path.ratios[i], p, rivals_of(fit, path, i, terms)});
+      path_.steps.push_back({path.terms[i], path.ratios[i], p, {}});
     path_.record.lengths[round] += take;
     path_.record.footings[round].push_back(footing);
     path_.fit = std::move(next);
@@ -399,64 +417,83 @@ private:
     double p_value = 1;
   };
   Looked look_ahead(const JointFit& fit, const Footing& footing, double level) const {
-    const JointModel& m = *model_;
     const Walker walker = this->walker();
     const std::size_t depth = std::min(longest_look, most_terms - walker.count(fit));
-    const auto count = std::min(flips_.cols(), static_cast<Index>(s_.look_ahead));
-    MatrixXd gains(count, static_cast<Index>(depth));
-    parallel_for(static_cast<std::size_t>(count), [&](std::size_t f) {
-      const auto at = static_cast<Index>(f);
-      const Ahead by_chance =
-          walker.ahead(fit, m.moments(flips_.col(at)), footing, 0, depth, false);
-      for (std::size_t k = 0; k < depth; ++k) // a path that ends gains no more
-        gains(at, static_cast<Index>(k)) =
-            by_chance.gains.empty() ? 0 : by_chance.gains[std::min(k, by_chance.gains.size() - 1)];
-    });
-    std::vector<Rarity> rarity(depth); // of the gains of so many terms
-    VectorXd largest = VectorXd::Zero(count);
-    for (std::size_t k = 0; k < depth; ++k) {
-      rarity[k] = rarity_of(gains.col(static_cast<Index>(k)));
-      for (Index f = 0; f < count; ++f)
-        largest(f) = std::max(largest(f), rarity[k].of(gains(f, static_cast<Index>(k))));
+    Looked looked{walker.ahead(fit, model_->of_data(), footing, 0, depth, false), 0, 1};
+    const Index most = std::min(flips_.cols(), static_cast<Index>(s_.look_ahead));
+    MatrixXd gains(0, static_cast<Index>(depth));
+    for (const Index count : {std::min(few_flips, most), most}) { // few tell what is far from rare
+      const Index known = gains.rows();
+      gains.conservativeResize(count, Eigen::NoChange);
+      look_at(fit, footing, known, gains);
+      judge(gains, level, looked);
+      if (looked.p_value <= far_from_rare) continue;
+      looked.take = 0;
+      break;
     }
-    const double threshold = gumbel_quantile(largest, level);
-    Looked looked{walker.ahead(fit, m.of_data(), footing, 0, depth, false), 0, 1};
-    const Ahead& path = looked.path;
-    double strongest = 0;
-    for (std::size_t k = 0; k < path.gains.size(); ++k) {
-      const double own = rarity[k].of(path.gains[k]);
-      strongest = std::max(strongest, own);
-      if (own > threshold && looked.take == 0) {
-        looked.take = k + 1;
-        strongest = own;
-        break;
-      }
-    }
-    looked.p_value = rank_of(strongest, largest);
     return looked;
   }
 
-  // Terms that come near the one that enters, when it does.
-  std::vector<std::size_t> rivals_of(const JointFit& from, const Ahead& path, std::size_t at,
-                                     const std::vector<std::size_t>& terms) const {
+  // What paths gain on flips, from this one on.
+  void look_at(const JointFit& fit, const Footing& footing, Index from, MatrixXd& gains) const {
+    const Walker walker = this->walker();
+    const std::vector<std::size_t> terms = walker.open(fit, 0, false);
+    const std::vector<Moments> moments =
+        model_->moments(flips_.middleCols(from, gains.rows() - from));
+    parallel_for(moments.size(), [&](std::size_t f) {
+      const Index at = from + static_cast<Index>(f);
+      std::vector<double> ratios;
+      for (const std::size_t term : terms)
+        ratios.push_back(by_chance_.at(term)(at));
+      const Ahead path = walker.ahead(fit, moments[f], footing, 0, gains.cols(), false,
+                                      terms[walker.rarest(footing, terms, ratios)]);
+      for (Index k = 0; k < gains.cols(); ++k) // a path that ends gains no more
+        gains(at, k) =
+            path.gains.empty()
+                ? 0
+                : path.gains[std::min(static_cast<std::size_t>(k), path.gains.size() - 1)];
+    });
+  }
+
+  static void judge(const MatrixXd& gains, double level, Looked& looked) {
+    std::vector<Rarity> rarity; // of the gains of so many terms
+    VectorXd largest = VectorXd::Zero(gains.rows());
+    for (Index k = 0; k < gains.cols(); ++k) {
+      rarity.push_back(rarity_of(gains.col(k)));
+      for (Index f = 0; f < largest.size(); ++f)
+        largest(f) = std::max(largest(f), rarity.back().of(gains(f, k)));
+    }
+    const double threshold = gumbel_quantile(largest, level);
+    double strongest = 0;
+    looked.take = 0;
+    for (std::size_t k = 0; k < looked.path.gains.size() && looked.take == 0; ++k) {
+      const double own = rarity[k].of(looked.path.gains[k]);
+      strongest = own > threshold ? own : std::max(strongest, own);
+      if (own > threshold) looked.take = k + 1;
+    }
+    looked.p_value = rank_of(strongest, largest);
+  }
+
+  // Terms that come near one that is in, all others being in as well.
+  std::vector<std::size_t> rivals_of(std::size_t term) const {
     const JointModel& m = *model_;
-    std::vector<std::size_t> in = from.terms;
-    std::vector<TermSize> sizes = from.sizes;
-    in.insert(in.end(), path.terms.begin(), path.terms.begin() + static_cast<long>(at));
-    sizes.insert(sizes.end(), path.sizes.begin(), path.sizes.begin() + static_cast<long>(at));
-    const JointFit fit = m.fit(in, sizes, from.variance, m.of_data(), 2);
-    std::vector<std::size_t> others;
-    for (const std::size_t t : terms)
-      if (t != path.terms[at] && !fit.has(t)) others.push_back(t);
+    std::vector<std::size_t> in = path_.fit.terms;
+    std::vector<TermSize> sizes = path_.fit.sizes;
+    const auto at = std::find(in.begin(), in.end(), term) - in.begin();
+    in.erase(in.begin() + at);
+    sizes.erase(sizes.begin() + at);
+    const JointFit fit = m.fit(in, sizes, path_.fit.variance, m.of_data(), 2);
+    const std::vector<std::size_t> others = walker().open(fit, o_.first[term] ? 0 : 1);
     const auto ratios = m.ratios(fit, m.of_data(), others);
+    const double own = m.ratios(fit, m.of_data(), {term}).front().value;
     std::vector<std::pair<double, std::size_t>> near;
     for (std::size_t i = 0; i < others.size(); ++i)
-      if (ratios[i].value > near_share * path.ratios[at])
+      if (others[i] != term && ratios[i].value > near_share * own)
         near.emplace_back(-ratios[i].value, others[i]);
     std::sort(near.begin(), near.end());
     std::vector<std::size_t> names;
-    for (const auto& [ratio, term] : near)
-      if (names.size() < most_near) names.push_back(term);
+    for (const auto& [ratio, other] : near)
+      if (names.size() < most_near) names.push_back(other);
     return names;
   }
 
@@ -497,24 +534,30 @@ private:
     const auto ratios = m.ratios(fit, m.of_data(), terms);
     std::map<std::size_t, std::size_t> best; // by cause: place of its rarest term
     std::vector<double> own(terms.size());
+    const auto before = [&](std::size_t a,
+                            std::size_t b) { // few tests tell nothing of what is rare
+      return s_.take ? own[a] > own[b] : ratios[a].value > ratios[b].value;
+    };
     for (std::size_t i = 0; i < terms.size(); ++i) {
       own[i] = walker().rarity(footing, terms[i], ratios[i].value);
       if (!(ratios[i].value > 0) || is_lead(o_.cause[terms[i]])) continue;
       const auto [at, is_new] = best.try_emplace(o_.cause[terms[i]], i);
-      if (!is_new && own[i] > own[at->second]) at->second = i;
+      if (!is_new && before(i, at->second)) at->second = i;
     }
-    std::vector<std::pair<double, std::size_t>> sorted;
+    std::vector<std::size_t> sorted;
     for (const auto& [cause, i] : best)
-      sorted.emplace_back(-own[i], i);
-    std::sort(sorted.begin(), sorted.end());
+      sorted.push_back(i);
+    std::stable_sort(sorted.begin(), sorted.end(), before);
     if (sorted.size() > leads_shown) sorted.resize(leads_shown);
-    for (const auto& [rare, i] : sorted)
+    for (const std::size_t i : sorted)
       path_.left.leads.push_back({terms[i], rank_of(own[i], largest),
                                   threshold_of_term(fit, footing, terms[i], rarity), ratios[i].size,
                                   coefficients_of(fit, terms[i], ratios[i].size)});
     auto& leads = path_.left.leads;
-    std::stable_sort(leads.begin(), leads.end(),
-                     [](const JointLead& a, const JointLead& b) { return a.p_value < b.p_value; });
+    if (s_.take)
+      std::stable_sort(leads.begin(), leads.end(), [](const JointLead& a, const JointLead& b) {
+        return a.p_value < b.p_value;
+      });
   }
 
   bool is_lead(std::size_t cause) const {

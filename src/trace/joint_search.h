@@ -56,12 +56,12 @@ struct JointStep {
   std::size_t term = 0;
   double ratio = 0;              // log likelihood ratio when it entered
   double p_value = 1;            // over everything that was tried then
-  std::vector<std::size_t> near; // terms that came near it then, best first
+  std::vector<std::size_t> near; // terms that come near it beside all others, best first
 };
 
 // How rare a value is among those of flips: minus the logarithm of the share that reach it.
 struct Rarity {
-  double from = 0, share = 1, mean = 1; // that share lies above `from`, by this on average
+  double from = 0, share = 1, mean = 1; // that share reaches `from`, and exceeds it by so much
   double of(double value) const;
   double value_at(double rarity) const; // the inverse
 };

@@ -44,38 +44,74 @@ private:
       if (!is_in(one.cause)) note_confounded(s_, one.suspects, one.p_value);
   }
 
+  // All in, each as the cause that the search names; then each beside all others, which cause it
+  // is.
   void add(const JointResult& result) {
     std::vector<Finding> found;
+    std::vector<const JointFinding*> of;
+    std::vector<std::vector<Suspect>> suspects;
     for (const JointFinding& one : result.found) {
-      std::vector<Suspect> suspects = one.suspects;
-      std::erase_if(suspects, [&](const Suspect& suspect) {
+      std::vector<Suspect> near = one.suspects;
+      std::erase_if(near, [&](const Suspect& suspect) {
         return is_in(suspect.cause) || s_.sensitivities()[site_of(suspect.effect)].size() == 0;
       });
-      if (suspects.empty()) continue;
-      prefer_declared(s_, suspects);
-      std::vector<Rival> rivals = choose_cause(s_, suspects);
-      const std::vector<bool> in_set = not_told_apart(rivals, s_.input.seed);
-      Finding finding;
-      finding.p_value = one.p_value;
-      for (std::size_t i = 1; i < rivals.size(); ++i) {
-        finding.others.push_back(rivals[i]);
-        finding.in_set.push_back(in_set[i]);
-      }
-      const Cause cause = rivals.front().causes.back();
-      finding.between = constant_in_experiments(cause, s_.candidates);
-      rename_in_folds(one.cause, cause);
-      s_.move_to(rivals.front());
+      if (near.empty()) continue;
+      prefer_declared(s_, near);
+      std::vector<Suspect> own = near;
+      std::erase_if(own, [&](const Suspect& other) { return other.cause != near[0].cause; });
+      s_.move_to(choose_cause(s_, own).front());
       s_.move_to(choose_form(s_, s_.last(), found.size()).front());
       s_.fit_again();
-      found.push_back(std::move(finding));
+      found.emplace_back().p_value = one.p_value;
+      of.push_back(&one);
+      suspects.push_back(std::move(near));
     }
+    for (std::size_t i = 0; i < found.size(); ++i)
+      compare(i, *of[i], std::move(suspects[i]), found[i]);
     for (std::size_t i = 0; found.size() > 1 && i < found.size(); ++i) // forms depend on each other
       s_.move_to(choose_form(s_, s_.last(), i).front());
     s_.fit_again();
     drop_unsettled(found);
-    for (std::size_t i = 0; i < found.size(); ++i)
+    for (std::size_t i = 0; i < found.size(); ++i) {
       found[i].rival = up_to(i);
+      found[i].between = constant_in_experiments(s_.last().causes[i], s_.candidates);
+    }
     s_.findings = std::move(found);
+  }
+
+  // The effect `index` with the other causes that come near it.
+  void compare(std::size_t index, const JointFinding& one, std::vector<Suspect> suspects,
+               Finding& finding) {
+    const Rival all = s_.last();
+    const Cause own = all.causes[index];
+    std::erase_if(suspects,
+                  [&](const Suspect& other) { return other.cause != own && is_in(other.cause); });
+    if (std::all_of(suspects.begin(), suspects.end(),
+                    [&](const Suspect& other) { return other.cause == own; })) {
+      rename_in_folds(one.cause, own);
+      return;
+    }
+    s_.move_to(without_effect(s_.campaign(), all, index));
+    std::vector<Rival> rivals = choose_cause(s_, suspects);
+    const std::vector<bool> in_set = not_told_apart(rivals, s_.input.seed);
+    for (std::size_t i = 1; i < rivals.size(); ++i) {
+      finding.others.push_back(rivals[i]);
+      finding.in_set.push_back(in_set[i]);
+    }
+    const Cause cause = rivals.front().causes.back();
+    rename_in_folds(one.cause, cause);
+    s_.move_to(cause == own ? all : in_place(rivals.front(), index));
+    if (cause != own) s_.move_to(choose_form(s_, s_.last(), index).front());
+  }
+
+  // The last effect moved to this place.
+  Rival in_place(const Rival& rival, std::size_t index) const {
+    std::vector<effects::PlacedEffect> effects = rival.effects;
+    std::vector<Cause> causes = rival.causes;
+    std::rotate(effects.begin() + static_cast<long>(index), effects.end() - 1, effects.end());
+    std::rotate(causes.begin() + static_cast<long>(index), causes.end() - 1, causes.end());
+    return fit_rival(s_.campaign(), rival, std::move(effects), std::move(causes), rival.noise,
+                     NoiseSearch::again);
   }
 
   bool is_in(const Cause& cause) const {
