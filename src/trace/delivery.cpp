@@ -102,7 +102,8 @@ private:
 
   // Errors on tests left out, of the law that is taken; weights are chosen by them.
   void judge_by_folds() {
-    d_.nested = nested_errors(s_, offered_);
+    if (!judge_) judge_.emplace(s_);
+    d_.nested = judge_->errors(offered_);
     judged_ = d_.findings;
     weights_ = d_.nested.better_weights(true);
     take(d_.findings);
@@ -391,6 +392,7 @@ private:
   Delivery d_;
   Rival offered_;                   // with the findings, before rows weigh alike
   std::vector<std::size_t> judged_; // findings of the law that the folds judged
+  std::optional<NestedJudge> judge_;
   std::size_t weights_ = 0;
   std::map<std::size_t, Against> against_; // by finding
 };

@@ -59,38 +59,39 @@ VectorXd scores(const data::Dataset& data, const std::vector<double>& predicted,
   return score;
 }
 
+} // namespace
+
 // Of one fold, in the order of its tests.
 class FoldJudge {
 public:
-  FoldJudge(const Search& all, const Rival& law, const CauseFold& fold)
-      : all_(all), law_(law), fold_(fold), kept_(all.input.training.subset(others())),
-        left_out_(all.input.training.subset(fold.out)), options_(all.input.options) {
-    ignore_what_is_not_needed();
-    options_.order = all.candidates.order_column; // a part of the tests is not numbered 1 to n
-    const data::Column* order = kept_.find(options_.order);
-    if (order && values_of_tests(*order, kept_) < 3) options_.order.clear();
+  FoldJudge(const Search& all, const CauseFold& fold)
+      : all_(all), fold_(fold), kept_(all.input.training.subset(others())),
+        left_out_(all.input.training.subset(fold.out)),
+        options_(options()), part_{kept_,    all.input.validation, all.input.fit,
+                                   options_, all.input.bootstrap,  all.input.seed},
+        search_(part_, &all.base.noise) {
+    none_ = {judged(search_.base, 0, {}), judged(search_.base, 1, {})};
   }
 
-  std::array<NestedErrors::Weighted, 2> run() const {
-    const TraceInput& in = all_.input;
-    const TraceInput part{kept_, in.validation, in.fit, options_, in.bootstrap, in.seed};
-    const Search search(part, &all_.base.noise);
-    const Rival with = with_effects(search);
+  // Of the law without effects and with those of `law`, under both weights.
+  std::array<NestedErrors::Weighted, 2> run(const Rival& law) {
+    set_effects(law);
     std::array<NestedErrors::Weighted, 2> errors;
-    judge(search, search.base, errors, [](auto& w) -> LeftOut& { return w.none; });
-    for (NestedErrors::Weighted& one : errors)
-      one.all = one.none;
-    judge(search, with, errors, [](auto& w) -> LeftOut& { return w.all; });
-    for (const Cause& cause : law_.causes) {
-      for (NestedErrors::Weighted& one : errors)
-        one.without.push_back(one.all);
+    for (const std::size_t w : {0, 1})
+      errors[w] = {none_[w], judged(with_, w, none_[w]), {}};
+    return errors;
+  }
+
+  // Without each effect of the law of the last run.
+  void run_without(const Rival& law, std::size_t weights, NestedErrors::Weighted& errors) const {
+    for (const Cause& cause : law.causes) {
+      errors.without.push_back(errors.all);
       const auto at = std::find(causes_.begin(), causes_.end(), cause);
       if (at == causes_.end()) continue;
       const Rival fewer =
-          without_effect(search.campaign(), with, static_cast<std::size_t>(at - causes_.begin()));
-      judge(search, fewer, errors, [](auto& w) -> LeftOut& { return w.without.back(); });
+          without_effect(search_.campaign(), with_, static_cast<std::size_t>(at - causes_.begin()));
+      errors.without.back() = judged(fewer, weights, errors.all);
     }
-    return errors;
   }
 
 private:
@@ -101,10 +102,11 @@ private:
     return kept;
   }
 
-  // Columns that neither the law nor any of the causes has: of hundreds it would take long to say
-  // again which are alike.
-  void ignore_what_is_not_needed() {
-    std::set<std::string> needed{all_.candidates.order_column, options_.tool_distance};
+  // Without columns that neither the law nor any of the causes has: of hundreds it would take long
+  // to say again which are alike.
+  TraceOptions options() const {
+    TraceOptions options = all_.input.options;
+    std::set<std::string> needed{all_.candidates.order_column, options.tool_distance};
     const auto need = [&](const std::vector<Cause>& causes) {
       for (const Cause& cause : causes)
         for (const std::size_t c : cause.columns) {
@@ -113,62 +115,65 @@ private:
           needed.insert(column.recorded.begin(), column.recorded.end());
         }
     };
-    need(law_.causes);
+    need(all_.last().causes);
     need(fold_.causes);
     for (const CandidateColumn& column : all_.candidates.columns)
       if (!column.in_law && !is_state(column) && !needed.count(column.name))
-        options_.ignore.push_back(column.name);
+        options.ignore.push_back(column.name);
+    options.order = all_.candidates.order_column; // a part of the tests is not numbered 1 to n
+    const data::Column* order = kept_.find(options.order);
+    if (order && values_of_tests(*order, kept_) < 3) options.order.clear();
+    return options;
   }
 
   // The fold's own causes; those that the search on all tests has found and taken off are left out.
-  Rival with_effects(const Search& search) const {
+  void set_effects(const Rival& law) {
     std::vector<effects::PlacedEffect> effects;
     std::vector<Cause> causes;
+    causes_.clear();
     for (std::size_t i = 0; i < fold_.causes.size(); ++i) {
       const Cause& cause = fold_.causes[i];
-      const auto own = std::find(law_.causes.begin(), law_.causes.end(), cause);
-      const bool taken_off = own == law_.causes.end() &&
-                             std::find(all_.last().causes.begin(), all_.last().causes.end(),
-                                       cause) != all_.last().causes.end();
-      const auto here = cause_in(search.candidates, cause, all_.candidates);
+      const auto own = std::find(law.causes.begin(), law.causes.end(), cause);
+      const bool taken_off =
+          own == law.causes.end() && std::find(all_.last().causes.begin(), all_.last().causes.end(),
+                                               cause) != all_.last().causes.end();
+      const auto here = cause_in(search_.candidates, cause, all_.candidates);
       if (!here || taken_off) continue;
-      effects.push_back(own == law_.causes.end()
-                            ? smooth_effect(search, *here, fold_.acts_on[i])
-                            : law_.effects[static_cast<std::size_t>(own - law_.causes.begin())]);
+      effects.push_back(own == law.causes.end()
+                            ? smooth_effect(search_, *here, fold_.acts_on[i])
+                            : law.effects[static_cast<std::size_t>(own - law.causes.begin())]);
       causes.push_back(*here);
       causes_.push_back(cause);
     }
-    if (effects.empty()) return search.base;
-    return fit_rival(search.campaign(), search.base, std::move(effects), std::move(causes),
-                     search.base.noise, NoiseSearch::again);
+    with_ = effects.empty() ? search_.base
+                            : fit_rival(search_.campaign(), search_.base, std::move(effects),
+                                        std::move(causes), search_.base.noise, NoiseSearch::again);
   }
 
-  // Leaves what is there where the stress of a history of itself does not settle.
-  template <class Place>
-  void judge(const Search& search, const Rival& rival,
-             std::array<NestedErrors::Weighted, 2>& errors, const Place& place) const {
-    const auto add = [&](const Rival& one, std::size_t weights) {
-      std::vector<double> predicted;
-      try {
-        predicted = calibrate::predict(search.model_of(one), left_out_);
-      } catch (const InputError&) {
-        return;
-      }
-      place(errors[weights]) = {calibrate::error_sums(left_out_, predicted),
-                                relative_errors(left_out_, predicted),
-                                scores(left_out_, predicted, rival.noise, search.blocks)};
-    };
-    add(rival, 0);
-    add(fit_rows_alike(search.campaign(), rival).rival, 1);
+  // `otherwise`: where the stress of a history of itself does not settle.
+  LeftOut judged(const Rival& rival, std::size_t weights, const LeftOut& otherwise) const {
+    const Rival one = weights == 0 ? rival : fit_rows_alike(search_.campaign(), rival).rival;
+    try {
+      const auto predicted = calibrate::predict(search_.model_of(one), left_out_);
+      return {calibrate::error_sums(left_out_, predicted), relative_errors(left_out_, predicted),
+              scores(left_out_, predicted, rival.noise, search_.blocks)};
+    } catch (const InputError&) {
+      return otherwise;
+    }
   }
 
   const Search& all_;
-  const Rival& law_;
   const CauseFold& fold_;
   const data::Dataset kept_, left_out_;
-  TraceOptions options_;
-  mutable std::vector<Cause> causes_; // of the fold's law, as all tests number them
+  const TraceOptions options_;
+  const TraceInput part_;
+  const Search search_;
+  std::array<LeftOut, 2> none_; // by weights
+  Rival with_;
+  std::vector<Cause> causes_; // of with_, as all tests number them
 };
+
+namespace {
 
 void put(const LeftOut& from, const std::vector<std::size_t>& tests, std::size_t count,
          LeftOut& to) {
@@ -200,25 +205,40 @@ std::size_t NestedErrors::better_weights(bool with_effects) const {
   return error(1) < clearly * error(0) ? 1 : 0;
 }
 
-NestedErrors nested_errors(const Search& search, const Rival& law) {
-  const std::size_t tests = search.input.training.experiments.size();
-  std::vector<std::array<NestedErrors::Weighted, 2>> parts(search.folds.size());
-  Progress progress("fitting without some tests", parts.size());
-  parallel_for(parts.size(), [&](std::size_t f) {
-    parts[f] = FoldJudge(search, law, search.folds[f]).run();
+NestedJudge::NestedJudge(const Search& search)
+    : tests_(search.input.training.experiments.size()), folds_(search.folds.size()) {
+  Progress progress("fitting without some tests", folds_.size());
+  parallel_for(folds_.size(), [&](std::size_t f) {
+    folds_[f] = std::make_unique<FoldJudge>(search, search.folds[f]);
     progress.tick();
   });
+  for (const CauseFold& fold : search.folds)
+    out_.push_back(fold.out);
+}
+
+NestedJudge::~NestedJudge() = default;
+
+NestedErrors NestedJudge::errors(const Rival& law) const {
   NestedErrors all;
-  all.folds = parts.size();
+  all.folds = folds_.size();
+  std::vector<std::array<NestedErrors::Weighted, 2>> parts(folds_.size());
+  parallel_for(parts.size(), [&](std::size_t f) { parts[f] = folds_[f]->run(law); });
   for (std::size_t f = 0; f < parts.size(); ++f)
     for (const std::size_t w : {0, 1}) {
-      const std::vector<std::size_t>& out = search.folds[f].out;
-      put(parts[f][w].none, out, tests, all.weighted[w].none);
-      put(parts[f][w].all, out, tests, all.weighted[w].all);
-      all.weighted[w].without.resize(parts[f][w].without.size());
-      for (std::size_t i = 0; i < parts[f][w].without.size(); ++i)
-        put(parts[f][w].without[i], out, tests, all.weighted[w].without[i]);
+      put(parts[f][w].none, out_[f], tests_, all.weighted[w].none);
+      put(parts[f][w].all, out_[f], tests_, all.weighted[w].all);
     }
+  const std::size_t better = all.better_weights(true);
+  if (law.causes.size() == 1) {
+    all.weighted[better].without = {all.weighted[better].none};
+    return all;
+  }
+  parallel_for(parts.size(),
+               [&](std::size_t f) { folds_[f]->run_without(law, better, parts[f][better]); });
+  all.weighted[better].without.resize(law.causes.size());
+  for (std::size_t f = 0; f < parts.size(); ++f)
+    for (std::size_t i = 0; i < law.causes.size(); ++i)
+      put(parts[f][better].without[i], out_[f], tests_, all.weighted[better].without[i]);
   return all;
 }
 

@@ -12,6 +12,8 @@
 // The mean gain of either over tests has a standard error.
 #pragma once
 
+#include <memory>
+
 #include "calibrate/resampling.h"
 #include "trace/search.h"
 
@@ -28,7 +30,7 @@ struct NestedErrors {
   // Of a law under one kind of weights.
   struct Weighted {
     LeftOut none, all;            // effects
-    std::vector<LeftOut> without; // one of those of the search on all tests
+    std::vector<LeftOut> without; // one of those of the law; under the better weights alone
   };
   Weighted weighted[2]; // the noise model's | all rows alike
   std::size_t folds = 0;
@@ -44,7 +46,20 @@ struct NestedErrors {
   std::size_t better_weights(bool with_effects) const;
 };
 
-// `law`: with some of the effects of the search; also without each of them.
-NestedErrors nested_errors(const Search& search, const Rival& law);
+class FoldJudge;
+
+// A campaign without each fold of a search.
+class NestedJudge {
+public:
+  explicit NestedJudge(const Search& search);
+  ~NestedJudge();
+  // `law`: with some of the effects of the search; also without each of them.
+  NestedErrors errors(const Rival& law) const;
+
+private:
+  std::size_t tests_;
+  std::vector<std::unique_ptr<FoldJudge>> folds_;
+  std::vector<std::vector<std::size_t>> out_; // tests, per fold
+};
 
 } // namespace frictab::trace

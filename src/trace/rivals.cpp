@@ -188,7 +188,7 @@ FitEnd end_of_fit(const Campaign& campaign, NoiseSearch search) {
   if (campaign.selection)
     return chooses ? FitEnd{campaign.quick ? 1e-5 : 1e-6, few_steps} : FitEnd{1e-8};
   if (campaign.quick || campaign.of_selected) return {1e-5};
-  return {search == NoiseSearch::kept ? 1e-8 : 1e-11};
+  return {search == NoiseSearch::kept ? 1e-6 : 1e-11};
 }
 
 // On the blocks of this campaign. `from_selection`: from where a fit to selected tests has ended,
@@ -314,7 +314,7 @@ NoiseModel rows_alike(const NoiseModel& noise) {
 }
 
 Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weights) {
-  const FitEnd end = campaign.selection ? end_of_fit(campaign, NoiseSearch::again) : FitEnd{};
+  const FitEnd end = end_of_fit(campaign, NoiseSearch::again);
   const LawOnBlocks law(bounded_law(campaign, rival), campaign.conventions,
                         campaign.candidates.by_symbol);
   const Whitener whitener(weights, rival.predicted, campaign.blocks, campaign.nuisance);
@@ -334,12 +334,24 @@ std::size_t site_of(const PlacedEffect& effect) {
                                   sites.begin());
 }
 
+Rival less_effect(Rival rival, std::size_t index) {
+  const Index first = first_parameters(rival, rival.own)[index];
+  const auto count = static_cast<long>(effects::fitted_parameters(rival.effects[index]).size());
+  std::size_t of_effects = 0;
+  for (const PlacedEffect& effect : rival.effects)
+    of_effects += effects::fitted_parameters(effect).size();
+  const bool limit = rival.parameters.size() > rival.own + of_effects; // m_limit, behind them
+  rival.parameters.erase(rival.parameters.begin() + first,
+                         rival.parameters.begin() + first + count);
+  rival.effects.erase(rival.effects.begin() + static_cast<long>(index));
+  rival.causes.erase(rival.causes.begin() + static_cast<long>(index));
+  if (limit && !on_limit(rival.effects)) rival.parameters.pop_back();
+  return rival;
+}
+
 Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t index) {
-  std::vector<PlacedEffect> effects = rival.effects;
-  std::vector<Cause> causes = rival.causes;
-  effects.erase(effects.begin() + static_cast<long>(index));
-  causes.erase(causes.begin() + static_cast<long>(index));
-  return fit_rival(campaign, rival, std::move(effects), std::move(causes), rival.noise,
+  Rival less = less_effect(rival, index);
+  return fit_rival(campaign, rival, std::move(less.effects), std::move(less.causes), rival.noise,
                    NoiseSearch::again);
 }
 

@@ -90,7 +90,9 @@ Eigen::MatrixXd penalty_of(const Rival& rival);
 // share of the information that the tests have of them.
 void tie_parameters(Campaign& campaign, const Rival& base, double share);
 
-// Without its effect `index`, all refitted.
+// Without its effect `index`, not fitted again.
+Rival less_effect(Rival rival, std::size_t index);
+// The same, all refitted.
 Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t index);
 
 // The same law with its parameters fitted under other weights.

@@ -71,9 +71,12 @@ FittedAlike fit_rows_alike(const Campaign& campaign, const Rival& rival) {
   while (!found.kept.empty()) {
     const LeastCertain least = least_certain(campaign, found.rival);
     if (least.certainty > in_doubt) break;
-    found.rival = alike(without_effect(campaign, found.rival, least.effect));
+    found.rival = alike(less_effect(found.rival, least.effect));
     found.kept.erase(found.kept.begin() + static_cast<long>(least.effect));
   }
+  if (found.kept.size() < rival.effects.size() && !campaign.quick) // its noise has changed
+    found.rival = alike(fit_rival(campaign, found.rival, found.rival.effects, found.rival.causes,
+                                  found.rival.noise, NoiseSearch::again));
   return found;
 }
 

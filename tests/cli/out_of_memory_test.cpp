@@ -59,7 +59,8 @@ std::string many_rows() {
 TEST(SlowOutOfMemory, NamesFileOrRowsAndLeavesNothingBehind) {
   const TemporaryDirectory directory;
   directory.write("big.csv", many_rows());
-  directory.write("job.toml", "[data]\ntraining = \"big.csv\"\n[output]\ndirectory = \"out\"\n");
+  directory.write("job.toml", "[data]\ntraining = \"big.csv\"\n[models]\nuse = [\"coulomb\"]\n"
+                              "[output]\ndirectory = \"out\"\n");
   const auto within_MiB = [&](int limit) {
     return test::run_command(
         {"sh", "-c",

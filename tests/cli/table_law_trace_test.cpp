@@ -34,7 +34,7 @@ model = ["wide", "slid_traced"]
 [export]
 targets = ["c"]
 [trace]
-models = ["wide", "slid"]
+models = ["slid"]
 ignore = ["Ra_um", "film_um", "T_tool_C", "tool"]
 )";
 
@@ -48,7 +48,7 @@ protected:
   static void SetUpTestSuite() {
     directory = std::make_unique<test::TemporaryDirectory>();
     ASSERT_EQ(frictab({"twin", "data", "--seed", "3", "--design",
-                       "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=40;validation=8"})
+                       "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=12;validation=8"})
                   .exit_code,
               0);
     write_tables();
