@@ -188,7 +188,7 @@ FitEnd end_of_fit(const Campaign& campaign, NoiseSearch search) {
   if (campaign.selection)
     return chooses ? FitEnd{campaign.quick ? 1e-5 : 1e-6, few_steps} : FitEnd{1e-8};
   if (campaign.quick || campaign.of_selected) return {1e-5};
-  return {search == NoiseSearch::kept ? 1e-6 : 1e-11};
+  return {search == NoiseSearch::kept ? 1e-8 : 1e-11};
 }
 
 // On the blocks of this campaign. `from_selection`: from where a fit to selected tests has ended,
@@ -314,7 +314,7 @@ NoiseModel rows_alike(const NoiseModel& noise) {
 }
 
 Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weights) {
-  const FitEnd end = end_of_fit(campaign, NoiseSearch::again);
+  const FitEnd end = campaign.selection ? end_of_fit(campaign, NoiseSearch::again) : FitEnd{};
   const LawOnBlocks law(bounded_law(campaign, rival), campaign.conventions,
                         campaign.candidates.by_symbol);
   const Whitener whitener(weights, rival.predicted, campaign.blocks, campaign.nuisance);
