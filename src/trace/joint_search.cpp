@@ -26,9 +26,9 @@ constexpr std::size_t longest_look = 3, most_terms = 8, leads_shown = 12;
 // that false alarms stay rarer than trace.alpha all the same (docs/measurements.md).
 constexpr std::array<double, 2> shares_of_alpha = {1, 0.5};
 constexpr double of_look_ahead = 0.25; // of the level of its round
-constexpr Index few_flips = 49;        // on which a path that is nothing shows, by its p-value
-constexpr double far_from_rare = 0.2;
-constexpr double rare_enough = 2;  // thresholds, from which on the likelihood alone decides
+constexpr Index few_flips = 49;        // of a look-ahead, and no more where its p-value on these
+constexpr double far_from_rare = 0.2;  // is above that
+constexpr double rare_enough = 2;      // thresholds, from which on the likelihood alone decides
 constexpr double walk_ratio = 2;   // log likelihood ratio from which a walk is part of the noise
 constexpr double near_share = 0.7; // of a log likelihood ratio
 constexpr std::size_t most_near = 12;
@@ -39,7 +39,7 @@ constexpr double free_size = 1;     // of a coefficient that is hardly held: fri
 constexpr double found_with = 0.84; // standard errors above a threshold: 80 %
 constexpr std::uint64_t joint_stream = 0x6a6f696e74; // "joint"
 
-constexpr double same_value = 1e-6;
+constexpr double same_value = 1e-6; // relative, of ratios that differ by rounding
 
 // With so many values of mean 1 that a ratio's tail has in theory beside those seen.
 constexpr double theory_counts = 5;
@@ -534,8 +534,8 @@ private:
     const auto ratios = m.ratios(fit, m.of_data(), terms);
     std::map<std::size_t, std::size_t> best; // by cause: place of its rarest term
     std::vector<double> own(terms.size());
-    const auto before = [&](std::size_t a,
-                            std::size_t b) { // few tests tell nothing of what is rare
+    // By likelihood where so few tests tell nothing of what is rare.
+    const auto before = [&](std::size_t a, std::size_t b) {
       return s_.take ? own[a] > own[b] : ratios[a].value > ratios[b].value;
     };
     for (std::size_t i = 0; i < terms.size(); ++i) {

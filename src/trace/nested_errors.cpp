@@ -73,6 +73,8 @@ public:
     none_ = {judged(search_.base, 0, {}), judged(search_.base, 1, {})};
   }
 
+  const std::vector<std::size_t>& out() const { return fold_.out; }
+
   // Of the law without effects and with those of `law`, under both weights.
   std::array<NestedErrors::Weighted, 2> run(const Rival& law) {
     set_effects(law);
@@ -212,8 +214,6 @@ NestedJudge::NestedJudge(const Search& search)
     folds_[f] = std::make_unique<FoldJudge>(search, search.folds[f]);
     progress.tick();
   });
-  for (const CauseFold& fold : search.folds)
-    out_.push_back(fold.out);
 }
 
 NestedJudge::~NestedJudge() = default;
@@ -225,8 +225,8 @@ NestedErrors NestedJudge::errors(const Rival& law) const {
   parallel_for(parts.size(), [&](std::size_t f) { parts[f] = folds_[f]->run(law); });
   for (std::size_t f = 0; f < parts.size(); ++f)
     for (const std::size_t w : {0, 1}) {
-      put(parts[f][w].none, out_[f], tests_, all.weighted[w].none);
-      put(parts[f][w].all, out_[f], tests_, all.weighted[w].all);
+      put(parts[f][w].none, folds_[f]->out(), tests_, all.weighted[w].none);
+      put(parts[f][w].all, folds_[f]->out(), tests_, all.weighted[w].all);
     }
   const std::size_t better = all.better_weights(true);
   if (law.causes.size() == 1) {
@@ -238,7 +238,7 @@ NestedErrors NestedJudge::errors(const Rival& law) const {
   all.weighted[better].without.resize(law.causes.size());
   for (std::size_t f = 0; f < parts.size(); ++f)
     for (std::size_t i = 0; i < law.causes.size(); ++i)
-      put(parts[f][better].without[i], out_[f], tests_, all.weighted[better].without[i]);
+      put(parts[f][better].without[i], folds_[f]->out(), tests_, all.weighted[better].without[i]);
   return all;
 }
 

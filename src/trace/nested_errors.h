@@ -59,7 +59,6 @@ public:
 private:
   std::size_t tests_;
   std::vector<std::unique_ptr<FoldJudge>> folds_;
-  std::vector<std::vector<std::size_t>> out_; // tests, per fold
 };
 
 } // namespace frictab::trace

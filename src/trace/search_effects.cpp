@@ -44,8 +44,7 @@ private:
       if (!is_in(one.cause)) note_confounded(s_, one.suspects, one.p_value);
   }
 
-  // All in, each as the cause that the search names; then each beside all others, which cause it
-  // is.
+  // All enter as the causes that the search names; then each is compared with what comes near it.
   void add(const JointResult& result) {
     std::vector<Finding> found;
     std::vector<const JointFinding*> of;

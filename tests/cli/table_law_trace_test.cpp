@@ -34,7 +34,7 @@ model = ["wide", "slid_traced"]
 [export]
 targets = ["c"]
 [trace]
-models = ["slid"]
+models = ["wide", "slid"]
 ignore = ["Ra_um", "film_um", "T_tool_C", "tool"]
 )";
 

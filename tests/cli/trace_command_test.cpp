@@ -153,7 +153,7 @@ TEST_F(SlowTraceCommand, GoesOnWhereALaterEffectTakesTheSiteOfAnEarlierOne) {
             0);
   directory.write("job.toml", "[data]\ntraining = \"data/training.csv\"\n"
                               "validation = \"data/validation.csv\"\n"
-                              "[models]\nuse = [\"coulomb\"]\n"
+                              "[models]\nuse = [\"coulomb\", \"shear\", \"log_coulomb\"]\n"
                               "[calibration]\nbootstrap = 200\n");
   const auto result = run_frictab({"trace", directory.path("job.toml")});
   EXPECT_EQ(result.exit_code, 0) << result.err;
