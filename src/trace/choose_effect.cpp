@@ -50,13 +50,10 @@ MatrixXd basis_of(const Search& search, const PlacedEffect& effect) {
          amplitude_basis(effect, search.candidates.by_symbol);
 }
 
-MatrixXd ridge(Index count) {
-  return 1e-3 * MatrixXd::Identity(count, count);
-}
-
 Option option_of(const Cause& cause, PlacedEffect effect) {
   const auto count = static_cast<Index>(effects::amplitudes_of(effect));
-  const MatrixXd penalty = effect.form->penalty ? roughness_of(effect) : ridge(count);
+  const MatrixXd penalty =
+      effect.form->penalty ? roughness_of(effect) : 1e-3 * MatrixXd::Identity(count, count);
   return {cause, std::move(effect), penalty, {}, 0};
 }
 

@@ -39,18 +39,6 @@ VectorXd spread_of(const JointTerm& term, TermSize size) {
   return spread;
 }
 
-// Sizes that a term may have; those of parts that it has not are left out.
-template <std::size_t count>
-std::vector<TermSize> sizes_to_try(const JointTerm& term, const double (&grid)[count]) {
-  std::vector<TermSize> all;
-  for (const double straight : grid)
-    for (const double bent : grid)
-      if (straight + bent > 0 && (straight == 0 || term.straight > 0) &&
-          (bent == 0 || term.count > term.straight))
-        all.push_back({straight, bent});
-  return all;
-}
-
 // I + D C D, factored.
 Eigen::LLT<MatrixXd> information_of(const MatrixXd& normal, const VectorXd& spread) {
   MatrixXd information = spread.asDiagonal() * normal * spread.asDiagonal();
@@ -370,12 +358,68 @@ struct TermOnResponses {
   const std::array<MatrixXd, mode_classes>& own; // X~' X~
   std::array<MatrixXd, mode_classes> along;      // r' X~
   Eigen::ArrayXXd squares;                       // r' r, a column per class
-  MatrixXd score = {};                           // r' W X~
+  MatrixXd score = {}, normal = {};              // r' W X~, X~' W X~
 
   void add_up() {
     score = MatrixXd::Zero(squares.rows(), term.count);
+    normal = MatrixXd::Zero(term.count, term.count);
     for (std::size_t c = 0; c < mode_classes; ++c)
-      if (weight[c] > 0) score += weight[c] * along[c];
+      if (weight[c] > 0) {
+        score += weight[c] * along[c];
+        normal += weight[c] * own[c];
+      }
+  }
+
+  TermOnResponses some(const std::vector<Index>& rows) const {
+    TermOnResponses few{term, weight, free, own, {}, squares(rows, Eigen::all)};
+    for (std::size_t c = 0; c < mode_classes; ++c)
+      few.along[c] = along[c](rows, Eigen::all);
+    few.score = score(rows, Eigen::all);
+    few.normal = normal;
+    return few;
+  }
+
+  struct Likeliest {
+    Eigen::ArrayXd gain; // 0: none gains
+    std::vector<TermSize> size;
+
+    void consider(TermSize tried, const std::vector<Index>& rows, const Eigen::ArrayXd& gains) {
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (const double one = gains(static_cast<Index>(i)); one > gain(rows[i])) {
+          gain(rows[i]) = one;
+          size[static_cast<std::size_t>(rows[i])] = tried;
+        }
+    }
+  };
+
+  // Of the sizes of a grid, per response: that of the straight part alone, then of the bent part
+  // without it and beside it.
+  template <std::size_t count> Likeliest likeliest(const double (&grid)[count]) const {
+    const Index responses = squares.rows();
+    std::vector<Index> all(static_cast<std::size_t>(responses));
+    std::iota(all.begin(), all.end(), 0);
+    Likeliest best{Eigen::ArrayXd::Zero(responses), std::vector<TermSize>(all.size())};
+    std::vector<std::vector<Index>> by_straight(count); // responses that it is likeliest for
+    by_straight[0] = all;
+    if (term.straight > 0) {
+      Eigen::ArrayXXd gain(responses, static_cast<Index>(count) - 1);
+      for (std::size_t s = 1; s < count; ++s) {
+        gain.col(static_cast<Index>(s) - 1) = gains({grid[s], 0});
+        best.consider({grid[s], 0}, all, gain.col(static_cast<Index>(s) - 1));
+      }
+      for (const Index r : all) {
+        Index at = 0;
+        gain.row(r).maxCoeff(&at);
+        by_straight[static_cast<std::size_t>(at) + 1].push_back(r);
+      }
+    }
+    for (std::size_t s = 0; s < count && term.count > term.straight; ++s) {
+      if (by_straight[s].empty()) continue;
+      const TermOnResponses few = some(by_straight[s]);
+      for (std::size_t b = 1; b < count; ++b)
+        best.consider({grid[s], grid[b]}, by_straight[s], few.gains({grid[s], grid[b]}));
+    }
+    return best;
   }
 
   // Gain of log likelihood by a size, the noise estimated with the term, per response. Columns
@@ -384,10 +428,8 @@ struct TermOnResponses {
     const Index begin = size.straight > 0 ? 0 : term.straight,
                 count = (size.bent > 0 ? term.count : term.straight) - begin;
     const VectorXd spread = spread_of(term, size).segment(begin, count);
-    MatrixXd normal = MatrixXd::Zero(count, count);
-    for (std::size_t c = 0; c < mode_classes; ++c)
-      if (weight[c] > 0) normal += weight[c] * own[c].block(begin, begin, count, count);
-    const Eigen::LLT<MatrixXd> factored = information_of(normal, spread);
+    const Eigen::LLT<MatrixXd> factored =
+        information_of(normal.block(begin, begin, count, count), spread);
     const MatrixXd inverse = spread.asDiagonal() * factored.solve(MatrixXd(spread.asDiagonal()));
     const MatrixXd coefficients = score.middleCols(begin, count) * inverse;
     Eigen::ArrayXd gain = Eigen::ArrayXd::Constant(squares.rows(), -log_root_det(factored));
@@ -428,10 +470,8 @@ JointModel::Ratio JointModel::likeliest(const Beside& with, const Left& left,
     if (!(with.fit.squares[c] > 0)) weight[c] = 0; // nothing is left there
   }
   one.add_up();
-  Ratio best;
-  for (const TermSize& size : sizes_to_try(at, grid))
-    if (const double gain = one.gains(size)(0); gain > best.value) best = {gain, size};
-  return best;
+  const auto best = one.likeliest(grid);
+  return {best.gain(0), best.size.front()};
 }
 
 JointModel::Left JointModel::left_along(const Beside& with, const Moments& moments) const {
@@ -494,7 +534,6 @@ MatrixXd JointModel::ratios_of(const JointFit& fit, const MatrixXd& responses,
     const JointTerm& term = data_.terms[terms[i]];
     const OfTerm of = of_term(with, terms[i]);
     const auto own = own_products(with, of, terms[i]);
-    const std::vector<TermSize> sizes = sizes_to_try(term, coarse_sizes);
     const ByClass weight = counted(with, term);
     for (Index from = 0; from < responses.cols(); from += at_once) {
       const Index count = std::min(at_once, responses.cols() - from);
@@ -506,10 +545,7 @@ MatrixXd JointModel::ratios_of(const JointFit& fit, const MatrixXd& responses,
                         of_fit[c].middleRows(from, count) * of.turned.transpose();
       }
       some.add_up();
-      Eigen::ArrayXd greatest = Eigen::ArrayXd::Zero(count);
-      for (const TermSize& size : sizes)
-        greatest = greatest.max(some.gains(size));
-      best.col(static_cast<Index>(i)).segment(from, count) = greatest.matrix();
+      best.col(static_cast<Index>(i)).segment(from, count) = some.likeliest(coarse_sizes).gain;
     }
   });
   return best;

@@ -39,7 +39,7 @@ constexpr double free_size = 1;     // of a coefficient that is hardly held: fri
 constexpr double found_with = 0.84; // standard errors above a threshold: 80 %
 constexpr std::uint64_t joint_stream = 0x6a6f696e74; // "joint"
 
-constexpr double same_value = 1e-6; // relative, of ratios that differ by rounding
+constexpr double same_ratio = 1e-6; // relative, of ratios that differ by rounding
 
 // With so many values of mean 1 that a ratio's tail has in theory beside those seen.
 constexpr double theory_counts = 5;
@@ -52,7 +52,7 @@ Rarity rarity_of(VectorXd values) {
   rarity.from = std::max(values(values.size() - count), 0.0);
   double above = 0, excess = 0; // of few tests many flips are the same but for rounding
   for (const double value : values)
-    if (value > rarity.from || (value > 0 && value > (1 - same_value) * rarity.from)) {
+    if (value > rarity.from || (value > 0 && value > (1 - same_ratio) * rarity.from)) {
       ++above;
       excess += std::max(value - rarity.from, 0.0);
     }
