@@ -25,12 +25,12 @@ constexpr std::size_t longest_look = 3, most_terms = 8, leads_shown = 12;
 // Levels of the two rounds, in trace.alpha: what is found also has to predict tests left out, so
 // that false alarms stay rarer than trace.alpha all the same (docs/measurements.md).
 constexpr std::array<double, 2> shares_of_alpha = {1, 0.5};
-constexpr double of_look_ahead = 0.25; // of the level of its round
-constexpr Index few_flips = 49;        // of a look-ahead, and no more where its p-value on these
-constexpr double far_from_rare = 0.2;  // is above that
-constexpr double rare_enough = 2;      // thresholds, from which on the likelihood alone decides
-constexpr double walk_ratio = 2;   // log likelihood ratio from which a walk is part of the noise
-constexpr double near_share = 0.7; // of a log likelihood ratio
+constexpr double of_look_ahead = 0.5; // of the level of its round
+constexpr Index few_flips = 49;       // of a look-ahead, and no more where its p-value on these
+constexpr double far_from_rare = 0.2; // is above that
+constexpr double rare_enough = 2;     // thresholds, from which on the likelihood alone decides
+constexpr double walk_ratio = 2;      // log likelihood ratio from which a walk is part of the noise
+constexpr double near_share = 0.7;    // of a log likelihood ratio
 constexpr std::size_t most_near = 12;
 constexpr std::size_t most_unsure = 6;
 constexpr double tail_freedom = 4; // of Student's t, of the modes of a test in one class
