@@ -29,6 +29,7 @@ using Eigen::VectorXd;
 
 constexpr double unlikely_share = 1e-3; // of the mean square that is left: R^2 above 0.999
 constexpr double apart_level = 1e-3;    // p-value at which validation is another world
+constexpr double hardly = 0.2;          // of the training rows' spread of a column
 
 class Deliverer {
 public:
@@ -238,7 +239,8 @@ private:
         loss.interval.high < 0
             ? contradiction(loss)
             : Against{fmt::format("the validation tests are predicted {:.2g} MPa better without it",
-                                  -loss.value_MPa)};
+                                  -loss.value_MPa),
+                      false, true};
     d_.rival = without[worst];
     d_.findings.erase(d_.findings.begin() + static_cast<long>(worst));
     drop_contradicted();
@@ -291,6 +293,7 @@ private:
   struct Against {
     std::string why;
     bool contradicted = false; // by the validation tests
+    bool by_validation = false;
   };
 
   static Against contradiction(const Difference& gain) {
@@ -299,7 +302,7 @@ private:
                 "{:.3g}); "
                 "another campaign, or not the cause but something that went with it in training",
                 -gain.value_MPa, -gain.interval.high, -gain.interval.low),
-            true};
+            true, true};
   }
 
   // Against the law as the calibration stage handed it on: effects must also make up for what the
@@ -322,7 +325,28 @@ private:
     return {
         fmt::format("predicts the validation tests no better than the law as it was calibrated: "
                     "{:.3g} MPa worse (95 %: {:.3g} to {:.3g})",
-                    -gain.value_MPa, -gain.interval.high, -gain.interval.low)};
+                    -gain.value_MPa, -gain.interval.high, -gain.interval.low),
+        false, true};
+  }
+
+  // Validation tests that hardly vary a column cannot show what it does.
+  std::string not_varied(const std::vector<std::string>& columns) const {
+    std::string names;
+    for (const std::string& name : columns) {
+      const data::Column *here = in_.training.find(name), *there = in_.validation.find(name);
+      if (here && there && spread_of(*there) < hardly * spread_of(*here))
+        names += (names.empty() ? "" : ", ") + name;
+    }
+    return names.empty() ? "" : "; the validation tests hardly vary " + names;
+  }
+
+  // Over rows; of a text column, whether it varies.
+  static double spread_of(const data::Column& column) {
+    const auto [least, most] = std::minmax_element(column.values.begin(), column.values.end());
+    if (!column.levels.empty()) return *most > *least;
+    const Eigen::Map<const VectorXd> values(column.values.data(),
+                                            static_cast<Index>(column.values.size()));
+    return std::sqrt((values.array() - values.mean()).square().mean());
   }
 
   Against another_reading(std::size_t finding) const {
@@ -368,6 +392,7 @@ private:
       add_errors(lead, i == 0 ? s_.base : s_.findings[i - 1].rival, finding.rival);
       const auto against = against_.find(i);
       lead.why = against->second.why;
+      if (against->second.by_validation) lead.why += not_varied(lead.columns);
       d_.contradicted |= against != against_.end() && against->second.contradicted;
       if (t_.leads.empty()) lead.design = design_for(s_, finding);
       t_.leads.push_back(std::move(lead));

@@ -549,7 +549,15 @@ TEST(SlowTrace, AnEffectThatValidationContradictsIsALeadThatSaysSo) {
   ASSERT_FALSE(t.leads.empty());
   EXPECT_EQ(t.leads.front().columns, std::vector<std::string>{"wire"});
   EXPECT_THAT(t.leads.front().why, StartsWith("contradicted by the validation tests"));
+  EXPECT_THAT(t.leads.front().why, Not(HasSubstr("hardly vary")));
   EXPECT_THAT(t.remaining.note, HasSubstr("the validation tests contradict"));
+  Data same = with_factor(0.3, 0);
+  std::vector<double>& wire = column(same.validation, "wire").values;
+  std::fill(wire.begin(), wire.end(), 11.0);
+  const Trace unseen = traced(same, "log_coulomb");
+  ASSERT_FALSE(unseen.leads.empty());
+  EXPECT_THAT(unseen.leads.front().why,
+              testing::EndsWith("; the validation tests hardly vary wire"));
 }
 
 TEST(Trace, AValidationFromAnotherWorldIsCalledThat) {
