@@ -12,7 +12,8 @@
 //
 // Columns that hide each other show only together: where no term passes, the path of up to three
 // terms, the noise estimated anew at each, is compared with the same path on 199 flips (on 49 where
-// a fifth of these reach it), its threshold from the tail of a Gumbel law through them.
+// a fifth of these reach it), its threshold, at half the level, from the tail of a Gumbel law
+// through them.
 //
 // A history whose means of tests follow from the states could stand for these between tests: it
 // enters by what it explains within tests alone (JointTerm::within), and then counts as a whole.
