@@ -12,7 +12,6 @@
 #include "cli/job_commands.h"
 #include "core/error.h"
 #include "core/interrupt.h"
-#include "core/shard.h"
 #include "core/text.h"
 #include "run/plan.h"
 #include "run/summary.h"
@@ -150,28 +149,6 @@ void report_stage(run::Pipeline& p) {
   p.report();
 }
 
-int tabulate_shard(const std::string& file, const std::string& shard, const CommonOptions& common) {
-  const Shard part = read_shard(shard);
-  if (common.dry_run || common.json)
-    throw InputError({}, "--shard goes with neither --dry-run nor --json", "leave one of them out");
-  run::Pipeline pipeline(read_job(job_file(file), common));
-  show(pipeline.tabulate_shard(part));
-  return 0;
-}
-
-std::function<int()> declare_tabulate(CLI::App& app, const CommonOptions& common) {
-  const auto file = std::make_shared<std::string>(), shard = std::make_shared<std::string>();
-  add_job(app, *file);
-  app.add_option("--shard", *shard,
-                 "i/n: sample every n-th chunk of tables larger than memory, from the i-th on; "
-                 "tabulate without it completes them")
-      ->type_name("I/N");
-  return [file, shard, &common] {
-    return shard->empty() ? run_stages(*file, common, "tabulate", tabulate_stage)
-                          : tabulate_shard(*file, *shard, common);
-  };
-}
-
 const Registered<Command> run{[] {
   return stage<all_stages>(
       2, "run", "Everything: calibrate, trace, tabulate, export, verify, report",
@@ -186,12 +163,10 @@ const Registered<Command> calibrate{[] {
        {"frictab calibrate job.toml --json", "the same as JSON, for a script"}});
 }};
 const Registered<Command> tabulate{[] {
-  Command command = stage<tabulate_stage>(
+  return stage<tabulate_stage>(
       4, "tabulate", "Sample the chosen law onto a grid made to the tolerance",
       {{"frictab tabulate job.toml", "tables/NAME.h5 of table.model"},
        {"frictab tabulate job.toml --set table.interpolation=cubic -o cubic", "other tables"}});
-  command.declare = declare_tabulate;
-  return command;
 }};
 const Registered<Command> report{[] {
   return stage<report_stage>(8, "report", "Write report.html and report.md from the results so far",

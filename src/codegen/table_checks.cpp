@@ -28,7 +28,7 @@ void check_table(const table::Table& table) {
   if (table.axes.size() > FT_MAX_AXES)
     faults.add({}, fmt::format("the table has {} axes; generated code holds at most {}",
                                table.axes.size(), FT_MAX_AXES));
-  if (!table.is_direct() && !table.stored && nodes != table.value.size())
+  if (!table.is_direct() && nodes != table.value.size())
     faults.add({}, fmt::format("the table has {} values for {} nodes", table.value.size(), nodes));
   if (!std::all_of(table.value.begin(), table.value.end(),
                    [](double v) { return std::isfinite(v); }))

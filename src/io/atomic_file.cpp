@@ -338,14 +338,7 @@ fs::path OutputFiles::stage(const std::string& path) {
 }
 
 fs::path OutputFiles::staged(const std::string& path) const {
-  const auto adopted = adopted_.find(path);
-  return adopted == adopted_.end() ? staging_ / new_files / path : adopted->second;
-}
-
-void OutputFiles::adopt(const std::string& path, fs::path file) {
-  check_inside(directory_, path);
-  paths_.push_back(path);
-  adopted_[path] = std::move(file);
+  return staging_ / new_files / path;
 }
 
 void OutputFiles::remove_old(const std::string& path) {
@@ -384,7 +377,6 @@ void OutputFiles::commit() {
   fs::remove(staging_ / journal_name);
   fs::remove_all(staging_);
   if (lock_) fs::remove_all(directory_ / kept_name);
-  adopted_.clear();
   created_ = false;
 }
 

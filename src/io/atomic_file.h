@@ -41,10 +41,6 @@ public:
   std::filesystem::path staged(const std::string& path) const;
   // False where the file system has no locks: a second writer would not be kept off.
   bool keeps_others_off() const { return lock_ && lock_->held(); }
-  bool is_adopted(const std::string& path) const { return adopted_.count(path) > 0; }
-  // A complete file that already stands somewhere in the directory, under a working name: commit()
-  // renames it to `path`; without commit() it stays where it is.
-  void adopt(const std::string& path, std::filesystem::path file);
   // From here on the staged files are worth keeping without commit(), whatever ends the process:
   // they go to the directory's .frictab-kept, with `record` as its file `name`. commit() removes
   // what is kept there.
@@ -72,8 +68,7 @@ private:
   // The first before the lock is made, which goes before the directory can.
   std::optional<WhenInterrupted> directory_when_interrupted_, when_interrupted_;
   std::vector<std::string> paths_;
-  std::map<std::string, std::uint64_t> hashes_;          // of texts, by path
-  std::map<std::string, std::filesystem::path> adopted_; // by path
+  std::map<std::string, std::uint64_t> hashes_; // of texts, by path
   std::vector<std::string> old_;
 };
 

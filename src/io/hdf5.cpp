@@ -189,10 +189,6 @@ Hdf5Layout Hdf5Reader::layout(const std::string& dataset) const {
   return data_->dataset(dataset).layout;
 }
 
-std::optional<std::uint64_t> Hdf5Reader::raw_offset(const std::string& dataset) const {
-  return data_->dataset(dataset).raw_offset;
-}
-
 std::vector<std::string> Hdf5Reader::attributes(const std::string& object) const {
   std::vector<std::string> names;
   if (const Hdf5Attributes* all = data_->attributes(object))

@@ -26,8 +26,7 @@ struct Hdf5Storage {
 // content gives the same bytes.
 class Hdf5Writer {
 public:
-  // aligned > 0: datasets of at least that many bytes start at a multiple of it.
-  explicit Hdf5Writer(const std::filesystem::path& file, std::size_t aligned = 0);
+  explicit Hdf5Writer(const std::filesystem::path& file);
   ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
@@ -35,12 +34,6 @@ public:
   // Row-major doubles; an empty shape is a scalar.
   void dataset(const std::string& name, std::span<const std::size_t> shape,
                std::span<const double> values, const Hdf5Storage& storage = {});
-  // The same, asked for piece by piece in ascending order: fill(first, values).
-  using Fill = std::function<void(std::size_t first, std::span<double> values)>;
-  void dataset(const std::string& name, std::span<const std::size_t> shape, const Fill& fill,
-               const Hdf5Storage& storage);
-  // The place of a dataset in one piece, without its values: whoever calls this writes them.
-  void reserve(const std::string& name, std::span<const std::size_t> shape);
   void dataset(const std::string& name, std::span<const std::string> values); // 1-D, UTF-8
   // object: a dataset's name, or "/" for the root.
   void attribute(const std::string& object, const std::string& name, const std::string& text);
@@ -122,9 +115,6 @@ public:
   // In the order asked for; one child process for all of them.
   std::vector<Hdf5Values> slices(std::span<const Hdf5Slice> wanted) const;
   Hdf5Layout layout(const std::string& dataset) const;
-  // The byte of the file at which the dataset lies as plain little-endian doubles; nullopt where it
-  // does not.
-  std::optional<std::uint64_t> raw_offset(const std::string& dataset) const;
   // Names of all attributes of an object ("/" = root) that hold one text or one number.
   std::vector<std::string> attributes(const std::string& object) const;
   std::optional<std::string> text_attribute(const std::string& object,

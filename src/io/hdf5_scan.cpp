@@ -147,20 +147,6 @@ Hdf5Layout layout_of(hid_t set) {
   return out;
 }
 
-std::optional<std::uint64_t> raw_offset_of(hid_t set, std::uint64_t file_bytes) {
-  const Handle list(H5Dget_create_plist(set), H5Pclose), type(H5Dget_type(set), H5Tclose);
-  const Handle space(H5Dget_space(set), H5Sclose);
-  const bool plain = H5Pget_layout(list) == H5D_CONTIGUOUS && H5Pget_external_count(list) == 0 &&
-                     H5Tequal(type, H5T_IEEE_F64LE) > 0 &&
-                     H5Tequal(type, H5T_NATIVE_DOUBLE) > 0; // of this machine too
-  const haddr_t offset = plain ? H5Dget_offset(set) : HADDR_UNDEF;
-  const auto values = static_cast<hsize_t>(std::max<hssize_t>(H5Sget_select_npoints(space), 0));
-  if (offset == HADDR_UNDEF || offset > file_bytes ||
-      values > (file_bytes - offset) / sizeof(double))
-    return std::nullopt;
-  return offset;
-}
-
 // The first filter of a dataset that this library lacks, as the file calls it: "lzf"; else empty.
 std::string missing_filter(hid_t list) {
   for (int i = 0; i < H5Pget_nfilters(list); ++i) {
@@ -438,7 +424,6 @@ private:
       for (std::size_t axis = 0; axis < out.shape.size(); ++axis)
         out.scales.push_back(scale_of(set, axis));
       out.layout = layout_of(set);
-      out.raw_offset = raw_offset_of(set, bytes_);
       add_values(name, set, out);
     } catch (const Unreadable& error) {
       out.fault = error.what;
@@ -508,8 +493,6 @@ void put(ByteSink& out, const Hdf5Dataset& set) {
   put(out, set.layout.chunk);
   put(out, set.layout.filters);
   out.number(set.layout.stored_bytes);
-  out.number(set.raw_offset ? is_number : is_absent);
-  out.number(set.raw_offset.value_or(0));
   out.number(set.is_text);
   out.number(set.held);
   out.number(set.values.size());
@@ -608,14 +591,12 @@ private:
   }
 
   bool take(Hdf5Dataset& set) {
-    std::uint64_t stored = 0, has_offset = 0, offset = 0, text_kind = 0, held = 0, values = 0;
+    std::uint64_t stored = 0, text_kind = 0, held = 0, values = 0;
     if (!take(set.attributes) || !take(set.shape) || !take(set.scales) || !take(set.layout.chunk) ||
-        !take(set.layout.filters) || !in_.number(stored) || !in_.number(has_offset) ||
-        !in_.number(offset) || !in_.number(text_kind) || !in_.number(held) || !in_.number(values) ||
-        values > held_bytes / sizeof(double))
+        !take(set.layout.filters) || !in_.number(stored) || !in_.number(text_kind) ||
+        !in_.number(held) || !in_.number(values) || values > held_bytes / sizeof(double))
       return false;
     set.layout.stored_bytes = stored;
-    if (has_offset == is_number) set.raw_offset = offset;
     set.is_text = text_kind == 1;
     set.held = held == 1;
     set.values.resize(values);

@@ -22,7 +22,6 @@ struct Hdf5Dataset {
   std::vector<std::size_t> shape;
   std::vector<std::optional<std::string>> scales; // per axis
   Hdf5Layout layout;
-  std::optional<std::uint64_t> raw_offset;
   bool is_text = false;
   std::string other_type; // not empty: neither numbers nor texts, but this
   bool held =

@@ -79,13 +79,12 @@ struct Hdf5Writer::Data {
   }
 };
 
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& file, std::size_t aligned) {
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) {
   const std::lock_guard lock(library());
   silence();
   // Headers with checksums, which the library's earliest format has not.
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
-  if (aligned > 0) H5Pset_alignment(access, aligned, aligned);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation, false); // of the root group
   data_ = std::make_unique<Data>(H5Fcreate(file.string().c_str(), H5F_ACC_TRUNC, creation, access),
@@ -113,9 +112,9 @@ Handle create(hid_t file, const std::string& name, hid_t space, hid_t list) {
   return {set, H5Dclose};
 }
 
-bool set_storage(hid_t list, const std::vector<hsize_t>& dims, const Hdf5Storage& storage) {
+void set_storage(hid_t list, const std::vector<hsize_t>& dims, const Hdf5Storage& storage) {
   const bool empty = std::find(dims.begin(), dims.end(), hsize_t{0}) != dims.end();
-  if (!storage.chunked() || dims.empty() || empty) return false;
+  if (!storage.chunked() || dims.empty() || empty) return;
   const auto chunk = block_shape(dims, storage.chunk > 0 ? storage.chunk : usual_chunk);
   H5Pset_chunk(list, static_cast<int>(chunk.size()), chunk.data());
   if (storage.compress > 0) {
@@ -123,7 +122,6 @@ bool set_storage(hid_t list, const std::vector<hsize_t>& dims, const Hdf5Storage
     H5Pset_deflate(list, static_cast<unsigned>(storage.compress));
   }
   if (storage.fletcher32) H5Pset_fletcher32(list);
-  return true;
 }
 
 } // namespace
@@ -141,39 +139,6 @@ void Hdf5Writer::dataset(const std::string& name, std::span<const std::size_t> s
        "write the dataset " + name);
   set.close();
   data_->values[name].add(values);
-}
-
-void Hdf5Writer::dataset(const std::string& name, std::span<const std::size_t> shape,
-                         const Fill& fill, const Hdf5Storage& storage) {
-  const auto dims = dimensions(shape);
-  const Handle space = space_of(dims), list(without_times(), H5Pclose);
-  std::vector<hsize_t> block(dims.size());
-  if (set_storage(list, dims, storage)) // whole chunks: each is filtered once
-    H5Pget_chunk(list, static_cast<int>(block.size()), block.data());
-  else
-    block = block_shape(dims, std::size_t{1} << 20);
-  Handle set = create(data_->file, name, space, list);
-  std::vector<double> values;
-  std::size_t first = 0;
-  for_blocks(dims, block, [&](const auto& start, const auto& count, std::size_t n) {
-    values.resize(n);
-    fill(first, values);
-    const Handle memory = space_of({n});
-    if (!dims.empty())
-      H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-    must(H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) >= 0,
-         "write the dataset " + name);
-    data_->values[name].add(values);
-    first += n;
-  });
-  set.close();
-}
-
-void Hdf5Writer::reserve(const std::string& name, std::span<const std::size_t> shape) {
-  const Handle space = space_of(dimensions(shape)), list(without_times(), H5Pclose);
-  H5Pset_alloc_time(list, H5D_ALLOC_TIME_EARLY);
-  H5Pset_fill_time(list, H5D_FILL_TIME_NEVER);
-  create(data_->file, name, space, list).close();
 }
 
 void Hdf5Writer::dataset(const std::string& name, std::span<const std::string> values) {

@@ -300,16 +300,10 @@ std::vector<KeyRule> table_keys() {
           "the state is no axis of a law's table, the formula takes it as it is",
           "clamp; law below the low end of sigma_n_MPa", "[\"clamp\", \"law\"]") |
           Allowed{"", sides} | outside_problem,
-      key<double>(
-          "table.memory_limit_MiB", [](Job & job) -> auto& { return job.table.memory_limit_MiB; },
-          "values of one table that are held in memory; a larger linear table of which every axis "
-          "has its nodes is sampled to disk in chunks (a killed run goes on where it was) and "
-          "looked up there") |
-          ValueBounds{0, 1e9, true, false},
       key<bool>(
           "table.distance", [](Job & job) -> auto& { return job.table.distance; },
           "says how far every node is from the nearest test, as a second dataset of the table's "
-          "file; of a table that is larger than memory only the share of its range that is far"),
+          "file"),
       key<std::size_t>(
           "table.hdf5.chunk", [](Job & job) -> auto& { return job.table.hdf5.chunk; },
           "values per HDF5 chunk, whole along the last axes; 0 = in one piece, or 65536 where "

@@ -27,7 +27,6 @@
 #include "table/build.h"
 #include "table/direct.h"
 #include "table/distance.h"
-#include "table/stream.h"
 #include "table/table_file.h"
 #include "trace/trace_file.h"
 
@@ -140,7 +139,7 @@ void Pipeline::load_tables() {
     return;
   }
   check_fresh("tabulate", "tables");
-  tables_ = earlier_.tables(job_.table.memory_limit_MiB);
+  tables_ = earlier_.tables();
   keep_named(tables_, job_.table, job_.models.laws);
   load_calibration();
   for (Table& table : tables_)
@@ -192,9 +191,7 @@ void Pipeline::take_kept_calibration() {
 }
 
 Table Pipeline::staged_table(const std::string& model) const {
-  Table table =
-      table::read_table(output_.staged("tables/" + model + ".h5"),
-                        static_cast<std::size_t>(job_.table.memory_limit_MiB * (1 << 20)));
+  Table table = table::read_table(output_.staged("tables/" + model + ".h5"));
   table.drift_is_claimed = false;
   return table;
 }
@@ -398,39 +395,12 @@ const data::Dataset& Pipeline::data_behind(const models::Model& model) const {
   return all && on_all ? *all : data_->training;
 }
 
-void Pipeline::check_sizes() {
-  load_data();
-  load_calibration();
-  if (job_.exports.targets.empty()) return;
-  for (const models::Model& model : models_to_tabulate(*calibration_, job_.table)) {
-    const models::AssembledLaw& law = assembled(model);
-    const auto ranges = table::state_ranges(law, data_behind(model), job_.table);
-    if (!table::is_streamed(law, ranges, job_.table)) continue;
-    Table table;
-    table.model = model.name();
-    table.axes = *table::fixed_axes(law, ranges, job_.table);
-    codegen::check_request_size(table, codegen::exporters_named(job_.exports.targets),
-                                job_.exports.options);
-  }
-}
-
-fs::path Pipeline::table_file(const std::string& model) const {
-  return fs::path(job_.directory) / "tables" / (model + ".h5");
-}
-
 Table Pipeline::sample_table(const models::AssembledLaw& law) {
   const table::TableOptions options = table_options(law.model);
   const auto ranges = table::state_ranges(law, data_behind(law.model), options);
-  if (!table::is_streamed(law, ranges, options))
-    return large_work("making the table of " + law.model.name(), 0,
-                      "fewer nodes in [table.axes], or a larger table.tolerance_MPa",
-                      [&] { return table::build_table(law, ranges, options); });
-  const std::string name = law.model.name();
-  table::StreamedTable streamed = table::stream_table(law, ranges, options, table_file(name));
-  if (streamed.kept > 0)
-    notes_.push_back(fmt::format("{}: {} of {} chunks kept from shards or an interrupted run", name,
-                                 thousands(streamed.kept), thousands(streamed.chunks)));
-  return std::move(streamed.table);
+  return large_work("making the table of " + law.model.name(), 0,
+                    "fewer nodes in [table.axes], or a larger table.tolerance_MPa",
+                    [&] { return table::build_table(law, ranges, options); });
 }
 
 // The drift a user can rely on, measured before the file is written.
@@ -449,11 +419,7 @@ void Pipeline::measure_drift(const models::AssembledLaw& law, Table& table) {
 }
 
 void Pipeline::write_table_file(const Table& table) {
-  const std::string name = "tables/" + table.model + ".h5";
-  if (table.stored)
-    output_.adopt(name, table::finish_stream(table, job_.table.hdf5, table_file(table.model)));
-  else
-    table::write_table(table, output_.stage(name), job_.table.hdf5);
+  table::write_table(table, output_.stage("tables/" + table.model + ".h5"), job_.table.hdf5);
 }
 
 Table Pipeline::made_table(const models::AssembledLaw& law) {
@@ -469,8 +435,7 @@ Table Pipeline::made_table(const models::AssembledLaw& law) {
   table.record.data_origin = calibration_->synthetic ? "synthetic" : "measured";
   measure_drift(law, table);
   write_table_file(table);
-  if (!table.stored) table = staged_table(table.model); // what is verified is what users get
-  return table;
+  return staged_table(table.model); // what is verified is what users get
 }
 
 void Pipeline::tabulate() {
@@ -490,32 +455,6 @@ void Pipeline::tabulate() {
   std::sort(tables_.begin(), tables_.end(),
             [](const Table& a, const Table& b) { return a.model < b.model; });
   stages_.record("tabulate", data_key());
-}
-
-std::string Pipeline::tabulate_shard(const Shard& shard) {
-  load_data();
-  if (!earlier_.has_calibration())
-    throw InputError({(fs::path(job_.directory) / "calibration.json").string(), 0, 0},
-                     "is not there: all shards sample the laws of one calibration",
-                     "`frictab calibrate " + job_.arguments() + "` before the shards");
-  load_calibration();
-  std::string done;
-  for (const models::Model& model : models_to_tabulate(*calibration_, job_.table)) {
-    const models::AssembledLaw& law = assembled(model);
-    const auto ranges = table::state_ranges(law, data_behind(model), job_.table);
-    if (!table::is_streamed(law, ranges, job_.table))
-      throw InputError({job_.file, 0, 0},
-                       "the table of " + model.name() + " is made in memory: it has no shards",
-                       "without --shard; shards are for tables larger than table.memory_limit_MiB, "
-                       "with the nodes of every axis given");
-    const table::SampledShard part =
-        table::sample_shard(law, ranges, table_options(model), table_file(model.name()), shard);
-    done +=
-        fmt::format("{}: shard {} sampled, {} in {}{}\n", model.name(), shard.text(),
-                    report::count_of(part.nodes, "node"), report::count_of(part.chunks, "chunk"),
-                    part.kept > 0 ? fmt::format(", {} of them there before", part.kept) : "");
-  }
-  return done + "next, when all shards are sampled: frictab tabulate " + job_.arguments() + "\n";
 }
 
 // ---- generate ----
@@ -773,7 +712,6 @@ void Pipeline::report() {
 }
 
 void Pipeline::deliver() {
-  check_sizes();
   tabulate();
   generate();
   verify();

@@ -12,7 +12,6 @@
 
 #include "calibrate/calibration.h"
 #include "codegen/exporter.h"
-#include "core/shard.h"
 #include "io/atomic_file.h"
 #include "job/job.h"
 #include "models/assembled_law.h"
@@ -42,19 +41,12 @@ public:
   void calibrate();
   // Searches the residuals of trace.models; laws with effects join the calibration.
   void trace();
-  // Throws InputError where a table that tabulate() would stream to disk is too large for the
-  // sources that are asked for: before hours of sampling.
-  void check_sizes();
   void tabulate();
-  // Samples a part of each table that is streamed to disk, for a later tabulate() to complete;
-  // gives what it did in words. Throws InputError where the laws were not calibrated, and where a
-  // table is made in memory.
-  std::string tabulate_shard(const Shard& shard);
   void generate(); // sources
   void verify();
   void compare_forms(); // table or the law itself: measured, told by the summary, never written
   void report();
-  void deliver(); // check_sizes, tabulate, generate, verify and report, in a row
+  void deliver(); // tabulate, generate, verify and report, in a row
   // Moves all files into place.
   void commit();
 
@@ -94,7 +86,6 @@ private:
   void write_calibration();
   void add_traced_laws();
   table::Table made_table(const models::AssembledLaw& law); // and its file
-  std::filesystem::path table_file(const std::string& model) const;
   table::Table sample_table(const models::AssembledLaw& law);
   void measure_drift(const models::AssembledLaw& law, table::Table& table);
   void write_table_file(const table::Table& table);

@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "models/law.h"
-#include "table/stream.h"
 #include "table/table_file.h"
 #include "trace/trace_file.h"
 #include "verify/verify.h"
@@ -100,11 +99,10 @@ void check_model(const table::Table& table, const fs::path& file) {
 
 } // namespace
 
-std::vector<table::Table> ResultDirectory::tables(double memory_limit_MiB) const {
+std::vector<table::Table> ResultDirectory::tables() const {
   std::vector<table::Table> tables;
   for (const fs::path& file : all_tables()) {
-    tables.push_back(
-        table::read_table(file, static_cast<std::size_t>(memory_limit_MiB * (1 << 20))));
+    tables.push_back(table::read_table(file));
     check_model(tables.back(), file);
   }
   return tables;
@@ -170,11 +168,8 @@ std::vector<std::string> ResultDirectory::table_names() const {
 
 std::vector<std::string> ResultDirectory::table_files() const {
   std::vector<std::string> files;
-  for (const std::string& name : table_names()) {
+  for (const std::string& name : table_names())
     files.push_back("tables/" + name + ".h5");
-    for (const std::string& work : table::work_files(directory_ / "tables" / (name + ".h5")))
-      files.push_back("tables/" + work);
-  }
   return files;
 }
 

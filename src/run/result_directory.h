@@ -26,8 +26,7 @@ public:
   bool has_calibration() const;
   bool has_tables() const;
   calibrate::Calibration calibration() const;
-  std::vector<table::Table>
-  tables(double memory_limit_MiB) const;                // by name; larger ones stay on disk
+  std::vector<table::Table> tables() const;
   std::vector<table::Table> table_descriptions() const; // without values
   // All files below it, as paths in it, sorted.
   std::vector<std::string> all_files() const;

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -70,10 +69,7 @@ AxisPlan plan_axis(const models::Law& law, const StateRange& range, const TableO
 }
 
 void check_memory(const std::vector<TableAxis>& axes, const TableOptions& options) {
-  const double bytes = 8.0 * static_cast<double>(count_nodes(axes));
-  const double memory =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  if (bytes < 0.5 * memory) return;
+  if (fits_into_memory(count_nodes(axes))) return;
   std::vector<std::string> counts;
   for (const TableAxis& axis : axes)
     counts.push_back(fmt::format("{} {}", axis.name, axis.nodes.size()));
@@ -81,10 +77,10 @@ void check_memory(const std::vector<TableAxis>& axes, const TableOptions& option
       options.place,
       fmt::format("the table needs {} ({} nodes: {}), more than half of this machine's "
                   "memory",
-                  human_bytes(bytes), thousands(count_nodes(axes)), join(counts, ", ")),
+                  human_bytes(8.0 * static_cast<double>(count_nodes(axes))),
+                  thousands(count_nodes(axes)), join(counts, ", ")),
       fmt::format("fewer nodes in [table.axes], a larger table.tolerance_MPa than {:.3g}{}, or "
-                  "narrower ranges; a linear table of which every axis has its nodes in the job is "
-                  "written in chunks",
+                  "narrower ranges",
                   options.tolerance_MPa.value_or(usual_tolerance_MPa),
                   options.tolerance_from.empty() ? "" : " (" + options.tolerance_from + ")"));
 }
@@ -405,19 +401,6 @@ private:
 Table build_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                   const TableOptions& options) {
   return Builder(law, ranges, options).build();
-}
-
-std::optional<std::vector<TableAxis>> fixed_axes(const models::AssembledLaw& law,
-                                                 const std::vector<StateRange>& ranges,
-                                                 const TableOptions& options) {
-  std::vector<TableAxis> axes;
-  for (const StateRange& range : ranges) {
-    if (!law.piece_inputs.count(range.name)) continue;
-    const AxisPlan plan = plan_axis(*law.model.law, range, options);
-    if (!plan.by_user) return std::nullopt;
-    axes.push_back(axis_with(plan, plan.cells));
-  }
-  return axes;
 }
 
 } // namespace frictab::table

@@ -37,11 +37,6 @@ std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data
 Table build_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                   const TableOptions& options);
 
-// The axes of the model's table where the job gives every one its number of nodes; else nullopt.
-std::optional<std::vector<TableAxis>> fixed_axes(const models::AssembledLaw& law,
-                                                 const std::vector<StateRange>& ranges,
-                                                 const TableOptions& options);
-
 // Ranges that a table carries in its attributes; for a foreign table its axes' own and, for other
 // inputs, those of `data` where it has the column. Throws InputError where there is neither.
 std::vector<StateRange> table_ranges(const Table& table, const data::Dataset* data,

@@ -161,7 +161,7 @@ void add_distance(Table& table, const models::AssembledLaw& law, const data::Dat
       if (inputs.names()[i] == axis.name) columns.push_back(inputs[i]);
   const TestRows rows(table.axes, columns, data.first_row);
   if (rows.empty()) return;
-  if (!table.stored) table.distance = at_nodes(table, rows);
+  table.distance = at_nodes(table, rows);
   table.record.share_far = rows.share_far();
 }
 

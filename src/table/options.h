@@ -36,7 +36,6 @@ struct TableOptions {
   std::optional<std::size_t> nodes;           // the closest table of so many nodes ...
   std::optional<std::size_t> max_bytes;       // ... or so large, instead of one to a tolerance
   std::map<std::string, AxisOptions> axes;    // by canonical name
-  double memory_limit_MiB = 256;              // of values; a larger table stays on disk
   bool distance = true;                       // of every node from the nearest test
   io::Hdf5Storage hdf5;
   Place place;

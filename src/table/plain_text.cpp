@@ -29,10 +29,7 @@ template <class Body> void for_values(const Table& table, const Body& body) {
   std::vector<double> block;
   for (std::size_t first = 0; first < table.nodes(); first += rows_at_once) {
     block.resize(std::min(rows_at_once, table.nodes() - first));
-    if (table.stored)
-      table.stored->read(first, block);
-    else
-      std::copy_n(table.value.begin() + static_cast<long>(first), block.size(), block.begin());
+    std::copy_n(table.value.begin() + static_cast<long>(first), block.size(), block.begin());
     body(first, block);
   }
 }

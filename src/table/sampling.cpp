@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "core/text.h"
 #include "data/meaning.h"
@@ -19,6 +20,12 @@ std::size_t count_nodes(const std::vector<TableAxis>& axes) {
     nodes *= axis.nodes.size();
   }
   return nodes;
+}
+
+bool fits_into_memory(std::size_t nodes) {
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  return sizeof(double) * static_cast<double>(nodes) < 0.5 * memory;
 }
 
 namespace {

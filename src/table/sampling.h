@@ -11,6 +11,9 @@ namespace frictab::table {
 // Nodes of a grid; SIZE_MAX / 16 where they are more.
 std::size_t count_nodes(const std::vector<TableAxis>& axes);
 
+// Whether the values of so many nodes take less than half of this machine's memory.
+bool fits_into_memory(std::size_t nodes);
+
 // Nodes sampled at a time: states and results stay in a core's cache.
 inline constexpr std::size_t sample_block = 4096;
 

@@ -14,7 +14,6 @@
 #include "table/kernel.h"
 #include "table/outside.h"
 #include "table/spline.h"
-#include "table/stored_cell.h"
 
 namespace frictab::table {
 
@@ -61,10 +60,6 @@ double Table::coordinate(double value_at_a_node) const {
 
 std::vector<double> Table::value_coordinates() const {
   std::vector<double> out = value;
-  if (stored) {
-    out.resize(stored->size());
-    stored->read(0, out);
-  }
   for (double& one : out)
     one = coordinate(one);
   return out;
@@ -105,8 +100,7 @@ struct TableFunction::Data {
   std::vector<SplineAxis> splines;
   std::vector<ft_spline_axis> cubic;
   bool is_cubic = false;
-  std::vector<double> value;                      // at the nodes, or coefficients
-  std::shared_ptr<const io::StoredValues> stored; // instead of `value`
+  std::vector<double> value; // at the nodes, or coefficients
   bool log_value = false;
   std::unique_ptr<OutsideRule> rule;  // where clamping is not all there is to it
   std::unique_ptr<Program> of_inputs; // row: inputs; the value is a scalar, so nothing is copied
@@ -136,9 +130,6 @@ struct TableFunction::Data {
   double raw(const double* u, double* by_u, unsigned* outside) const;
   void pieces(std::span<const double* const> columns, std::size_t first, std::size_t count,
               double* value, unsigned* outside) const;
-  // Of all rows, values on disk.
-  std::vector<double> stored_pieces(std::size_t rows, std::span<const double* const> columns,
-                                    unsigned* outside) const;
 };
 
 double TableFunction::Data::raw(const double* u, double* by_u, unsigned* outside) const {
@@ -147,11 +138,6 @@ double TableFunction::Data::raw(const double* u, double* by_u, unsigned* outside
     return by_u ? interpolate(n, axis, values, u, by_u, outside)
                 : interpolate(n, axis, values, u, outside);
   };
-  if (stored) {
-    CornerReader corners(*stored);
-    const StoredCell cell(corners, log_value, linear, u);
-    return at(cell.axis, cell.value);
-  }
   return is_cubic ? at(cubic.data(), value.data()) : at(linear.data(), value.data());
 }
 
@@ -170,8 +156,6 @@ void TableFunction::Data::add_axes(const Table& table) {
     if (is_cubic)
       cubic.push_back({linear.back(), splines[a].first.data(), splines[a].basis.data()});
   }
-  stored = table.stored;
-  if (stored) return;
   value = table.value_coordinates();
   if (is_cubic) value = spline_coefficients(splines, value);
 }
@@ -265,48 +249,12 @@ void TableFunction::Data::pieces(std::span<const double* const> columns, std::si
 
 constexpr std::size_t per_task = 32 * Program::block; // rows
 
-// In the order of their cells, in which the file is read from its beginning to its end.
-std::vector<double> TableFunction::Data::stored_pieces(std::size_t rows,
-                                                       std::span<const double* const> columns,
-                                                       unsigned* outside) const {
-  const auto coordinates_of = [&](std::size_t row, double* u) {
-    coordinates([&](std::size_t i) { return columns[i][row]; }, u);
-  };
-  const std::size_t tasks = (rows + per_task - 1) / per_task;
-  std::vector<std::pair<std::size_t, std::size_t>> order(rows); // first corner, row
-  parallel_for(tasks, [&](std::size_t task) {
-    for (std::size_t i = task * per_task; i < std::min(rows, (task + 1) * per_task); ++i) {
-      double u[FT_MAX_AXES];
-      coordinates_of(i, u);
-      order[i] = {first_corner(linear, u), i};
-    }
-  });
-  std::sort(order.begin(), order.end());
-  std::vector<double> found(rows);
-  parallel_for(tasks, [&](std::size_t task) {
-    CornerReader corners(*stored, axes.size(), rows);
-    for (std::size_t i = task * per_task; i < std::min(rows, (task + 1) * per_task); ++i) {
-      const std::size_t row = order[i].second;
-      double u[FT_MAX_AXES];
-      coordinates_of(row, u);
-      const StoredCell cell(corners, log_value, linear, u);
-      const double x = interpolate(static_cast<int>(axes.size()), cell.axis, cell.value, u,
-                                   outside ? outside + row : nullptr);
-      found[row] = log_value ? std::exp(x) : x;
-    }
-  });
-  return found;
-}
-
 void TableFunction::evaluate(std::size_t rows, std::span<const double* const> columns,
                              std::span<double> tau, std::span<unsigned> outside) const {
   const bool row_by_row = data_->axes.empty() && data_->rule; // the direct form: the law
   const bool count_bits = !outside.empty() || data_->rule;
   std::vector<unsigned> own_bits(outside.empty() && data_->rule && !row_by_row ? rows : 0);
   unsigned* const all_bits = outside.empty() ? own_bits.data() : outside.data();
-  const std::vector<double> from_file =
-      data_->stored ? data_->stored_pieces(rows, columns, count_bits ? all_bits : nullptr)
-                    : std::vector<double>();
   parallel_for((rows + per_task - 1) / per_task, [&](std::size_t task) {
     const std::size_t first = task * per_task, count = std::min(rows - first, per_task);
     double state[most_inputs];
@@ -320,12 +268,12 @@ void TableFunction::evaluate(std::size_t rows, std::span<const double* const> co
         tau[i] = (*this)(read_state(i), outside.empty() ? nullptr : &outside[i]);
       return;
     }
-    std::vector<double> value(data_->stored ? 0 : count);
+    std::vector<double> value(count);
     unsigned* const bits = all_bits + first;
     for (std::size_t i = 0; i < value.size(); i += Program::block)
       data_->pieces(columns, first + i, std::min(count - i, Program::block), value.data() + i,
                     count_bits ? bits + i : nullptr);
-    std::vector<const double*> row{data_->stored ? from_file.data() + first : value.data()};
+    std::vector<const double*> row{value.data()};
     for (const double* column : columns)
       row.push_back(column + first);
     data_->of_all->evaluate(count, row, {}, tau.data() + first);

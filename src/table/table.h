@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "expr/expr.h"
-#include "io/stored_values.h"
 #include "models/piece_quantity.h"
 #include "table/interpolation.h"
 #include "table/record.h"
@@ -59,8 +58,6 @@ struct Table {
   std::vector<TableAxis> axes; // none: the value is one constant
   std::vector<double> value;   // row-major, last axis fastest. Empty: the direct form, whose axes
                                // say only over which range it holds
-  // Set: the values of a linear table that is too large for memory, and `value` is empty.
-  std::shared_ptr<const io::StoredValues> stored;
   // Per node, how far it is from the nearest test (table/distance.h); empty: not known, or read
   // from a file, where it is for others to read.
   std::vector<double> distance;
@@ -82,7 +79,7 @@ struct Table {
   double quantile() const { return record.quantile.value_or(0.5); }
   bool is_direct() const { return interpolation == Interpolation::none; }
   double coordinate(double value_at_a_node) const; // it, or its ln: what is interpolated
-  std::vector<double> value_coordinates() const;   // of all values, wherever they lie
+  std::vector<double> value_coordinates() const;   // of all values
   std::vector<std::size_t> shape() const;          // nodes per axis
   std::size_t nodes() const;                       // their product; 0 in the direct form
   std::size_t bytes() const;                       // values, nodes and constants as doubles

@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -18,6 +16,7 @@
 #include "models/law.h"
 #include "table/beyond_data.h"
 #include "table/frictab_kernel.h"
+#include "table/sampling.h"
 #include "table/self_description.h"
 #include "table/spline.h"
 
@@ -148,22 +147,11 @@ TableAttributes root_attributes(const Table& table) {
   return attributes;
 }
 
-void write_description(io::Hdf5Writer& out, const Table& table) {
-  write_axes(out, table);
-  write_attributes(out, table);
-}
-
 void write_table(const Table& table, const std::filesystem::path& file,
                  const io::Hdf5Storage& storage) {
   io::Hdf5Writer out(file);
   write_axes(out, table);
-  if (table.stored)
-    out.dataset(
-        "value", table.shape(),
-        [&](std::size_t first, std::span<double> values) { table.stored->read(first, values); },
-        storage);
-  else
-    out.dataset("value", table.shape(), table.value, storage);
+  out.dataset("value", table.shape(), table.value, storage);
   write_attributes(out, table);
   write_distance(out, table, storage);
   out.close();
@@ -174,13 +162,13 @@ namespace {
 class TableReader {
 public:
   explicit TableReader(const std::filesystem::path& file)
-      : file_(file), named_(file.string()), in_(file, file.string()) {}
+      : named_(file.string()), in_(file, file.string()) {}
   TableReader(const io::Hdf5Contents& contents, const std::string& named)
       : named_(named), in_(contents, named) {}
 
-  Table read(std::size_t in_memory) {
+  Table read() {
     Table table = describe();
-    read_numbers(table, in_memory);
+    read_numbers(table);
     faults_.throw_if_any();
     return table;
   }
@@ -269,63 +257,27 @@ private:
     if (table_.interpolation == Interpolation::cubic) text("value", "spline", {spline_name});
   }
 
-  void read_numbers(Table& table, std::size_t in_memory) {
+  void read_numbers(Table& table) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     const double above = table.log_value ? 0 : -infinite;
-    std::size_t bad = 0;
-    if (table.interpolation == Interpolation::linear && !table.axes.empty() &&
-        table.nodes() > in_memory / sizeof(double)) {
-      table.stored = stored(table.nodes());
-      bad = table.stored->first_not_between(above, infinite);
-    } else {
-      table.value = in_.values("value");
-      undo_logarithm(table.value);
-      bad = static_cast<std::size_t>(
-          std::find_if(table.value.begin(), table.value.end(),
-                       [&](double value) { return !(value > above && value < infinite); }) -
-          table.value.begin());
+    if (!fits_into_memory(table.nodes())) {
+      fault(fmt::format("'value' has {} nodes ({}), more than half of this machine's memory",
+                        thousands(table.nodes()),
+                        human_bytes(static_cast<double>(table.nodes() * sizeof(double)))),
+            "a friction table rarely needs more than some 10,000 nodes: make a smaller one");
+      return;
     }
+    table.value = in_.values("value");
+    if (holds_logarithms_)
+      for (double& value : table.value)
+        value = std::exp(value);
+    const auto bad = static_cast<std::size_t>(
+        std::find_if(table.value.begin(), table.value.end(),
+                     [&](double value) { return !(value > above && value < infinite); }) -
+        table.value.begin());
     if (bad < table.nodes())
       fault(fmt::format("value {} of {} is not finite{}", bad, table.nodes(),
                         table.log_value ? " and above 0, as its logarithm asks" : ""));
-  }
-
-  void undo_logarithm(std::span<double> values) const {
-    for (double& value : values)
-      if (holds_logarithms_) value = std::exp(value);
-  }
-
-  // Where they lie, or a copy in a file without a name, gone with its last reader.
-  std::shared_ptr<const io::StoredValues> stored(std::size_t nodes) {
-    const auto offset = in_.raw_offset("value");
-    if (offset && !holds_logarithms_)
-      return std::make_shared<const io::StoredValues>(file_, named_, *offset, nodes);
-    const auto directory = std::filesystem::absolute(file_).parent_path();
-    io::check_disk_space(
-        directory, nodes * sizeof(double), "unpacking " + named_,
-        "its values are in chunks or logarithms, and states are looked up in a plain copy");
-    std::string name = (directory / ".frictab-unpacked-XXXXXX").string();
-    const int file = ::mkstemp(name.data());
-    if (file < 0)
-      throw InputError({named_, 0, 0}, "there is no place to unpack it: " + directory.string(),
-                       "copy it to a directory that can be written");
-    ::close(file);
-    std::shared_ptr<const io::StoredValues> copy;
-    try {
-      const io::ValuesFile out(name, 0, nodes);
-      in_.blocks("value", std::size_t{1} << 22,
-                 [&](std::size_t first, std::span<const double> part) {
-                   std::vector<double> values(part.begin(), part.end());
-                   undo_logarithm(values);
-                   out.write(first, values);
-                 });
-      copy = std::make_shared<const io::StoredValues>(name, named_, 0, nodes);
-    } catch (...) {
-      ::unlink(name.c_str());
-      throw;
-    }
-    ::unlink(name.c_str());
-    return copy;
   }
 
   void read_axes() {
@@ -471,7 +423,6 @@ private:
     }
   }
 
-  std::filesystem::path file_;
   std::string named_;
   io::Hdf5Reader in_;
   FaultList faults_;
@@ -482,12 +433,12 @@ private:
 
 } // namespace
 
-Table read_table(const std::filesystem::path& file, std::size_t in_memory) {
-  return TableReader(file).read(in_memory);
+Table read_table(const std::filesystem::path& file) {
+  return TableReader(file).read();
 }
 
 Table read_table(const io::Hdf5Contents& contents, const std::string& named) {
-  return TableReader(contents, named).read(most_bytes_in_memory);
+  return TableReader(contents, named).read();
 }
 
 TableDescription read_description(const std::filesystem::path& file) {

@@ -7,7 +7,6 @@
 #include "bench/generated_kernels.h"
 #include "core/program.h"
 #include "core/random.h"
-#include "io/stored_values.h"
 #include "support/kinked_law.h"
 #include "table/drift.h"
 
@@ -227,36 +226,6 @@ void add_kinked() {
           [=] { law->evaluate(queries, pointers, tau->data()); });
 }
 
-// Values that stay in a file: all states in one call, one by one, and the same table in memory.
-void add_stored(const std::string& grid) {
-  Table table = random_table(grids.at(grid), false, false);
-  const auto inside = std::make_shared<table::TableFunction>(table);
-  const auto directory = std::make_shared<TemporaryDirectory>();
-  const std::filesystem::path file = directory->path() / "values";
-  io::ValuesFile(file, 0, table.value.size()).write(0, table.value);
-  table.stored =
-      std::make_shared<const io::StoredValues>(file, file.string(), 0, table.value.size());
-  table.value.clear();
-  const auto outside = std::make_shared<table::TableFunction>(table);
-  auto columns = std::make_shared<Columns>(5);
-  for (std::size_t i = 0; i < 5 * queries; ++i)
-    (*columns)[i % 5].push_back(states(5)[i]);
-  std::vector<const double*> pointers;
-  for (const auto& column : *columns)
-    pointers.push_back(column.data());
-  const auto batch = [=](const std::shared_ptr<table::TableFunction>& function) {
-    return [=, tau = std::vector<double>(queries)]() mutable {
-      (void)columns, function->evaluate(queries, pointers, tau);
-    };
-  };
-  const std::string name = "stored/" + grid;
-  measure(name + "/memory", queries, batch(inside));
-  measure(name + "/file", queries, batch(outside));
-  add(name + "/file, one by one", 5, [directory, outside] { // the file lives as long as this
-    return [f = outside.get()](const double* u) { return (*f)({u, 5}); };
-  });
-}
-
 const Registration kernels([] {
   for (const char* grid : {"4800", "210681"})
     for (const bool cubic : {false, true})
@@ -270,7 +239,6 @@ const Registration kernels([] {
   for (const char* grid : {"4800", "210681"})
     for (const bool cubic : {false, true})
       add_single(grid, cubic);
-  add_stored("210681");
 });
 
 } // namespace

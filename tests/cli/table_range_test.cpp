@@ -1,5 +1,4 @@
 // table.range through the commands: what axes reach, and where nodes beyond the data are told.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,18 +36,6 @@ protected:
     auto result = run_frictab({stage, job, "--set", "table.range=" + range});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return result;
-  }
-
-  // A table of `nodes` nodes on each axis, where memory ends at `limit_MiB`.
-  std::string tabulate_within(const std::string& limit_MiB, int nodes) {
-    std::vector<std::string> arguments = {"tabulate", job, "--set",
-                                          "table.memory_limit_MiB=" + limit_MiB};
-    for (const char* axis : {"sigma_n_MPa", "v_rel_mm_s", "T_contact_C"})
-      arguments.insert(arguments.end(),
-                       {"--set", fmt::format("table.axes.{}.nodes={}", axis, nodes)});
-    const auto result = run_frictab(arguments);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    return result.out;
   }
 
   test::TemporaryDirectory directory;
@@ -97,20 +84,6 @@ TEST_F(TableRange, WhatIsFarFromEveryTestStandsInSummaryInfoAndReports) {
   const auto result = run_frictab({"tabulate", job, "--set", "table.distance=false"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, Not(HasSubstr(told)));
-}
-
-TEST_F(TableRange, OfATableLargerThanMemoryTheShareAloneIsTold) {
-  const std::string out = tabulate_within("0.5", 60);
-  EXPECT_THAT(out, HasSubstr(" % of its range is far from every test"));
-  const io::Hdf5Reader file(directory.path("out/tables/wzl.h5"), "wzl.h5");
-  EXPECT_FALSE(file.has("distance"));
-  EXPECT_TRUE(file.number_attribute("/", "share_far"));
-}
-
-TEST_F(TableRange, ASmallTableIsWrittenWhateverTheLimitOfMemory) {
-  tabulate_within("0.001", 20);
-  EXPECT_THAT(run_frictab({"table", "info", directory.path("out/tables/wzl.h5")}).out,
-              HasSubstr("Nodes: 8,400, 65.6 KiB of values"));
 }
 
 TEST_F(TableRange, OtherWordsAreRefused) {

@@ -410,5 +410,38 @@ TEST(Table, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_TRUE(one.record == two.record);
 }
 
+// One value of the packed table changed by hand.
+TEST(TableFile, DamagedChunkIsAFaultThatNamesTheFile) {
+  const test::TemporaryDirectory directory;
+  const models::Model model = test::plausible_model(*models::find_law("levanov"));
+  TableOptions options;
+  for (const char* name : {"sigma_n_MPa", "sigma_f_MPa"})
+    options.axes[name].nodes = 60;
+  const Table table = table::build_table(
+      AssembledLaw(model),
+      table::state_ranges(AssembledLaw(model), test::sample_data(model), options), options);
+  for (const io::Hdf5Storage& storage :
+       {io::Hdf5Storage{600, 0, true}, io::Hdf5Storage{600, 6, true}}) {
+    const std::string file = directory.path("t.h5");
+    table::write_table(table, file, storage);
+    EXPECT_EQ(read_table(file).value, table.value);
+    std::string bytes = directory.read("t.h5");
+    const auto* value = reinterpret_cast<const char*>(&table.value[1234]);
+    const std::size_t at =
+        storage.compress ? 2 * bytes.size() / 3 : bytes.find(std::string(value, sizeof(double)));
+    ASSERT_LT(at, bytes.size());
+    bytes[at] = static_cast<char>(bytes[at] ^ 1);
+    directory.write("t.h5", bytes);
+    try {
+      read_table(file);
+      FAIL() << storage.compress;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()),
+                file + ": error: 'value' cannot be read: a chunk does not fit its checksum or its "
+                       "compression\n  hint: the file is damaged: write it again, or take a copy");
+    }
+  }
+}
+
 } // namespace
 } // namespace frictab::table_test
