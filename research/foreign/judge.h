@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/foreign_campaigns.h"
+#include "foreign/campaigns.h"
 
 namespace frictab::foreign {
 

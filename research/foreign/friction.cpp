@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-#include "bench/foreign_part.h"
+#include "foreign/part.h"
 
 namespace frictab::foreign {
 

@@ -1,7 +1,7 @@
 // What the files of effects share.
 #pragma once
 
-#include "bench/foreign_part.h"
+#include "foreign/part.h"
 
 namespace frictab::foreign {
 

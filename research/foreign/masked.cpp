@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "bench/foreign_part.h"
-#include "bench/trace_results.h"
+#include "foreign/part.h"
+#include "trace_results.h"
 
 namespace frictab::foreign {
 

@@ -1,5 +1,5 @@
 // All causes that friction may follow beside the base law.
-#include "bench/foreign_shapes.h"
+#include "foreign/shapes.h"
 
 namespace frictab::foreign {
 

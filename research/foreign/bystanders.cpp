@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/foreign_part.h"
+#include "foreign/part.h"
 
 namespace frictab::foreign {
 

@@ -1,4 +1,4 @@
-#include "bench/foreign_judge.h"
+#include "foreign/judge.h"
 
 #include <algorithm>
 #include <chrono>
@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <set>
 
-#include "bench/trace_results.h"
 #include "calibrate/calibration.h"
 #include "core/text.h"
 #include "data/derived.h"
 #include "trace/delivery.h"
 #include "trace/trace_text.h"
+#include "trace_results.h"
 
 namespace frictab::foreign {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/foreign_judge.h"
+#include "foreign/judge.h"
 
 namespace frictab::foreign {
 

@@ -1,5 +1,5 @@
 // Synthetic campaigns that share nothing with the twin: states, noise, bystanders and causes of
-// their own, and look-alikes of measured campaigns. What tracing is scored on (foreign_suite.cpp).
+// their own, and look-alikes of measured campaigns. What tracing is scored on (suite.cpp).
 #pragma once
 
 #include <cstdint>

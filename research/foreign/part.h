@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/foreign_campaigns.h"
 #include "core/random.h"
+#include "foreign/campaigns.h"
 
 namespace frictab::foreign {
 

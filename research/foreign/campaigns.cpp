@@ -1,5 +1,5 @@
 // Puts campaigns together: states, bystanders, friction, effects of a given strength, noise.
-#include "bench/foreign_campaigns.h"
+#include "foreign/campaigns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "bench/foreign_part.h"
 #include "data/quantity.h"
+#include "foreign/part.h"
 
 namespace frictab::foreign {
 

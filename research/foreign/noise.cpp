@@ -3,7 +3,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "bench/foreign_part.h"
+#include "foreign/part.h"
 
 namespace frictab::foreign {
 

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "bench/foreign_cases.h"
-#include "bench/trace_results.h"
 #include "core/text.h"
+#include "foreign/cases.h"
+#include "trace_results.h"
 
 namespace frictab::foreign {
 

@@ -1,4 +1,4 @@
-// What tracing finds in synthetic campaigns that do not resemble the twin (foreign_campaigns.h):
+// What tracing finds in synthetic campaigns that do not resemble the twin (campaigns.h):
 // planted causes, masked designs, nothing at all, hidden causes, look-alikes of measured campaigns.
 // Prints markdown tables.
 //
@@ -11,9 +11,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/foreign_cases.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "foreign/cases.h"
 #include "job/job.h"
 
 namespace frictab::foreign {

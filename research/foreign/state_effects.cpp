@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/foreign_shapes.h"
+#include "foreign/shapes.h"
 
 namespace frictab::foreign {
 

@@ -1,5 +1,5 @@
 // Columns of a part, and small statistics.
-#include "bench/foreign_part.h"
+#include "foreign/part.h"
 
 #include <algorithm>
 #include <cmath>

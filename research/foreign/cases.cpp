@@ -1,4 +1,4 @@
-#include "bench/foreign_cases.h"
+#include "foreign/cases.h"
 
 #include <fmt/format.h>
 
