@@ -43,7 +43,7 @@ int run(const Options& options, const CommonOptions& common) {
   if (options.write == "hdf5")
     data::write_hdf5_columns(run::canonical(data), files.stage("data.h5"));
   const std::vector<std::string> written = files.paths();
-  run::Stages stages(job, job.directory);
+  run::StageRecord stages(job, job.directory);
   run::commit_results(job, stages, files);
   show(common.json ? run::data_json(data) : run::data_text(data));
   std::fflush(stdout); // before the line to stderr

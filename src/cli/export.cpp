@@ -92,7 +92,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
     if (!options->table.empty() && !options->job.empty())
       throw InputError({}, "JOB and --table exclude each other", how);
     if (!options->table.empty()) return export_alone(*options, common);
-    return run_stages(options->job, common, "export", [](run::Pipeline& p) { p.generate(); });
+    return run_stage_command(options->job, common, "export");
   };
 }
 

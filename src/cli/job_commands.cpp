@@ -56,10 +56,9 @@ job::Job read_job(const std::string& file, const CommonOptions& common) {
   return job;
 }
 
-void tell_notes(const run::Pipeline& pipeline, const CommonOptions& common) {
-  if (const auto& data = pipeline.data(); data && !data->leak.empty())
-    note(common, "warning: " + data->leak);
-  for (const std::string& line : pipeline.notes())
+void tell_notes(const run::Run& run, const CommonOptions& common) {
+  if (run.data && !run.data->leak.empty()) note(common, "warning: " + run.data->leak);
+  for (const std::string& line : run.notes)
     note(common, line);
 }
 
@@ -82,95 +81,80 @@ int tell_plan(const job::Job& job, const std::string& command, const CommonOptio
   return plan.refused() ? 2 : 0;
 }
 
-int run_stages(const std::string& file, const CommonOptions& common, const std::string& command,
-               const Stages& stages) {
+int run_stage_command(const std::string& file, const CommonOptions& common,
+                      const std::string& command,
+                      const std::function<void(const run::Run&)>& afterwards) {
   job::Job job = read_job(job_file(file), common);
   if (common.dry_run) return tell_plan(job, command, common);
-  run::Pipeline pipeline(std::move(job));
+  run::Run run(std::move(job));
   const auto tell_kept = [&] {
-    if (const std::string kept = pipeline.kept_text(); !kept.empty()) note(common, kept);
+    if (const std::string kept = run.workspace.checkpoint_text(); !kept.empty()) note(common, kept);
   };
   try {
     const WhenInterrupted interrupted(tell_kept);
-    stages(pipeline);
-    pipeline.commit();
+    if (command == "run")
+      run_all(run);
+    else
+      run_stage(run, command);
+    run.workspace.commit();
   } catch (...) {
     const int code = tell_error();
     tell_kept();
     return code;
   }
-  tell_notes(pipeline, common);
-  if (common.verbose && pipeline.data())
-    for (const std::string& line : pipeline.data()->training.notes)
+  tell_notes(run, common);
+  if (common.verbose && run.data)
+    for (const std::string& line : run.data->training.notes)
       note(common, line);
   // One stage has little to say; all of them together have a page.
   const run::Detail detail = common.verbose     ? run::Detail::verbose
                              : command == "run" ? run::Detail::brief
                                                 : run::Detail::full;
   if (common.json)
-    show(run::summary_json(pipeline));
+    show(run::summary_json(run));
   else
-    show_summary(run::summary_text(pipeline, detail));
-  for (const std::string& miss : pipeline.missed())
+    show_summary(run::summary_text(run, detail));
+  if (afterwards) afterwards(run);
+  for (const std::string& miss : run.missed)
     fmt::print(stderr, "error: {}\n", printable(miss));
-  const bool verified = !pipeline.verification() || pipeline.verification()->passed();
-  return verified && pipeline.missed().empty() ? 0 : 1;
+  const bool verified = !run.verification || run.verification->passed();
+  return verified && run.missed.empty() ? 0 : 1;
 }
 
 namespace {
 
-void all_stages(run::Pipeline& p) {
-  p.go_on();
-  p.calibrate();
-  p.trace();
-  p.deliver();
-  p.compare_forms();
-}
-
-// "frictab NAME JOB": runs the stages, commits, prints the summary.
-template <void (*stages)(run::Pipeline&)>
-Command stage(int order, const char* name, const char* title, std::vector<Example> examples) {
-  static const std::string command = name;
+Command job_command(int order, const char* name, const char* title, std::vector<Example> examples) {
   const auto declare = [](CLI::App& app, const CommonOptions& common) -> std::function<int()> {
     const auto file = std::make_shared<std::string>();
     add_job(app, *file);
-    return [file, &common] { return run_stages(*file, common, command, stages); };
+    return [file, command = app.get_name(), &common] {
+      return run_stage_command(*file, common, command);
+    };
   };
   return {name, order, title, declare, stage_uses | uses_verbose, std::move(examples)};
 }
 
-void calibrate_stage(run::Pipeline& p) {
-  p.calibrate();
-}
-void tabulate_stage(run::Pipeline& p) {
-  p.tabulate();
-}
-void report_stage(run::Pipeline& p) {
-  p.report();
-}
-
 const Registered<Command> run{[] {
-  return stage<all_stages>(
+  return job_command(
       2, "run", "Everything: calibrate, trace, tabulate, export, verify, report",
       {{"frictab run", "job.toml of this folder"},
        {"frictab run job.toml --dry-run", "what it would do and write"},
        {"frictab run job.toml -o loose --set table.tolerance_MPa=2", "another tolerance"}});
 }};
 const Registered<Command> calibrate{[] {
-  return stage<calibrate_stage>(
-      3, "calibrate", "Fit the friction laws and rank them on unseen experiments",
-      {{"frictab calibrate job.toml", "the ranking, calibration.json, models/"},
-       {"frictab calibrate job.toml --json", "the same as JSON, for a script"}});
+  return job_command(3, "calibrate", "Fit the friction laws and rank them on unseen experiments",
+                     {{"frictab calibrate job.toml", "the ranking, calibration.json, models/"},
+                      {"frictab calibrate job.toml --json", "the same as JSON, for a script"}});
 }};
 const Registered<Command> tabulate{[] {
-  return stage<tabulate_stage>(
+  return job_command(
       4, "tabulate", "Sample the chosen law onto a grid made to the tolerance",
       {{"frictab tabulate job.toml", "tables/NAME.h5 of table.model"},
        {"frictab tabulate job.toml --set table.interpolation=cubic -o cubic", "other tables"}});
 }};
 const Registered<Command> report{[] {
-  return stage<report_stage>(8, "report", "Write report.html and report.md from the results so far",
-                             {{"frictab report job.toml", "out/report.html"}});
+  return job_command(8, "report", "Write report.html and report.md from the results so far",
+                     {{"frictab report job.toml", "out/report.html"}});
 }};
 
 } // namespace

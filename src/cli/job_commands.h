@@ -4,11 +4,9 @@
 #include <functional>
 
 #include "cli/command.h"
-#include "run/pipeline.h"
+#include "run/run.h"
 
 namespace frictab::cli {
-
-using Stages = std::function<void(run::Pipeline&)>;
 
 // JOB, which may be left out where the current folder has a job.toml.
 void add_job(CLI::App& app, std::string& file, const std::string& description = "Job file (TOML)");
@@ -23,12 +21,13 @@ std::string job_file(const std::string& given);
 job::Job read_job(const std::string& file, const CommonOptions& common);
 
 // What a user should know of a run, to stderr.
-void tell_notes(const run::Pipeline& pipeline, const CommonOptions& common);
+void tell_notes(const run::Run& run, const CommonOptions& common);
 
-// Reads the job, runs the stages, commits, prints the summary; the exit code. `command` as
-// run::plan_text knows it: what --dry-run tells instead.
-int run_stages(const std::string& file, const CommonOptions& common, const std::string& command,
-               const Stages& stages);
+// "frictab COMMAND JOB" of a stage, or of "run", which is all of them: reads the job, runs,
+// commits, prints the summary; `afterwards` sees what was found. Gives the exit code.
+int run_stage_command(const std::string& file, const CommonOptions& common,
+                      const std::string& command,
+                      const std::function<void(const run::Run&)>& afterwards = {});
 
 // --dry-run of a command that runs stages of a job.
 int tell_plan(const job::Job& job, const std::string& command, const CommonOptions& common);

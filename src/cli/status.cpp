@@ -11,7 +11,8 @@
 #include "io/atomic_file.h"
 #include "io/json.h"
 #include "run/job_data.h"
-#include "run/stages.h"
+#include "run/stage.h"
+#include "run/stage_record.h"
 
 namespace frictab::cli::status_command {
 
@@ -38,10 +39,12 @@ std::string law_without_table(const job::Job& job) {
 std::vector<StageStatus> status_of(const job::Job& job) {
   io::finish_interrupted(job.directory);
   const run::JobData data = run::load_job_data(job);
-  const run::Stages stages(job, job.directory);
+  const run::StageRecord stages(job, job.directory);
   const std::string key = data::fingerprint(data.training, data.validation);
   std::vector<StageStatus> out;
-  for (const std::string& name : run::stage_names()) {
+  for (const run::Stage& stage : run::all_stages()) {
+    if (!stage.is_recorded()) continue;
+    const std::string& name = stage.name;
     StageStatus status{name, "missing", ""};
     if (stages.has(name)) {
       status.why = stages.stale(name, key);
@@ -67,7 +70,7 @@ std::vector<StageStatus> status_of(const job::Job& job) {
 std::string next_command(const std::vector<StageStatus>& all, const job::Job& job) {
   std::vector<std::string> open;
   for (const StageStatus& one : all)
-    if (one.state == "stale" || (one.state == "missing" && one.name != "trace"))
+    if (one.state == "stale" || (one.state == "missing" && !run::stage_named(one.name).optional))
       open.push_back(one.name);
   if (open.empty()) return "";
   return fmt::format("frictab {} {}", open.size() == 1 ? open.front() : "run", job.arguments());

@@ -21,15 +21,11 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   app.add_flag("--power", arguments->power,
                "Say how large an effect these experiments would have shown, column by column");
   return [arguments, &common] {
-    std::string power;
-    const int code = run_stages(arguments->file, common, "trace", [&](run::Pipeline& p) {
-      p.trace();
+    return run_stage_command(arguments->file, common, "trace", [&](const run::Run& run) {
       if (arguments->power && !common.json)
-        for (const trace::Trace& trace : p.traces())
-          power += trace::detectable_text(trace);
+        for (const trace::Trace& trace : run.traces)
+          show(trace::detectable_text(trace));
     });
-    show(power);
-    return code;
   };
 }
 

@@ -94,14 +94,14 @@ int verify_job(const Options& options, const CommonOptions& common) {
   if (options.require_proof) job.verify.require_proof = true;
   if (options.require_run) job.verify.require_run = true;
   if (common.dry_run) return tell_plan(job, "verify", common);
-  run::Pipeline pipeline(std::move(job));
-  pipeline.verify();
-  pipeline.commit();
-  tell_notes(pipeline, common);
-  write_junit(options, *pipeline.verification());
-  show(common.json ? run::summary_json(pipeline)
-                   : run::drift_text(*pipeline.verification(), run::Detail::full));
-  return pipeline.verification()->passed() ? 0 : 1;
+  run::Run run(std::move(job));
+  run_stage(run, "verify");
+  run.workspace.commit();
+  tell_notes(run, common);
+  write_junit(options, *run.verification);
+  show(common.json ? run::summary_json(run)
+                   : run::drift_text(*run.verification, run::Detail::full));
+  return run.verification->passed() ? 0 : 1;
 }
 
 const Registered<Command> registered{[] {

@@ -40,7 +40,7 @@ public:
   // Where a file of paths() lies until commit().
   std::filesystem::path staged(const std::string& path) const;
   // False where the file system has no locks: a second writer would not be kept off.
-  bool keeps_others_off() const { return lock_ && lock_->held(); }
+  bool is_exclusive() const { return lock_ && lock_->held(); }
   // From here on the staged files are worth keeping without commit(), whatever ends the process:
   // they go to the directory's .frictab-kept, with `record` as its file `name`. commit() removes
   // what is kept there.

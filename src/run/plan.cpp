@@ -1,8 +1,7 @@
-// Stages by name: those the command is for, and those they go on from.
+// StageRecord by name: those the command is for, and those they go on from.
 #include "run/plan.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,24 +12,18 @@
 #include "core/text.h"
 #include "data/dataset.h"
 #include "io/json.h"
+#include "run/checkpoint.h"
 #include "run/job_data.h"
-#include "run/kept_work.h"
+#include "run/result_directory.h"
 #include "run/results.h"
-#include "run/stages.h"
+#include "run/stage.h"
+#include "run/stage_record.h"
 
 namespace frictab::run {
 
 namespace {
 
 using Action = PlannedStage::Action;
-
-// What a stage goes on from: the laws and tables of trace and export are those of earlier runs.
-std::vector<std::string> needed_by(const std::string& command) {
-  if (command == "trace" || command == "tabulate") return {"calibrate"};
-  if (command == "export" || command == "report") return {"calibrate", "tabulate"};
-  if (command == "verify") return {"calibrate", "tabulate", "export"};
-  return {};
-}
 
 const char* action_name(Action action) {
   switch (action) {
@@ -48,17 +41,18 @@ class Planner {
 public:
   explicit Planner(const job::Job& job)
       : job_(job), data_(load_job_data(job)),
-        key_(data::fingerprint(data_.training, data_.validation)), stages_(job, job.directory),
-        laws_(calibrate::names_of_laws(data_.calibration_input(job))) {}
+        key_(data::fingerprint(data_.training, data_.validation)), earlier_(job, job.directory),
+        stages_(job, job.directory), laws_(calibrate::names_of_laws(data_.calibration_input(job))) {
+  }
 
   Plan plan(const std::string& command) const {
     check_directory(job_, stages_);
     Plan plan{job_.directory, {}};
     if (command == "run") {
-      for (const char* stage : {"calibrate", "trace", "tabulate", "export", "verify", "report"})
-        plan.stages.push_back(stage_of_run(stage));
+      for (const Stage& stage : all_stages())
+        plan.stages.push_back(stage_of_run(stage.name));
     } else {
-      for (const std::string& stage : needed_by(command))
+      for (const std::string& stage : stage_named(command).needs)
         plan.stages.push_back(stage_before(stage, command));
       plan.stages.push_back({command, Action::run, "", writes(command)});
     }
@@ -71,7 +65,7 @@ private:
   // A run makes everything anew, but for what a run that did not end has finished.
   PlannedStage stage_of_run(const std::string& stage) const {
     PlannedStage out{stage, Action::run, "", writes(stage)};
-    const KeptWork kept(job_);
+    const Checkpoint kept(job_);
     const bool finished = stage == "calibrate" ? kept.has_calibration(key_)
                                                : stage == "trace" && kept.has_calibration(key_) &&
                                                      kept.has("trace", key_);
@@ -83,7 +77,7 @@ private:
   }
 
   PlannedStage stage_before(const std::string& stage, const std::string& command) const {
-    if (!is_there(stage))
+    if (!stage_named(stage).is_there(earlier_, stages_))
       return {stage, Action::run, "there is none: it is made first", writes(stage)};
     const std::string why = stages_.stale(stage, key_);
     if (why.empty()) return {stage, Action::keep, "", {}};
@@ -92,28 +86,28 @@ private:
     return {stage, Action::refuse, "stale, so `" + command + "` stops: " + mend, {}};
   }
 
-  bool is_there(const std::string& stage) const {
-    const std::filesystem::path out = job_.directory;
-    std::error_code error;
-    if (stage == "calibrate") return std::filesystem::exists(out / "calibration.json", error);
-    return std::filesystem::exists(out / (stage == "tabulate" ? "tables" : "export"), error);
+  // "models/", "tables/" and "export/" as what will lie in them.
+  std::vector<std::string> writes(const std::string& stage) const {
+    if (stage == "trace") return {"trace.json", "models/NAME_traced.json where an effect is added"};
+    std::vector<std::string> files, in_folders;
+    for (const std::string& path : stage_named(stage).writes()) {
+      if (!path.ends_with("/")) files.push_back(path);
+      for (const std::string& file : files_in(path))
+        in_folders.push_back(path + file);
+    }
+    files.insert(files.end(), in_folders.begin(), in_folders.end());
+    return files;
   }
 
-  std::vector<std::string> writes(const std::string& stage) const {
+  std::vector<std::string> files_in(const std::string& folder) const {
     std::vector<std::string> files;
-    if (stage == "calibrate") {
-      files = {"calibration.json", "benchmark.md", "errors_by_experiment.csv"};
+    if (folder == "models/")
       for (const std::string& law : laws_)
-        files.push_back("models/" + law + ".json");
-    }
-    if (stage == "trace")
-      files = {"trace.json", "models/NAME_traced.json where an effect is added"};
-    if (stage == "tabulate") files = table_files();
-    if (stage == "export")
+        files.push_back(law + ".json");
+    if (folder == "tables/") files = table_files();
+    if (folder == "export/")
       for (const codegen::Exporter* target : codegen::exporters_named(job_.exports.targets))
-        files.push_back("export/" + target->name + "/");
-    if (stage == "verify") files = {"verify.json", "verify.xml"};
-    if (stage == "report") files = {"report.html", "report.md"};
+        files.push_back(target->name + "/");
     return files;
   }
 
@@ -121,9 +115,8 @@ private:
     std::vector<std::string> files;
     const auto add = [&](const std::string& law) {
       for (const double quantile : job_.table.quantile)
-        files.push_back(
-            fmt::format("tables/{}{}.h5", law,
-                        quantile == 0.5 ? "" : fmt::format(" at quantile {}", quantile)));
+        files.push_back(fmt::format(
+            "{}{}.h5", law, quantile == 0.5 ? "" : fmt::format(" at quantile {}", quantile)));
     };
     for (const std::string& name : job_.table.model) {
       if (name == "best")
@@ -142,7 +135,8 @@ private:
   const job::Job& job_;
   JobData data_;
   std::string key_;
-  Stages stages_;
+  ResultDirectory earlier_;
+  StageRecord stages_;
   std::vector<std::string> laws_;
 };
 

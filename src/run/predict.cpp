@@ -28,7 +28,7 @@
 #include "report/numbers.h"
 #include "run/chosen.h"
 #include "run/result_directory.h"
-#include "run/stages.h"
+#include "run/stage_record.h"
 
 namespace frictab::run {
 
@@ -127,7 +127,7 @@ void check_data_range(const calibrate::ModelFit& fit, const std::vector<std::str
 // As later stages ask, but for the data: where rows are predicted, those of the calibration need
 // not be.
 void check_calibration(const job::Job& job) {
-  const Stages stages(job, job.directory);
+  const StageRecord stages(job, job.directory);
   std::string why;
   if (!stages.is_as_written("calibration.json").value_or(true))
     why = "was changed since `frictab calibrate` wrote it";

@@ -108,15 +108,6 @@ std::vector<table::Table> ResultDirectory::tables() const {
   return tables;
 }
 
-std::vector<table::Table> ResultDirectory::table_descriptions() const {
-  std::vector<table::Table> tables;
-  for (const fs::path& file : all_tables()) {
-    tables.push_back(table::read_description(file).table);
-    check_model(tables.back(), file);
-  }
-  return tables;
-}
-
 std::string ResultDirectory::source_directory(const std::string& target,
                                               const std::string& model) const {
   const std::string all = "export/" + target, own = all + "/" + model;

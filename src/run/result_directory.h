@@ -27,7 +27,6 @@ public:
   bool has_tables() const;
   calibrate::Calibration calibration() const;
   std::vector<table::Table> tables() const;
-  std::vector<table::Table> table_descriptions() const; // without values
   // All files below it, as paths in it, sorted.
   std::vector<std::string> all_files() const;
   codegen::SourceBundle sources(const std::string& directory) const; // export/c, export/c/coulomb

@@ -8,6 +8,7 @@
 
 #include "core/text.h"
 #include "data/file_list.h"
+#include "run/stage.h"
 
 namespace frictab::run {
 
@@ -53,7 +54,7 @@ std::string beginning_of(const fs::path& file) {
 }
 
 // stages.json knows it, or some of its directory: it never has reports.
-bool is_known(const Stages& stages, const std::string& path) {
+bool is_known(const StageRecord& stages, const std::string& path) {
   const bool page = path.starts_with(report) || path == "data.html";
   return stages.had_file(path) || (page && stages.had_files());
 }
@@ -76,7 +77,8 @@ bool has_header_of(const std::string& beginning, const fs::path& other) {
                    std::string(to_mend) + "; or --force to replace them");
 }
 
-void check_not_of_others(const job::Job& job, const Stages& stages, const io::OutputFiles& files) {
+void check_not_of_others(const job::Job& job, const StageRecord& stages,
+                         const io::OutputFiles& files) {
   std::vector<std::string> foreign;
   for (const std::string& path : files.paths()) {
     const fs::path target = fs::path(job.directory) / path;
@@ -90,17 +92,20 @@ void check_not_of_others(const job::Job& job, const Stages& stages, const io::Ou
 
 } // namespace
 
-void check_directory(const job::Job& job, const Stages& stages) {
+void check_directory(const job::Job& job, const StageRecord& stages) {
   if (job.replaces_others) return;
   std::vector<std::string> foreign;
-  for (const char* name : {"calibration.json", "report.html", "report.md", "stages.json",
-                           "trace.json", "verify.json", "verify.xml"})
+  std::set<std::string> names = {std::string(stages_file)};
+  for (const Stage& stage : all_stages())
+    for (const std::string& result : stage.results)
+      if (!result.ends_with("/")) names.insert(result);
+  for (const std::string& name : names)
     if (!is_known(stages, name) && !is_of_frictab(beginning_of(fs::path(job.directory) / name)))
-      foreign.emplace_back(name);
+      foreign.push_back(name);
   if (!foreign.empty()) refuse(job, foreign);
 }
 
-void record_files(Stages& stages, const io::OutputFiles& files) {
+void record_files(StageRecord& stages, const io::OutputFiles& files) {
   for (const std::string& path : files.old())
     stages.forget_file(path);
   for (const std::string& path : files.paths())
@@ -108,7 +113,7 @@ void record_files(Stages& stages, const io::OutputFiles& files) {
       stages.record_file(path, files.staged(path));
 }
 
-void commit_results(const job::Job& job, Stages& stages, io::OutputFiles& files) {
+void commit_results(const job::Job& job, StageRecord& stages, io::OutputFiles& files) {
   std::vector<std::string> touched = files.paths();
   touched.insert(touched.end(), files.old().begin(), files.old().end());
   check_not_read(job, touched);

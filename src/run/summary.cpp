@@ -24,19 +24,19 @@ namespace frictab::run {
 
 namespace {
 
-std::string data_text(const Pipeline& p) {
-  if (!p.data()) return "";
-  const data::Dataset &training = p.data()->training, &validation = p.data()->validation;
+std::string data_text(const Run& run) {
+  if (!run.data) return "";
+  const data::Dataset &training = run.data->training, &validation = run.data->validation;
   const bool synthetic = calibrate::is_synthetic(training);
   std::string out =
-      fmt::format("Data: {}{}\n", report::size_text(p.data()->judged_by, training, validation),
+      fmt::format("Data: {}{}\n", report::size_text(run.data->judged_by, training, validation),
                   synthetic ? " - SYNTHETIC data" : "");
-  if (p.data()->judged_by == calibrate::JudgedBy::fit)
+  if (run.data->judged_by == calibrate::JudgedBy::fit)
     out +=
         "  if they are of several tests, data.experiment names the column that tells them apart\n";
   if (const std::string how = report::condensed_text(training, validation); !how.empty())
     out += "  " + how + "\n";
-  if (const std::string how = report::uneven_text(p.data()->judged_by, training, validation);
+  if (const std::string how = report::uneven_text(run.data->judged_by, training, validation);
       !how.empty())
     out += "  " + how + "\n";
   for (const data::Dataset* data : {&training, &validation})
@@ -58,14 +58,14 @@ std::string data_text(const Pipeline& p) {
 // From here on a linear table is slow to compile and no longer fits into a core's cache.
 constexpr std::size_t many_nodes = 50000;
 
-std::string tables_text(const Pipeline& p) {
-  if (p.tables().empty()) return "";
+std::string tables_text(const Run& run) {
+  if (run.tables.empty()) return "";
   std::string out = "\nTables:\n";
   std::vector<std::string> names;
-  for (const table::Table& table : p.tables())
+  for (const table::Table& table : run.tables)
     names.push_back(table.model);
   const std::size_t width = column_width(names);
-  for (const table::Table& table : p.tables()) {
+  for (const table::Table& table : run.tables) {
     std::string grid;
     for (const table::TableAxis& axis : table.axes)
       grid += fmt::format("{}{} {}", grid.empty() ? "" : " x ", axis.nodes.size(), axis.name);
@@ -110,17 +110,17 @@ std::string file_list(const std::vector<std::string>& files) {
 }
 
 // What a user does after this: see what is off, look at the page, or the stage behind the last.
-std::string next_step(const Pipeline& p) {
-  const std::vector<std::string> files = p.files();
+std::string next_step(const Run& run) {
+  const std::vector<std::string> files = run.workspace.files();
   const auto wrote = [&](std::string_view start) {
     return std::any_of(files.begin(), files.end(),
                        [&](const std::string& file) { return file.starts_with(start); });
   };
-  const std::string page = (std::filesystem::path(p.job().directory) / "report.html").string();
+  const std::string page = (std::filesystem::path(run.job.directory) / "report.html").string();
   if (wrote("report.html")) return "open " + shell_word(page);
-  const std::string job = " " + p.job().arguments();
+  const std::string job = " " + run.job.arguments();
   if (wrote("verify.json"))
-    return p.verification()->passed() && p.missed().empty()
+    return run.verification->passed() && run.missed.empty()
                ? "frictab report" + job
                : "a smaller table.tolerance_MPa, then frictab tabulate" + job;
   if (wrote("export/")) return "frictab verify" + job;
@@ -128,13 +128,13 @@ std::string next_step(const Pipeline& p) {
   return "frictab tabulate" + job;
 }
 
-void add_in_short(std::string& out, const Pipeline& p) {
+void add_in_short(std::string& out, const Run& run) {
   std::vector<std::pair<const char*, std::string>> lines;
-  if (p.calibration()) lines.emplace_back("best law", best_law_in_short(*p.calibration()));
-  if (p.verification()) lines.emplace_back("tables", drift_in_short(*p.verification()));
-  for (const trace::Trace& t : p.traces())
+  if (run.calibration) lines.emplace_back("best law", best_law_in_short(*run.calibration));
+  if (run.verification) lines.emplace_back("tables", drift_in_short(*run.verification));
+  for (const trace::Trace& t : run.traces)
     lines.emplace_back("missing", trace::trace_in_short(t));
-  lines.emplace_back("form", verify::forms_in_short(p.forms()));
+  lines.emplace_back("form", verify::forms_in_short(run.forms));
   out += "\nIn short:\n";
   for (const auto& [what, text] : lines)
     if (!text.empty()) out += fmt::format("  {:<10}{}\n", what, text);
@@ -142,21 +142,21 @@ void add_in_short(std::string& out, const Pipeline& p) {
 
 } // namespace
 
-std::string summary_text(const Pipeline& p, Detail detail) {
-  std::string out = data_text(p);
-  if (p.calibration()) out += "\n" + ranking_text(*p.calibration());
-  for (const trace::Trace& trace : p.traces())
+std::string summary_text(const Run& run, Detail detail) {
+  std::string out = data_text(run);
+  if (run.calibration) out += "\n" + ranking_text(*run.calibration);
+  for (const trace::Trace& trace : run.traces)
     out += "\n" + (detail == Detail::brief ? trace::trace_brief(trace)
                                            : trace::trace_text(trace, detail == Detail::verbose));
-  out += tables_text(p);
-  if (p.verification() && !p.verification()->records.empty())
-    out += "\n" + drift_text(*p.verification(), detail);
-  if (detail != Detail::brief && !p.forms().empty()) out += "\n" + verify::forms_text(p.forms());
-  if (detail == Detail::brief) add_in_short(out, p);
-  const auto files = p.files();
+  out += tables_text(run);
+  if (run.verification && !run.verification->records.empty())
+    out += "\n" + drift_text(*run.verification, detail);
+  if (detail != Detail::brief && !run.forms.empty()) out += "\n" + verify::forms_text(run.forms);
+  if (detail == Detail::brief) add_in_short(out, run);
+  const auto files = run.workspace.files();
   out += fmt::format("\nWrote {} to {}: {}\n", report::count_of(files.size(), "file"),
-                     p.job().directory, file_list(files));
-  return out + "next: " + next_step(p) + "\n";
+                     run.job.directory, file_list(files));
+  return out + "next: " + next_step(run) + "\n";
 }
 
 } // namespace frictab::run

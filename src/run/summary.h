@@ -4,12 +4,12 @@
 #include <string>
 
 #include "run/drift_text.h"
-#include "run/pipeline.h"
+#include "run/run.h"
 
 namespace frictab::run {
 
 // brief ends with the findings in a few lines; full says all that the report says.
-std::string summary_text(const Pipeline& pipeline, Detail detail);
-std::string summary_json(const Pipeline& pipeline);
+std::string summary_text(const Run& run, Detail detail);
+std::string summary_json(const Run& run);
 
 } // namespace frictab::run

@@ -48,32 +48,32 @@ nlohmann::ordered_json condensed_json(const JobData& data) {
 
 } // namespace
 
-std::string summary_json(const Pipeline& p) {
-  nlohmann::ordered_json j = {{"schema", "frictab/summary/1"}, {"job", p.job().file}};
-  if (p.data()) j["synthetic_data"] = calibrate::is_synthetic(p.data()->training);
-  if (p.data() && p.data()->training.condensed) j["condensed"] = condensed_json(*p.data());
-  if (p.calibration())
+std::string summary_json(const Run& run) {
+  nlohmann::ordered_json j = {{"schema", "frictab/summary/1"}, {"job", run.job.file}};
+  if (run.data) j["synthetic_data"] = calibrate::is_synthetic(run.data->training);
+  if (run.data && run.data->training.condensed) j["condensed"] = condensed_json(*run.data);
+  if (run.calibration)
     j["calibration"] =
-        io::parse_json(calibrate::calibration_json(*p.calibration()), "calibration.json");
-  if (p.calibration() && !p.calibration()->fits.empty()) {
-    const std::string& recommended = p.calibration()->recommended.law;
-    j["best"] = calibrate::best_fit(*p.calibration()).model.law->name;
+        io::parse_json(calibrate::calibration_json(*run.calibration), "calibration.json");
+  if (run.calibration && !run.calibration->fits.empty()) {
+    const std::string& recommended = run.calibration->recommended.law;
+    j["best"] = calibrate::best_fit(*run.calibration).model.law->name;
     j["recommended"] =
         recommended.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(recommended);
   }
   nlohmann::ordered_json tables = nlohmann::ordered_json::array();
-  for (const table::Table& table : p.tables())
+  for (const table::Table& table : run.tables)
     tables.push_back(table_json(table));
   if (!tables.empty()) j["tables"] = tables;
-  if (p.verification())
-    j["verification"] = io::parse_json(verify::verification_json(*p.verification()), "verify.json");
-  if (!p.traces().empty())
-    j["trace"] = io::parse_json(trace::trace_json(p.traces(), j.value("synthetic_data", false)),
+  if (run.verification)
+    j["verification"] = io::parse_json(verify::verification_json(*run.verification), "verify.json");
+  if (!run.traces.empty())
+    j["trace"] = io::parse_json(trace::trace_json(run.traces, j.value("synthetic_data", false)),
                                 "trace.json");
-  for (const verify::FormComparison& form : p.forms())
+  for (const verify::FormComparison& form : run.forms)
     j["forms"].push_back(form_json(form));
-  j["directory"] = p.job().directory;
-  j["files"] = p.files();
+  j["directory"] = run.job.directory;
+  j["files"] = run.workspace.files();
   return io::json_text(j);
 }
 

@@ -16,7 +16,7 @@
 #include "core/progress.h"
 #include "data/write_dataset.h"
 #include "io/atomic_file.h"
-#include "run/pipeline.h"
+#include "run/run.h"
 #include "study/keys.h"
 #include "study/result.h"
 #include "study/result_store.h"
@@ -51,16 +51,19 @@ void write_twin(const Study& study, const TwinSeed& which, const fs::path& folde
 }
 
 // Laws are compared before laws with effects join them.
-CampaignResult run_stages(run::Pipeline& pipeline, LastStage stage) {
-  pipeline.calibrate();
-  CampaignResult result = result_of(*pipeline.calibration(), *pipeline.data());
-  if (stage != LastStage::calibrate) {
-    pipeline.trace();
-    add_effects(result, pipeline.traces());
+CampaignResult run_campaign(job::Job job, LastStage last) {
+  run::Run run(std::move(job));
+  run_stage(run, "calibrate");
+  CampaignResult result = result_of(*run.calibration, *run.data);
+  if (last != LastStage::calibrate) {
+    run_stage(run, "trace");
+    add_effects(result, run.traces);
   }
-  if (stage == LastStage::run) pipeline.deliver();
-  result.missed = pipeline.missed();
-  pipeline.commit();
+  if (last == LastStage::run)
+    for (const char* stage : {"tabulate", "export", "verify", "report"})
+      run_stage(run, stage);
+  result.missed = run.missed;
+  run.workspace.commit();
   return result;
 }
 
@@ -136,11 +139,7 @@ private:
     job.directory = work.path().string();
     if (const auto& twin = study.campaigns[i].twin)
       write_twin(study, *twin, work.path() / twin_folder, job);
-    CampaignResult result;
-    { // the pipeline ends, and its lock with it, before the directory gets its name
-      run::Pipeline pipeline(std::move(job));
-      result = run_stages(pipeline, study.stage);
-    }
+    const CampaignResult result = run_campaign(std::move(job), study.stage);
     fs::remove_all(work.path() / twin_folder);
     write_result(result, key, work.path());
     publish(work, key, !result.missed.empty());

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "job/job.h"
-#include "run/stages.h"
+#include "run/stage_record.h"
 #include "support/run_command.h"
 #include "support/sample_data.h"
 #include "verify/verify.h"
@@ -58,12 +58,12 @@ void fuzz(const std::string& valid, std::size_t cases,
 TEST(FormatsFuzz, DamagedRecordOfStagesIsAFault) {
   const test::TemporaryDirectory directory;
   const job::Job job = job::parse_job("[data]\ntraining = \"a.csv\"\n", "job.toml");
-  run::Stages made(job, directory.path());
+  run::StageRecord made(job, directory.path());
   made.record("calibrate", "0123456789abcdef");
   made.record("tabulate", "");
   fuzz(made.json(), 1000, [&](const std::string& text) {
     directory.write("stages.json", text);
-    run::Stages read(job, directory.path());
+    run::StageRecord read(job, directory.path());
     read.stale("tabulate", "");
   });
 }

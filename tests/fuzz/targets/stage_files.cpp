@@ -6,7 +6,7 @@
 #include "fuzz/target.h"
 #include "fuzz/temporary_file.h"
 #include "job/job.h"
-#include "run/stages.h"
+#include "run/stage_record.h"
 #include "trace/trace_file.h"
 #include "verify/verify.h"
 
@@ -66,9 +66,9 @@ void read_stages(std::string_view text) {
       text,
       [](const std::string& from) {
         file.write(from);
-        return run::Stages(job, file.directory());
+        return run::StageRecord(job, file.directory());
       },
-      [](const run::Stages& made) {
+      [](const run::StageRecord& made) {
         for (const std::string& name : run::stage_names())
           made.stale(name, "0");
         return made.json();

@@ -22,14 +22,11 @@ struct StageInputs {
   std::string version; // of frictab
 };
 
-// In the order of a run.
-const std::vector<std::string>& stage_names();
-
-class Stages {
+class StageRecord {
 public:
   // As stages.json of the directory says; nothing where there is none. Throws InputError where it
   // is damaged.
-  Stages(const job::Job& job, const std::filesystem::path& directory);
+  StageRecord(const job::Job& job, const std::filesystem::path& directory);
 
   // A stage has begun; what it has made so far is known as such.
   void begin(const std::string& stage, const std::string& data);

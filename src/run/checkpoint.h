@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "run/result_directory.h"
-#include "run/stages.h"
+#include "run/stage_record.h"
 
 namespace frictab::run {
 
-class KeptWork {
+class Checkpoint {
 public:
   // Of the job's directory; empty where nothing is kept there, or where it is damaged.
-  explicit KeptWork(const job::Job& job);
+  explicit Checkpoint(const job::Job& job);
 
   // The stage was finished, with these data and this job.
   bool has(const std::string& stage, const std::string& data) const;
@@ -30,7 +30,7 @@ public:
 private:
   bool is_current(const std::string& stage, const std::string& data) const;
 
-  std::optional<Stages> stages_;
+  std::optional<StageRecord> stages_;
   ResultDirectory files_;
 };
 

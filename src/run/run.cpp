@@ -1,0 +1,132 @@
+// The table of stages, and how one of them is run.
+#include "run/run.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/large_work.h"
+#include "core/progress.h"
+#include "data/dataset.h"
+#include "run/stage_functions.h"
+
+namespace frictab::run {
+
+std::vector<std::string> Stage::writes() const {
+  std::vector<std::string> all = results;
+  all.insert(all.end(), pages.begin(), pages.end());
+  return all;
+}
+
+const std::vector<Stage>& all_stages() {
+  static const std::vector<Stage> all = {
+      {.name = "calibrate",
+       .sections = {"models", "calibration"},
+       .results = {"calibration.json", "models/"},
+       .pages = {"benchmark.md", "errors_by_experiment.csv"},
+       .made_first = "there was no calibration: the laws were calibrated first",
+       .is_there = [](const ResultDirectory& d, const StageRecord&) { return d.has_calibration(); },
+       .load = load_calibration,
+       .run = calibrate_laws},
+      {.name = "trace",
+       .needs = {"calibrate"},
+       .sections = {"trace"},
+       .results = {"trace.json"},
+       .optional = true,
+       .load = load_traces,
+       .run = trace_laws},
+      {.name = "tabulate",
+       .needs = {"calibrate"},
+       .sections = {"table"},
+       .results = {"tables/"},
+       .made_first = "there were no tables: they were made first",
+       .is_there = [](const ResultDirectory& d, const StageRecord&) { return d.has_tables(); },
+       .load = load_tables,
+       .run = tabulate_laws},
+      {.name = "export",
+       .needs = {"calibrate", "tabulate"},
+       .sections = {"export"},
+       .results = {"export/"},
+       .made_first = "there were no routines: they were written first",
+       .is_there =
+           [](const ResultDirectory& d, const StageRecord& record) {
+             return record.has("export") || !d.source_files().empty();
+           },
+       .load = [](Run&, std::string_view) {}, // each target's where they are verified
+       .run = export_sources},
+      {.name = "verify",
+       .needs = {"calibrate", "tabulate", "export"},
+       .sections = {"verify"},
+       .results = {"verify.json", "verify.xml"},
+       .load = load_verification,
+       .run = verify_tables},
+      {.name = "report",
+       .needs = {"calibrate", "tabulate"},
+       .results = {"report.html", "report.md"},
+       .run = write_report}};
+  return all;
+}
+
+const Stage& stage_named(std::string_view name) {
+  return *std::find_if(all_stages().begin(), all_stages().end(),
+                       [&](const Stage& stage) { return stage.name == name; });
+}
+
+Run::Run(job::Job of_job) : job(std::move(of_job)), workspace(job) {
+  if (!workspace.is_exclusive())
+    notes.push_back(job.directory + " is on a file system without locks: run one frictab at a "
+                                    "time there");
+}
+
+std::string Run::path(const std::string& result) const {
+  return (std::filesystem::path(job.directory) / result).string();
+}
+
+std::string Run::data_fingerprint() const {
+  return data ? data::fingerprint(data->training, data->validation) : "";
+}
+
+void Run::finish(const std::string& stage) {
+  workspace.record(stage, data_fingerprint());
+  present.insert(stage);
+}
+
+namespace {
+
+void load_data(Run& run) {
+  if (run.data) return;
+  const Progress progress("reading data", 0);
+  run.data = large_work("putting the files of [data] together", 0, fewer_rows,
+                        [&] { return load_job_data(run.job); });
+}
+
+void make_present(Run& run, const Stage& stage, std::string_view wanted_by) {
+  if (run.present.count(stage.name) > 0) return;
+  if (!stage.is_there(run.workspace.earlier(), run.workspace.record())) {
+    run.notes.push_back(stage.made_first);
+    run_stage(run, stage.name);
+    return;
+  }
+  run.workspace.check_fresh(stage, run.data_fingerprint());
+  stage.load(run, wanted_by);
+  run.present.insert(stage.name);
+}
+
+} // namespace
+
+void run_stage(Run& run, std::string_view name) {
+  const Stage& stage = stage_named(name);
+  load_data(run);
+  for (const std::string& needed : stage.needs)
+    if (needed != "export" || !run.job.exports.targets.empty())
+      make_present(run, stage_named(needed), name);
+  stage.run(run);
+}
+
+void run_all(Run& run) {
+  run.workspace.resume();
+  for (const Stage& stage : all_stages())
+    run_stage(run, stage.name);
+  time_forms(run);
+}
+
+} // namespace frictab::run

@@ -1,0 +1,87 @@
+// The routines of the tables, or of the laws themselves.
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "run/law_accuracy.h"
+#include "run/stage_functions.h"
+
+namespace frictab::run {
+
+using table::Table;
+
+namespace {
+
+// A target names the key at fault; the job knows where it stands, and that there may be others.
+Fault said_in_job(Fault fault, const std::string& target, const codegen::ExportOptions& exports) {
+  fault.what = target + ": " + fault.what;
+  const std::string all = "export.inputs.";
+  if (!fault.place.file.starts_with(all)) return fault;
+  const std::string own = "export." + target + ".inputs";
+  for (const std::string& key : {own + "." + fault.place.file.substr(all.size()), fault.place.file})
+    if (const auto known = exports.input_places.find(key); known != exports.input_places.end()) {
+      fault.place = known->second;
+      if (key.starts_with(all))
+        fault.hint +=
+            (fault.hint.empty() ? "for" : "; for") + (" this target alone: [" + own + "]");
+      break;
+    }
+  return fault;
+}
+
+void write_sources(Run& run, const codegen::Exporter& exporter,
+                   const codegen::ExportRequest& request, const std::string& directory) {
+  codegen::SourceBundle& bundle = run.sources[directory] = exporter.generate(request);
+  const std::string caution = exporter.caution ? exporter.caution(request) : "";
+  if (!caution.empty() && std::find(run.notes.begin(), run.notes.end(), caution) == run.notes.end())
+    run.notes.push_back(caution);
+  for (const auto& [path, text] : bundle)
+    run.workspace.write(directory + "/" + path, text);
+}
+
+} // namespace
+
+std::string export_directory(const Run& run, const std::string& target, const Table& table) {
+  return "export/" + target + (run.tables.size() > 1 ? "/" + table.model : "");
+}
+
+codegen::ExportRequest export_request(const job::Job& job, const std::string& target,
+                                      const Table& form) {
+  return {form, job.exports.units, job.exports.inputs_for(target), job.exports.options};
+}
+
+void export_sources(Run& run) {
+  const auto targets = codegen::exporters_named(run.job.exports.targets);
+  for (const auto& [target, inputs] : run.job.exports.inputs_of_target)
+    if (std::find(targets.begin(), targets.end(), codegen::find_exporter(target)) == targets.end())
+      run.notes.push_back(fmt::format("[export.{0}.inputs] is not used: {0} is not among "
+                                      "export.targets",
+                                      target));
+  run.workspace.remove_earlier(run.workspace.earlier().source_files(), "export/");
+  FaultList faults; // of all targets: what one cannot take, another can
+  std::set<const codegen::Exporter*> refused;
+  for (const Table& table : run.tables) {
+    const Table direct = direct_form(law_of(run, table), table);
+    for (const codegen::Exporter* exporter : targets) {
+      if (refused.count(exporter)) continue; // for the same reason
+      const bool of_law = run.job.exports.form == codegen::ExportForm::direct || !exporter->whole();
+      try {
+        write_sources(run, *exporter,
+                      export_request(run.job, exporter->name, of_law ? direct : table),
+                      export_directory(run, exporter->name, table));
+      } catch (const InputError& error) {
+        refused.insert(exporter);
+        for (const Fault& fault : error.faults()) {
+          const Fault said = said_in_job(fault, exporter->name, run.job.exports);
+          faults.add(said.place, said.what, said.hint);
+        }
+      }
+    }
+  }
+  faults.throw_if_any();
+  run.finish("export");
+}
+
+} // namespace frictab::run

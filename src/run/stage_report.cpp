@@ -1,0 +1,74 @@
+// report.html and report.md, of what there is so far.
+#include <algorithm>
+#include <filesystem>
+
+#include "calibrate/experiment_errors.h"
+#include "io/atomic_file.h"
+#include "report/report.h"
+#include "run/law_accuracy.h"
+#include "run/stage_functions.h"
+
+namespace frictab::run {
+
+namespace fs = std::filesystem;
+using table::Table;
+
+namespace {
+
+// A job called job.toml says nothing: its folder is the campaign's name then.
+std::string campaign_name(const std::string& job_file) {
+  const fs::path file(job_file);
+  const std::string folder = fs::absolute(file).parent_path().filename().string();
+  return file.filename() == "job.toml" && !folder.empty() ? folder : file.filename().string();
+}
+
+// Of the sources that this run made, else of those that lie in the directory.
+std::vector<report::Recipe> recipes_of(const Run& run) {
+  const std::vector<std::string> staged = run.workspace.files();
+  std::vector<report::Recipe> found;
+  for (const codegen::Exporter* exporter : codegen::exporters_named(run.job.exports.targets))
+    for (const Table& table : run.tables) {
+      const std::string path = export_directory(run, exporter->name, table) + "/recipe.json";
+      const fs::path file = std::find(staged.begin(), staged.end(), path) != staged.end()
+                                ? run.workspace.staged(path)
+                                : fs::path(run.job.directory) / path;
+      if (fs::exists(file)) found.push_back({path, io::read_file(file)});
+    }
+  return found;
+}
+
+} // namespace
+
+void write_report(Run& run) {
+  for (const char* optional : {"verify", "trace"})
+    if (!run.present.count(optional)) {
+      stage_named(optional).load(run, "report");
+      run.present.insert(optional);
+    }
+  std::vector<std::vector<double>> predicted;
+  for (const calibrate::ModelFit& fit : run.calibration->fits)
+    predicted.push_back(calibrate::predict(fit.model, run.data->judged()));
+  std::vector<verify::FormComparison> sizes;
+  for (const Table& table : run.tables)
+    sizes.push_back(verify::form_sizes(law_of(run, table), table));
+  std::vector<std::string> written = run.workspace.files();
+  written.insert(written.end(), {"report.html", "report.md"});
+  const report::ReportInput input{
+      campaign_name(run.job.file),
+      *run.calibration,
+      run.data->training,
+      run.data->judged(),
+      std::move(predicted),
+      run.tables,
+      *run.verification,
+      std::move(written),
+      std::move(sizes),
+      run.traces,
+      calibrate::errors_by_experiment(*run.calibration, run.data->training, run.data->judged()),
+      recipes_of(run)};
+  run.workspace.write("report.html", report::report_html(input));
+  run.workspace.write("report.md", report::report_md(input));
+  run.present.insert("report");
+}
+
+} // namespace frictab::run

@@ -1,0 +1,121 @@
+// What calibrated laws lack; laws with effects join the calibration.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "calibrate/comparison.h"
+#include "calibrate/recommended.h"
+#include "calibrate/row_errors.h"
+#include "core/error.h"
+#include "core/progress.h"
+#include "run/chosen.h"
+#include "run/stage_functions.h"
+#include "trace/trace_file.h"
+
+namespace frictab::run {
+
+using calibrate::Calibration;
+using calibrate::ModelFit;
+
+namespace {
+
+// A trace sorts experiments by name.
+std::vector<calibrate::ExperimentError>
+in_order_of(const std::vector<std::string>& names,
+            const std::vector<calibrate::ExperimentError>& errors) {
+  std::vector<calibrate::ExperimentError> sorted;
+  for (const std::string& name : names)
+    for (const calibrate::ExperimentError& one : errors)
+      if (one.experiment == name) sorted.push_back(one);
+  return sorted;
+}
+
+// Of few validation tests, which laws are ranked by, a traced law may come out behind the law that
+// its effects were added to; the left-out tests of the trace, by which they were, are more. True
+// where it was.
+bool put_before_its_law(std::vector<ModelFit>& fits, const trace::Trace& trace) {
+  const auto with_name = [&](const std::string& name) {
+    return std::find_if(fits.begin(), fits.end(),
+                        [&](const ModelFit& fit) { return fit.model.name() == name; });
+  };
+  const auto traced = with_name(trace.extended_model), own = with_name(trace.model);
+  if (trace.unseen == "validation" || traced == fits.end() || traced < own) return false;
+  traced->remarks.push_back(fmt::format(
+      "stands before {} by the {} left-out tests of its trace, {:.4g} MPa there against {:.4g}: "
+      "the validation tests are {}",
+      trace.model, trace.after.validation.n_experiments, trace.after.validation.mae_MPa,
+      trace.before.validation.mae_MPa, traced->validation.n_experiments));
+  std::rotate(own, traced, traced + 1);
+  return true;
+}
+
+std::vector<trace::Trace> traces_of(const Calibration& calibration, const JobData& data,
+                                    const job::Job& job) {
+  const auto fits = fits_to_trace(calibration, job.trace);
+  if (fits.empty())
+    throw InputError({job.file, 0, 0}, "trace.models names no law that was calibrated",
+                     "\"best\", or a name from the ranking");
+  const Progress progress("tracing", fits.size());
+  std::vector<trace::Trace> traces;
+  for (const ModelFit* fit : fits) {
+    with_rows_in_memory(data, [&] {
+      traces.push_back(trace::trace({data.training, data.validation, *fit, job.trace,
+                                     job.calibration.bootstrap, job.calibration.seed, data.all()}));
+    });
+    progress.tick();
+  }
+  return traces;
+}
+
+// The calibration with the laws that have effects, judged and ranked among the others.
+void add_traced_laws(Calibration& calibration, std::vector<trace::Trace>& traces,
+                     const calibrate::CalibrationInput& input) {
+  std::vector<ModelFit*> by_validation;
+  for (trace::Trace& trace : traces)
+    if (trace.extended.model.law && trace.extended.unseen.empty())
+      by_validation.push_back(&trace.extended);
+  calibrate::judge_on_rows(by_validation, input);
+  for (const trace::Trace& trace : traces) {
+    if (!trace.extended.model.law) continue;
+    ModelFit fit = trace.extended;
+    fit.unseen = in_order_of(calibration.validation_experiments, fit.unseen);
+    calibration.fits.push_back(std::move(fit));
+  }
+  std::stable_sort(calibration.fits.begin(), calibration.fits.end(),
+                   [](const ModelFit& a, const ModelFit& b) {
+                     return a.validation.mae_MPa < b.validation.mae_MPa;
+                   });
+  calibrate::add_comparisons(calibration, input);
+  std::vector<std::string> overruled; // by more tests than rank the laws
+  for (const trace::Trace& trace : traces)
+    if (put_before_its_law(calibration.fits, trace)) overruled.push_back(trace.model);
+  calibrate::add_recommended(calibration, input, overruled);
+}
+
+} // namespace
+
+void trace_laws(Run& run) {
+  Workspace& workspace = run.workspace;
+  const std::string data = run.data_fingerprint();
+  if (const Checkpoint* kept = workspace.checkpoint();
+      kept && kept->has_calibration(data) && kept->has("trace", data)) {
+    run.traces = kept->files().traces(); // its laws are in the calibration that was kept
+  } else {
+    std::erase_if(run.calibration->fits, // of an earlier trace
+                  [](const ModelFit& fit) { return fit.model.traced(); });
+    workspace.remove_earlier(workspace.earlier().model_files(), "models/");
+    run.traces = traces_of(*run.calibration, *run.data, run.job);
+    add_traced_laws(*run.calibration, run.traces, run.data->calibration_input(run.job));
+    write_calibration(run);
+    workspace.write("trace.json", trace::trace_json(run.traces, run.calibration->synthetic));
+  }
+  run.finish("trace");
+  workspace.save_checkpoint();
+}
+
+void load_traces(Run& run, std::string_view) {
+  run.workspace.check_as_written("trace", "trace.json");
+  run.traces = run.workspace.earlier().traces();
+}
+
+} // namespace frictab::run

@@ -1,0 +1,105 @@
+// Tables and routines against their laws, and both forms of a law against each other.
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "codegen/recipe.h"
+#include "core/progress.h"
+#include "run/law_accuracy.h"
+#include "run/stage_functions.h"
+
+namespace frictab::run {
+
+using table::Table;
+
+namespace {
+
+const codegen::SourceBundle& sources_in(Run& run, const std::string& directory) {
+  const auto [found, is_new] = run.sources.try_emplace(directory);
+  if (is_new) found->second = run.workspace.earlier().sources(directory);
+  return found->second;
+}
+
+// As the recipes say: of the table, or of the law itself.
+std::vector<verify::GeneratedSource> sources_of(Run& run, const Table& table, const Table& direct) {
+  std::vector<verify::GeneratedSource> sources;
+  for (const codegen::Exporter* exporter : codegen::exporters_named(run.job.exports.targets)) {
+    std::string directory = export_directory(run, exporter->name, table);
+    if (!run.sources.count(directory)) // of a run that may have had more tables
+      directory = run.workspace.earlier().source_directory(exporter->name, table.model);
+    const codegen::SourceBundle& bundle = sources_in(run, directory);
+    const bool of_law =
+        codegen::is_direct_recipe(bundle.at("recipe.json"), directory + "/recipe.json");
+    sources.push_back(
+        {exporter, export_request(run.job, exporter->name, of_law ? direct : table), bundle});
+  }
+  return sources;
+}
+
+std::vector<verify::DriftRecord> records_of(Run& run, const Table& table) {
+  const models::AssembledLaw law = law_of(run, table);
+  const Table direct = direct_form(law, table);
+  verify::VerifyInput input =
+      verify_input(run, law, table, run.job.directory + "/tables/" + table.model + ".h5");
+  const auto known = run.drift_of_tables.find(table.model);
+  if (known != run.drift_of_tables.end()) input.known = &known->second;
+  return verify::verify(input, sources_of(run, table, direct));
+}
+
+// Of whole tables, by a run that did not end.
+std::vector<verify::DriftRecord> kept_records(const Run& run) {
+  const Checkpoint* kept = run.workspace.checkpoint();
+  if (!kept || !kept->has_file("verify", "verify.json", run.data_fingerprint())) return {};
+  return kept->files().verification()->records;
+}
+
+} // namespace
+
+void verify_tables(Run& run) {
+  Workspace& workspace = run.workspace;
+  verify::Verification& verification = run.verification.emplace(
+      verify::Verification{0, {}, run.job.verify.require_proof, run.job.verify.require_run});
+  for (const Table& table : run.tables)
+    verification.max_drift_MPa =
+        std::max(verification.max_drift_MPa, drift_allowed(run, law_of(run, table).model).MPa);
+  workspace.begin("verify", run.data_fingerprint());
+  const std::vector<verify::DriftRecord> kept = kept_records(run);
+  Progress progress("verifying", run.tables.size());
+  for (const Table& table : run.tables) {
+    std::vector<verify::DriftRecord> records;
+    std::copy_if(kept.begin(), kept.end(), std::back_inserter(records),
+                 [&](const verify::DriftRecord& r) { return r.model == table.model; });
+    const bool is_kept = !records.empty();
+    if (!is_kept) records = records_of(run, table);
+    verification.records.insert(verification.records.end(), records.begin(), records.end());
+    if (!is_kept) {
+      workspace.write("verify.json", verify::verification_json(verification));
+      workspace.save_checkpoint();
+    }
+    progress.tick();
+  }
+  workspace.write("verify.json", verify::verification_json(verification));
+  workspace.write("verify.xml", verify::verification_junit(verification));
+  run.finish("verify");
+}
+
+void load_verification(Run& run, std::string_view wanted_by) {
+  run.workspace.check_as_written("verify", "verify.json");
+  const std::string why = run.workspace.record().stale("verify", run.data_fingerprint());
+  if (why.empty())
+    run.verification = run.workspace.earlier().verification();
+  else
+    run.notes.push_back(fmt::format("verify.json is not in the {}: {}", wanted_by, why));
+  if (!run.verification) run.verification.emplace();
+}
+
+void time_forms(Run& run) {
+  Progress progress("timing", run.tables.size());
+  for (const Table& table : run.tables) {
+    run.forms.push_back(verify::compare_forms(law_of(run, table), table));
+    progress.tick();
+  }
+}
+
+} // namespace frictab::run
