@@ -1,5 +1,5 @@
 // What tracing finds in synthetic campaigns whose truth is known: planted effects, hidden causes,
-// nothing at all. Prints markdown tables; the figures of docs/measurements.md come from here.
+// nothing at all. Prints markdown tables; research/results/tracing_twin.csv comes from here.
 //
 // usage: frictab_bench_trace [--nulls N] [--seeds N] [--strengths A,B] [--only TEXT] [--alpha A]
 //                            [--threads N] [--first-seed N] [--list]

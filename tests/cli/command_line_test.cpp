@@ -90,13 +90,13 @@ TEST(CommandLine, ExplainKnowsTopicsAndLastPartsOfKeys) {
               AllOf(HasSubstr("table.range\n"), HasSubstr("table.axes.*.range\n")));
 }
 
-TEST(CommandLine, ExitCodesAreThoseOfTheGuide) {
-  const std::string guide = io::read_file(FRICTAB_SOURCE_DIR "/docs/guide.md");
+TEST(CommandLine, ExitCodesAreThoseOfTheDocumentation) {
+  const std::string page = io::read_file(FRICTAB_SOURCE_DIR "/docs/jobs.md");
   const auto topic = nlohmann::json::parse(out_of({"explain", "exit-codes", "--json"}));
   EXPECT_GE(topic.at("codes").size(), 4U);
   for (const auto& code : topic.at("codes"))
-    EXPECT_THAT(guide, HasSubstr("| " + code.at("name").get<std::string>() + " | " +
-                                 code.at("meaning").get<std::string>() + " |\n"));
+    EXPECT_THAT(page, HasSubstr("| " + code.at("name").get<std::string>() + " | " +
+                                code.at("meaning").get<std::string>() + " |\n"));
 }
 
 TEST(CommandLine, HelpShowsOnlyOptionsThatDoSomethingAndAllAreTaken) {

@@ -1,8 +1,10 @@
 // The documentation says what is so: links lead somewhere, commands run, jobs can be read, no
-// target is left out.
+// target is left out. It is short, and its site can be built and searched.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -108,6 +110,84 @@ TEST(Docs, TheFirstPageIsShort) {
   EXPECT_LE(count, 700);
 }
 
+struct Paragraph {
+  std::size_t line;
+  std::vector<std::string> words;
+};
+
+// Each item of a list is one. Code, tables, headings and comments are left out.
+std::vector<Paragraph> paragraphs(const std::string& text) {
+  const std::regex item(R"(\s*([*-]|\d+\.) )");
+  std::vector<Paragraph> all;
+  std::istringstream lines(text);
+  bool code = false, goes_on = false;
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const bool fence = line.starts_with("```");
+    if (fence) code = !code;
+    if (fence || code || line.empty() || std::string("#|<").find(line[0]) != std::string::npos) {
+      goes_on = false;
+      continue;
+    }
+    std::smatch mark;
+    if (std::regex_search(line, mark, item, std::regex_constants::match_continuous)) {
+      goes_on = false;
+      line = mark.suffix().str();
+    }
+    if (!goes_on) all.push_back({number, {}});
+    goes_on = true;
+    std::istringstream words(line);
+    std::copy(std::istream_iterator<std::string>(words), {}, std::back_inserter(all.back().words));
+  }
+  return all;
+}
+
+// In words. A sentence ends in . ! or ?, where the next word is frictab or begins with no small
+// letter.
+std::size_t longest_sentence(const std::vector<std::string>& words) {
+  const std::regex end(R"re(.*[.!?][)"'*_`]*)re"), goes_on(R"re([(*_"]*(?!frictab)[a-z].*)re");
+  std::size_t longest = 0, length = 0;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    longest = std::max(longest, ++length);
+    if (std::regex_match(words[i], end) && i + 1 < words.size() &&
+        !std::regex_match(words[i + 1], goes_on))
+      length = 0;
+  }
+  return longest;
+}
+
+TEST(Docs, PagesSentencesAndParagraphsAreShort) {
+  std::size_t all_words = 0;
+  std::string of_pages;
+  std::multimap<double, std::string, std::greater<>> too_long; // by what they are of the limit
+  for (const fs::path& page : pages()) {
+    if (page.parent_path() != house / "docs") continue;
+    const std::string text = text_of(page), name = page.filename().string();
+    std::istringstream in(text);
+    const auto words = static_cast<std::size_t>(std::distance(
+        std::istream_iterator<std::string>(in), std::istream_iterator<std::string>()));
+    all_words += words;
+    of_pages += fmt::format("{} {}\n", name, words);
+    const auto expect_short = [&](const char* what, std::size_t length, std::size_t limit,
+                                  std::size_t line) {
+      if (length > limit)
+        too_long.emplace(double(length) / double(limit),
+                         fmt::format("docs/{}:{}: a {} of {} words", name, line, what, length));
+    };
+    for (const Paragraph& one : paragraphs(text)) {
+      expect_short("sentence", longest_sentence(one.words), 30, one.line);
+      expect_short("paragraph", one.words.size(), 90, one.line);
+    }
+  }
+  EXPECT_LE(all_words, 12000u) << of_pages;
+  std::string worst;
+  std::size_t shown = 0;
+  for (const auto& [share, text] : too_long)
+    if (++shown <= 20) worst += text + "\n";
+  EXPECT_EQ(too_long.size(), 0u) << "the worst:\n" << worst;
+}
+
 TEST(Docs, EveryCommandThatIsNamedExists) {
   std::set<std::string> commands;
   for (const fs::path& page : pages()) {
@@ -127,7 +207,7 @@ TEST(Docs, TheFirstPageNamesEveryTarget) {
 }
 
 TEST(Docs, JobsThatAreShownCanBeRead) {
-  for (const char* page : {"README.md", "docs/guide.md"})
+  for (const char* page : {"README.md", "docs/jobs.md", "docs/your-data.md"})
     for (const std::string& job : blocks(text_of(house / page), "toml"))
       EXPECT_NO_THROW(job::parse_job(job, page)) << job;
 }
@@ -159,12 +239,12 @@ void expect_printed(const std::string& shown, const std::string& printed) {
   }
 }
 
-TEST(SlowDocsExample, TheTutorialPrintsWhatItShows) {
+TEST(SlowDocsExample, TheFirstStepsPrintWhatTheyShow) {
   const test::TemporaryDirectory directory;
   const std::string program = fs::path(test::program()).parent_path().string();
   std::string printed;
   std::size_t run = 0, compared = 0;
-  for (const Block& block : all_blocks(text_of(house / "docs/tutorial.md")))
+  for (const Block& block : all_blocks(text_of(house / "docs/start.md")))
     if (block.language == "sh") {
       const auto result = test::run_command({"/bin/sh", "-ec", block.text}, directory.path(),
                                             {"PATH=" + program + ":/usr/bin:/bin"});
@@ -179,72 +259,61 @@ TEST(SlowDocsExample, TheTutorialPrintsWhatItShows) {
   EXPECT_GE(compared, 8u);
 }
 
-// The report of a synthetic campaign with an effect that tracing finds.
-std::string report_with_an_effect(const test::TemporaryDirectory& directory) {
-  const std::vector<std::vector<std::string>> commands = {
-      {"twin", "data", "--seed", "3", "--law", "log_coulomb", "--design",
-       "p=500,1625,2750;psi=1,5;v=5,500;T=20,200;points=40;validation=6", "--effect",
-       "form=saturation,column=s_mm,strength=0.3,x0=3"},
-      {"run", "data/job.toml", "--set", "models.use=log_coulomb", "--set", "export.targets=c"}};
-  for (const std::vector<std::string>& command : commands) {
-    const auto result = run_frictab(command, directory.path());
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-  }
-  return directory.path("data/out/report.html");
-}
-
-TEST(SlowDocsExample, TheSiteHasEveryPageAndNoLinkIsDead) {
-  if (test::run_command({FRICTAB_PYTHON, "-c", "import markdown"}).exit_code != 0)
-    GTEST_SKIP() << "Debian's python3-markdown is not installed";
+TEST(SlowDocsExample, TheSiteHasEveryPageWithSearchAndNoLinkIsDead) {
+  if (test::run_command({"/bin/sh", "-c", "command -v sphinx-build"}).exit_code != 0)
+    GTEST_SKIP() << "Debian's python3-sphinx is not installed";
   const test::TemporaryDirectory directory;
-  const std::string report = report_with_an_effect(directory);
-  const auto built = test::run_command(
-      {FRICTAB_PYTHON, (house / "docs/build").string(), directory.path("site"), report});
-  ASSERT_EQ(built.exit_code, 0) << built.err;
-  EXPECT_EQ(built.out,
-            fmt::format("wrote {} pages to {}\n", pages().size(), directory.path("site")));
-  std::size_t links = 0, plots = 0;
+  const fs::path site = directory.path("site");
+  const auto built = test::run_command({(house / "docs/build").string(), site.string()}, "",
+                                       {"FRICTAB=" + test::program()});
+  ASSERT_EQ(built.exit_code, 0) << built.err; // a warning of Sphinx is an error
+  std::size_t links = 0;
   for (const fs::path& page : pages()) {
-    fs::path place = fs::path(directory.path("site")) / fs::relative(page, house);
-    place.replace_extension(".html");
-    if (page == house / "README.md") place.replace_filename("index.html");
+    if (page.parent_path() != house / "docs") continue;
+    const std::string name = page.stem().string();
+    const fs::path place = site / (name + ".html");
     const std::string text = text_of(place);
-    EXPECT_NE(text.find("<main><h1"), text.npos) << place;
-    plots += matches(text, std::regex("<figure><svg class=\"plot\"")).size();
-    EXPECT_EQ(text.find("<p>| "), text.npos) << place << " has a table that is none";
-    EXPECT_EQ(text.find("<p>* "), text.npos) << place << " has a list that is none";
-    for (const auto& m : matches(text, std::regex("href=\"([^\"#]*)#?([^\"]*)\""))) {
-      if (m[1].str().find("://") != std::string::npos) continue;
-      const fs::path target = m[1].length() > 0 ? place.parent_path() / m[1].str() : place;
-      EXPECT_TRUE(fs::exists(target)) << place << " links to " << m[1];
-      if (m[2].length() > 0) {
-        EXPECT_NE(text_of(target).find("id=\"" + m[2].str() + "\""), std::string::npos)
+    const auto has = [&](const std::string& part) { return text.find(part) != text.npos; };
+    EXPECT_TRUE(has("action=\"search.html\"")) << place << " has no search";
+    EXPECT_EQ(has("class=\"prev-page\""), name != "index") << place;
+    EXPECT_EQ(has("class=\"next-page\""), name != "glossary") << place; // the last one
+    EXPECT_FALSE(has("<p>| ")) << place << " has a table that is none";
+    EXPECT_FALSE(has("<p>* ")) << place << " has a list that is none";
+    EXPECT_FALSE(has(house.string()) || has(directory.path())) << place << " has a path of here";
+    for (const auto& m : matches(text, std::regex("(href|src)=\"([^\"#?]*)[^\"#]*#?([^\"]*)\""))) {
+      if (m[2].str().find("://") != std::string::npos) continue;
+      const fs::path target = m[2].length() > 0 ? site / m[2].str() : place;
+      EXPECT_TRUE(fs::exists(target)) << place << " links to " << m[2];
+      if (m[3].length() > 0) {
+        EXPECT_NE(text_of(target).find("id=\"" + m[3].str() + "\""), std::string::npos)
             << place << " links to " << m[0];
       }
       ++links;
     }
   }
-  EXPECT_GE(plots, 4u);
   EXPECT_GE(links, 200u);
+  EXPECT_TRUE(fs::exists(site / "searchindex.js"));
+  const std::string keys = text_of(site / "reference.html"); // as the program documents them
+  for (const char* key : {"data.training", "table.tolerance_MPa", "trace.alpha"})
+    EXPECT_NE(keys.find(key), std::string::npos) << key;
 }
 
-TEST(SlowDocsExample, NoSiteIsWrittenWhereThePlotsOfItsPagesAreMissing) {
-  if (test::run_command({FRICTAB_PYTHON, "-c", "import markdown"}).exit_code != 0)
-    GTEST_SKIP() << "Debian's python3-markdown is not installed";
+TEST(Docs, NoSiteIsWrittenWithoutSphinxAndTheMessageNamesThePackage) {
   const test::TemporaryDirectory directory;
-  directory.write("report.html", "<style></style>");
-  const auto built = test::run_command({FRICTAB_PYTHON, (house / "docs/build").string(),
-                                        directory.path("site"), directory.path("report.html")});
+  const auto built =
+      test::run_command({"/bin/sh", (house / "docs/build").string(), directory.path("site")}, "",
+                        {"PATH=" + directory.path()});
   EXPECT_EQ(built.exit_code, 1);
   EXPECT_TRUE(built.err.starts_with("docs/build: error: ")) << built.err;
+  EXPECT_NE(built.err.find("python3-sphinx"), std::string::npos) << built.err;
   EXPECT_FALSE(fs::exists(directory.path("site")));
 }
 
-TEST(SlowDocsExample, CommandsOfTheGuideRun) {
+TEST(SlowDocsExample, CommandsThatAreShownRun) {
   const test::TemporaryDirectory directory;
   write_tests(directory);
   std::size_t run = 0;
-  for (const std::string& block : blocks(text_of(house / "docs/guide.md"), "sh"))
+  for (const std::string& block : blocks(text_of(house / "docs/jobs.md"), "sh"))
     for (const auto& m : matches(block, std::regex("frictab ([^#\n]*)"))) {
       std::istringstream words(m[1]);
       const std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};

@@ -37,7 +37,7 @@ void expect_whole(const fs::path& usr) {
        {"share/man/man1/frictab.1.gz", "share/man/man1/frictab-table-slice.1.gz",
         "share/bash-completion/completions/frictab", "share/zsh/vendor-completions/_frictab",
         "share/fish/vendor_completions.d/frictab.fish", "share/frictab/job.schema.json",
-        "share/doc/frictab/copyright", "share/doc/frictab/docs/guide.md",
+        "share/doc/frictab/copyright", "share/doc/frictab/docs/start.md",
         "share/doc/frictab/examples/04_ci_pipeline/verify.sh"})
     EXPECT_TRUE(fs::exists(usr / file)) << file;
   EXPECT_FALSE(fs::exists(usr / "share/doc/frictab/examples/01_synthetic_campaign/data"));
@@ -72,7 +72,7 @@ TEST(SlowPackage, InstalledOrUnpackedIsAWholeProgramThatNamesItsLibraries) {
 }
 
 // The Dockerfile is not run here: no test has a daemon. Its steps are those of .ci/build.
-TEST(Dockerfile, BuildsWithTheListedPackagesAndThePresetOfTheGuide) {
+TEST(Dockerfile, BuildsWithTheListedPackagesAndThePresetOfTheDocumentation) {
   const test::TemporaryDirectory directory;
   const CommandResult listed = run_command(
       {"sh", "-c", "sed '/^# tests/,$d; /^#/d' " FRICTAB_SOURCE_DIR "/apt-packages.txt"});
