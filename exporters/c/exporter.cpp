@@ -11,7 +11,6 @@
 #include "codegen/number_text.h"
 #include "codegen/prefix.h"
 #include "codegen/recipe.h"
-#include "codegen/single_precision.h"
 #include "codegen/table_text.h"
 #include "codegen/template.h"
 #include "codegen/values_file.h"
@@ -19,7 +18,6 @@
 #include "core/version.h"
 #include "io/json.h"
 #include "parts.h"
-#include "single.h"
 #include "table/axis_search.h"
 #include "table/spline.h"
 
@@ -159,7 +157,7 @@ std::string table_source(const ExportRequest& request, const std::vector<InputAr
 }
 
 std::string recipe(const ExportRequest& request, const std::vector<InputArgument>& inputs,
-                   const SourceBundle& files, const std::optional<RoundingBound>& single) {
+                   const SourceBundle& files) {
   nlohmann::ordered_json out = recipe_head(*find_exporter("c"), request, "frictab_tau_R", files);
   const std::string one = join(parameters(inputs, "double"), ", ");
   const std::string many = "size_t n, " + join(parameters(inputs, "const double*"), ", ");
@@ -177,7 +175,6 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
   if (!request.table.is_direct())
     out["compile_note"] = "with -march=native the same bits, in half the time where the table is "
                           "cubic; for the machine that runs it only";
-  if (single) out["single_precision"] = single_recipe(request, inputs, *single);
   out["input_deck"] = nullptr;
   out["table"] = recipe_table(request);
   return io::json_text(out);
@@ -191,27 +188,25 @@ SourceBundle generate(const ExportRequest& request) {
   files["frictab_tau_R.c"] =
       request.table.is_direct() ? direct_source(request, inputs) : table_source(request, inputs);
   add_values_file(files, request);
-  std::optional<RoundingBound> single;
-  if (wants_single(request)) {
-    check_single(request);
-    single = rounding_bound(request);
-    add_single(files, request, inputs, *single);
-  }
-  files["recipe.json"] = recipe(request, inputs, files, single);
+  files["recipe.json"] = recipe(request, inputs, files);
   return with_prefix(files, request);
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request) {
-  std::vector<BuildVariant> all = {build_of(request, "c99", "frictab_tau_R.c", 0x1p-53)};
-  if (wants_single(request))
-    all.push_back(build_of(request, single_variant, "frictab_tau_R_f32.c", 0x1p-24));
-  return all;
-}
-
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  const auto entry = built.variant.name == single_variant ? drive_single_entry : drive_entry;
-  entry(built, request, rows, columns, tau);
+  BuildVariant build;
+  build.name = "c99";
+  build.command = {"gcc",
+                   optimisation(request.table),
+                   "-std=c99",
+                   "-ffp-contract=off",
+                   "-fPIC",
+                   "-shared",
+                   "-o",
+                   "@{out}",
+                   "@{dir}/" + prefixed(request, "frictab_tau_R.c"),
+                   "-lm"};
+  build.eps = 0x1p-53;
+  return {build};
 }
 
 const char* const notes =
@@ -226,10 +221,10 @@ const Registered<Exporter> registered{[] {
                   .title = "C99 function",
                   .signature_source = "verified: ours, fixed by frictab's contract",
                   .notes = notes,
-                  .options = {values_option(), prefix_option(), precision_option()},
+                  .options = {values_option(), prefix_option()},
                   .generate = generate,
                   .variants = variants,
-                  .drive = drive,
+                  .drive = drive_entry,
                   .batch = batch_entry,
                   .several_laws = told_apart_by_prefix};
 }};

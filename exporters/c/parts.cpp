@@ -106,20 +106,15 @@ std::size_t index_of(const std::vector<InputArgument>& inputs, const std::string
   return i;
 }
 
-std::vector<std::string> sides(const Table& table, const Variables& variables, Outside kind,
-                               double rounding) {
+std::vector<std::string> sides(const Table& table, const Variables& variables, Outside kind) {
+  const bool refuses = kind == Outside::error;
   std::vector<std::string> tests;
   for (const table::AxisEnds& axis : table::axis_ends(table)) {
-    const bool refuses = kind == Outside::error;
     const std::string& x = variables.name(axis.name);
     if (axis.below == kind)
-      tests.push_back(
-          x + " < " +
-          c_number(refuses ? axis.refused_below : axis.low - rounding * std::abs(axis.low)));
+      tests.push_back(x + " < " + c_number(refuses ? axis.refused_below : axis.low));
     if (axis.above == kind)
-      tests.push_back(
-          x + " > " +
-          c_number(refuses ? axis.refused_above : axis.high + rounding * std::abs(axis.high)));
+      tests.push_back(x + " > " + c_number(refuses ? axis.refused_above : axis.high));
   }
   return tests;
 }
@@ -169,31 +164,12 @@ std::string value_comment(const Table& table) {
                   table.log_value ? "ln " : "", models::quantity_name(table.quantity)));
 }
 
-BuildVariant build_of(const ExportRequest& request, const std::string& variant,
-                      const std::string& file, double eps) {
-  BuildVariant build;
-  build.name = variant;
-  build.command = {"gcc",
-                   optimisation(request.table),
-                   "-std=c99",
-                   "-ffp-contract=off",
-                   "-fPIC",
-                   "-shared",
-                   "-o",
-                   "@{out}",
-                   "@{dir}/" + prefixed(request, file),
-                   "-lm"};
-  build.eps = eps;
-  return build;
-}
-
-std::string helpers(const std::string& text, const Scope& scope) {
+std::string helpers(const std::string& text) {
   const auto calls = [&](const char* helper) { return text.find(helper) != std::string::npos; };
   TemplateValues values;
   values.flags = {{"uses_min", calls("ft_min(")},
                   {"uses_max", calls("ft_max(")},
                   {"uses_where", calls("ft_where_le(")}};
-  values.text["function"] = scope.function;
   return without_last_break(render_template("c/frictab_helpers.c", values));
 }
 
@@ -219,12 +195,11 @@ std::string piece_gradient_call(const Table& table, const std::vector<InputArgum
 }
 
 std::vector<std::string> refusing_sides(const Table& table, const Variables& variables) {
-  return sides(table, variables, Outside::error, 0);
+  return sides(table, variables, Outside::error);
 }
 
-std::vector<std::string> extending_sides(const Table& table, const Variables& variables,
-                                         double rounding) {
-  return sides(table, variables, Outside::law, rounding);
+std::vector<std::string> extending_sides(const Table& table, const Variables& variables) {
+  return sides(table, variables, Outside::law);
 }
 
 namespace {

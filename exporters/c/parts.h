@@ -58,31 +58,17 @@ std::string optimisation(const table::Table& table);
 // Template texts end with a line break of their own.
 std::string without_last_break(std::string text);
 
-// gcc, for the file of this name in a bundle; `eps` as in BuildVariant.
-codegen::BuildVariant build_of(const codegen::ExportRequest& request, const std::string& variant,
-                               const std::string& file, double eps);
-
 // The names of the states of the law's own formula, in the order of the arguments.
 std::vector<std::string> piece_states(const table::Table& table,
                                       const std::vector<codegen::InputArgument>& inputs,
                                       const codegen::Variables& variables);
 
-// How a source declares what it does not export: "static" and "static const", or macros for device
-// code, which then has no clones of functions for wider vectors.
-struct Scope {
-  const char* function = "static";
-  const char* data = "static const";
-  bool clones = true;
-  const char* unit_error = "5e-15"; // of tanh by ft_unit, relative
-};
-
 // ft_min, ft_max, ft_where_le where `text` calls them.
-std::string helpers(const std::string& text, const Scope& scope = {});
+std::string helpers(const std::string& text);
 
 // The law's own formula as a function of the states, ft_piece; with its derivatives,
 // ft_piece_gradient; and a call of either, which may go over several lines.
-std::string piece(const table::Table& table, const std::vector<codegen::InputArgument>& inputs,
-                  const Scope& scope = {});
+std::string piece(const table::Table& table, const std::vector<codegen::InputArgument>& inputs);
 std::string piece_gradient(const table::Table& table,
                            const std::vector<codegen::InputArgument>& inputs);
 std::string piece_call(const table::Table& table, const std::vector<codegen::InputArgument>& inputs,
@@ -92,11 +78,11 @@ std::string piece_gradient_call(const table::Table& table,
                                 const codegen::Variables& variables);
 
 // "sigma_n_MPa < 4.5" for every side that refuses; "T_contact_C > 200.0" for every side where the
-// law goes on, beyond the end by more than `rounding` of its value.
+// law goes on.
 std::vector<std::string> refusing_sides(const table::Table& table,
                                         const codegen::Variables& variables);
 std::vector<std::string> extending_sides(const table::Table& table,
-                                         const codegen::Variables& variables, double rounding = 0);
+                                         const codegen::Variables& variables);
 
 // frictab_outside and frictab_count_outside.
 std::string outside_functions(const table::Table& table,

@@ -137,8 +137,7 @@ void add_lines(TemplateValues& values, const LayeredFormula& formula, const Stat
 
 } // namespace
 
-std::string piece(const Table& table, const std::vector<InputArgument>& inputs,
-                  const Scope& scope) {
+std::string piece(const Table& table, const std::vector<InputArgument>& inputs) {
   TemplateValues values;
   Law law = law_of(values, table, inputs);
   const Statements code = law.variables.statements(law.wanted);
@@ -146,10 +145,6 @@ std::string piece(const Table& table, const std::vector<InputArgument>& inputs,
   add_layer_data(values, law.formula.layer);
   values.text["quantity"] = models::quantity_name(table.quantity);
   values.text["parameters"] = law.states.empty() ? "void" : lines(law.states);
-  values.text["function"] = scope.function;
-  values.text["data"] = scope.data;
-  values.text["unit_error"] = scope.unit_error;
-  values.flags["clones"] = scope.clones;
   return without_last_break(render_template("c/frictab_piece.c", values));
 }
 

@@ -17,22 +17,22 @@ namespace {
 // effects.
 constexpr std::size_t most_arguments = 24;
 
-template <class Real, std::size_t> using Number = Real;
+template <std::size_t> using Number = double;
 
-template <class Real, std::size_t... I>
-Real call(void* function, const std::vector<Real>& x, std::index_sequence<I...>) {
-  return reinterpret_cast<Real (*)(Number<Real, I>...)>(function)(x[I]...);
+template <std::size_t... I>
+double call(void* function, const std::vector<double>& x, std::index_sequence<I...>) {
+  return reinterpret_cast<double (*)(Number<I>...)>(function)(x[I]...);
 }
 
-template <class Real> using Call = Real (*)(void*, const std::vector<Real>&);
+using Call = double (*)(void*, const std::vector<double>&);
 
-template <class Real, std::size_t N> Real call_with(void* function, const std::vector<Real>& x) {
+template <std::size_t N> double call_with(void* function, const std::vector<double>& x) {
   return call(function, x, std::make_index_sequence<N>{});
 }
 
-template <class Real, std::size_t... N>
-constexpr std::array<Call<Real>, sizeof...(N)> all_calls(std::index_sequence<N...>) {
-  return {call_with<Real, N>...};
+template <std::size_t... N>
+constexpr std::array<Call, sizeof...(N)> all_calls(std::index_sequence<N...>) {
+  return {call_with<N>...};
 }
 
 template <std::size_t> using Array = const double*;
@@ -72,40 +72,24 @@ void batch_entry(void* library, const ExportRequest& request, std::size_t rows,
                        tau.data());
 }
 
-namespace {
-
-template <class Real>
-void drive(const char* symbol, const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  static constexpr auto calls = all_calls<Real>(std::make_index_sequence<most_arguments + 1>{});
+void drive_entry(const Built& built, const ExportRequest& request, std::size_t rows,
+                 std::span<const double* const> columns, std::span<double> tau) {
+  static constexpr auto calls = all_calls(std::make_index_sequence<most_arguments + 1>{});
   const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
   const std::vector<std::string> needed = request.table.inputs();
   if (inputs.size() > most_arguments) throw std::runtime_error("too many arguments to call with");
-  void* function = Library::address(built.library, prefixed(request, symbol));
+  void* function = Library::address(built.library, prefixed(request, "frictab_tau_R"));
   const SolverUnit stress = solver_unit("MPa", request.units);
-  std::vector<Real> x(inputs.size(), 0);
+  std::vector<double> x(inputs.size(), 0);
   std::vector<std::size_t> argument_of(needed.size());
   for (std::size_t c = 0; c < needed.size(); ++c)
     while (inputs[argument_of[c]].name != needed[c])
       ++argument_of[c];
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t c = 0; c < needed.size(); ++c)
-      x[argument_of[c]] =
-          static_cast<Real>(inputs[argument_of[c]].solver.from_canonical(columns[c][row]));
+      x[argument_of[c]] = inputs[argument_of[c]].solver.from_canonical(columns[c][row]);
     tau[row] = stress.to_canonical(calls[inputs.size()](function, x));
   }
-}
-
-} // namespace
-
-void drive_entry(const Built& built, const ExportRequest& request, std::size_t rows,
-                 std::span<const double* const> columns, std::span<double> tau) {
-  drive<double>("frictab_tau_R", built, request, rows, columns, tau);
-}
-
-void drive_single_entry(const Built& built, const ExportRequest& request, std::size_t rows,
-                        std::span<const double* const> columns, std::span<double> tau) {
-  drive<float>("frictab_tau_R_f32", built, request, rows, columns, tau);
 }
 
 } // namespace frictab::codegen

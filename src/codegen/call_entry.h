@@ -9,11 +9,6 @@ namespace frictab::codegen {
 void drive_entry(const Built& built, const ExportRequest& request, std::size_t rows,
                  std::span<const double* const> columns, std::span<double> tau);
 
-// frictab_tau_R_f32 likewise: arguments are rounded to float, as a solver in single precision has
-// them.
-void drive_single_entry(const Built& built, const ExportRequest& request, std::size_t rows,
-                        std::span<const double* const> columns, std::span<double> tau);
-
 // frictab_tau_R_batch with these columns; as Exporter::batch.
 void batch_entry(void* library, const ExportRequest& request, std::size_t rows,
                  std::span<const double* const> columns, std::span<double> tau);

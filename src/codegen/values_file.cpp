@@ -9,7 +9,6 @@
 #include <zlib.h>
 
 #include "codegen/baked_table.h"
-#include "codegen/single_precision.h"
 #include "codegen/table_checks.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -86,7 +85,6 @@ void check_request_size(const table::Table& table, const std::vector<const Expor
       check_size(request);
     else
       check_table_size(table);
-    if (target->offers(precision_option().name)) check_single_size(request);
   }
 }
 

@@ -23,7 +23,7 @@ Outside usual_below(std::string_view axis);
 Outside below_pressures(const Table& table);
 
 // A solver in single precision misses an end by rounding: what lies beyond it by no more than this
-// part of the end's own value is not refused, and is the end for what computes in single precision.
+// part of the end's own value is not refused.
 inline constexpr double end_rounding = 1e-6;
 
 // The range of one axis, or of an input that is held, with what holds on either side of it.

@@ -1,7 +1,7 @@
 @if has_layer
-/* tanh x for |x| <= 19.1 to @{unit_error} of its value, without a branch: Lambert's continued fraction of
+/* tanh x for |x| <= 19.1 to 5e-15 of its value, without a branch: Lambert's continued fraction of
  * tanh(x/4), 8 terms, and the double-angle formula twice. Beyond, tanh is 1 to 5e-17. */
-@{function} inline double ft_unit(double x) {
+static inline double ft_unit(double x) {
   const double z = 0.25 * x, y = z * z;
   const double p = z * (2027025.0 + y * (270270.0 + y * (6930.0 + y * 36.0)));
   const double q = 2027025.0 + y * (945945.0 + y * (51975.0 + y * (630.0 + y)));
@@ -9,7 +9,6 @@
   return (p2 + p2) * q2 / (p2 * p2 + q2 * q2);
 }
 
-@if clones
 /* The wider vectors of processors that have them, chosen when the program starts; the same bits. */
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__GLIBC__)
 #define FT_WIDE __attribute__((target_clones("avx2", "default")))
@@ -17,31 +16,28 @@
 #define FT_WIDE
 #endif
 
-@end
 /* @{units} units of tanh, @{outputs} outputs of @{per_output} units each: unit u belongs to output u % @{outputs} */
 @for feature in features
-@{data} double ft_weight@{feature.index}[@{units}] = {
+static const double ft_weight@{feature.index}[@{units}] = {
 @{feature.weights}
 };
 @end
-@{data} double ft_bias[@{units}] = {
+static const double ft_bias[@{units}] = {
 @{bias}
 };
-@{data} double ft_gain[@{units}] = {
+static const double ft_gain[@{units}] = {
 @{gain}
 };
-@{data} double ft_offset[@{outputs}] = {
+static const double ft_offset[@{outputs}] = {
 @{offset}
 };
 
 @end
 /* The law's own @{quantity}, by its formula; held at the ends of the range on sides that clamp */
 @if has_layer
-@if clones
 FT_WIDE
 @end
-@end
-@{function} double ft_piece(
+static double ft_piece(
     @{parameters}) {
 @for input in held
   const double @{input.name} =

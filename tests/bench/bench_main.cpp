@@ -108,9 +108,6 @@ void print_ratios(const Times& times) {
     print_pair(times, ("2-D bicubic " + f + " to GSL").c_str(), "cubic/arbitrary/value/33x33/" + f,
                "cubic/arbitrary/value/33x33/gsl", "");
   }
-  for (const char* table : {"linear/4800", "linear/210681", "cubic/4800", "cubic/210681"})
-    print_pair(times, fmt::format("five arbitrary axes {}: float to double", table).c_str(),
-               fmt::format("single/{}/f32", table), fmt::format("single/{}/double", table), "");
   for (const char* other : {"file, one by one", "memory"})
     print_pair(times, fmt::format("values on disk, all states in one call, to {}", other).c_str(),
                "stored/210681/file", fmt::format("stored/210681/{}", other), "");

@@ -160,14 +160,6 @@ BatchEntries::BatchEntries(const Table& table, const std::string& target) {
       library_->find<std::remove_pointer_t<decltype(gradient)>>("frictab_tau_R_gradient_batch");
 }
 
-SingleEntry::SingleEntry(const Table& table) {
-  const codegen::Exporter& c = *codegen::find_exporter("c");
-  const codegen::ExportRequest request{table, "mm-t-s", {}, {{"precision", "single"}}};
-  library_ = std::make_unique<codegen::Library>(
-      codegen::compile_library(c.generate(request), c.variants(request).back(), directory_.path()));
-  value = library_->find<std::remove_pointer_t<decltype(value)>>("frictab_tau_R_f32_batch");
-}
-
 void write_generated(const std::filesystem::path& directory) {
   const Table table = random_table({17, 9, 9, 9, 17}, false, false);
   const auto write = [&](const std::string& name, const std::string& text) {

@@ -54,18 +54,6 @@ private:
   std::unique_ptr<codegen::Library> library_;
 };
 
-// The entry for many states of target `c` in single precision.
-class SingleEntry {
-public:
-  explicit SingleEntry(const table::Table& table);
-  using Array = const float*;
-  void (*value)(std::size_t, Array, Array, Array, Array, Array, Array, float*);
-
-private:
-  TemporaryDirectory directory_;
-  std::unique_ptr<codegen::Library> library_;
-};
-
 // For kernels_against_scipy.py: 210,681 nodes on arbitrary axes as table.json, and the C bundle.
 void write_generated(const std::filesystem::path& directory);
 

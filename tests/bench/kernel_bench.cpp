@@ -160,27 +160,6 @@ void add_batches(const std::string& name, const Table& table,
   }
 }
 
-// The batch entry in single precision beside that in double, over five arbitrary axes.
-void add_single(const std::string& grid, bool cubic) {
-  const Table table = random_table(grids.at(grid), false, cubic);
-  auto exact = std::make_shared<std::vector<double>>(states(5)); // axis by axis
-  auto rounded = std::make_shared<std::vector<float>>(exact->begin(), exact->end());
-  const std::string name = std::string("single/") + (cubic ? "cubic/" : "linear/") + grid;
-  const auto call = [](const auto& entry, const auto& x, auto* tau) {
-    const auto column = [&](std::size_t a) { return x.data() + a * queries; };
-    entry(queries, column(0), column(1), column(2), column(3), column(4), nullptr, tau);
-    benchmark::DoNotOptimize(tau);
-  };
-  const auto doubles = lazy<BatchEntries>(table, std::string("c"));
-  measure(name + "/double", queries, [=, tau = std::vector<double>(queries)]() mutable {
-    call(doubles().value, *exact, tau.data());
-  });
-  const auto singles = lazy<SingleEntry>(table);
-  measure(name + "/f32", queries, [=, tau = std::vector<float>(queries)]() mutable {
-    call(singles().value, *rounded, tau.data());
-  });
-}
-
 // The law of tests/support/kinked_law.h at 0.01 MPa: logarithms of three axes, lookup, exponential,
 // min; and the law itself.
 void add_kinked() {
@@ -236,9 +215,6 @@ const Registration kernels([] {
   add_gsl(gsl_interp2d_bilinear, "linear");
   add_gsl(gsl_interp2d_bicubic, "cubic");
   add_kinked();
-  for (const char* grid : {"4800", "210681"})
-    for (const bool cubic : {false, true})
-      add_single(grid, cubic);
 });
 
 } // namespace

@@ -81,22 +81,6 @@ TEST(Prefix, StandsInEveryNameOfTheBundleAndItsRecipe) {
     }
 }
 
-TEST(Prefix, HoldsForTheKernelInSinglePrecision) {
-  const codegen::Exporter& exporter = *codegen::find_exporter("c");
-  const Table table = test::four_axis_table();
-  const ExportRequest request{
-      table, "mm-t-s", {}, {{"prefix", "die_oil"}, {"precision", "single"}}};
-  const SourceBundle bundle = exporter.generate(request);
-  for (const auto& [path, text] : bundle)
-    EXPECT_THAT(text, testing::Not(testing::ContainsRegex("frictab_[^k]|FRICTAB_TAU"))) << path;
-  const codegen::BuildVariant single = exporter.variants(request).back();
-  const codegen::CompiledTarget built(exporter, request, bundle, single);
-  const test::States states(table, 500, 3, 0);
-  std::vector<double> tau(states.rows());
-  built.drive(states.rows(), states.columns(), tau);
-  EXPECT_LE(test::worst_relative(tau, test::expected(table, states)), 1e-5);
-}
-
 // ---- one user file ----
 
 struct Laws {
