@@ -32,14 +32,14 @@ ExportOption contact_fields_option() {
 }
 
 bool has_contact_fields(const ExportRequest& request) {
-  return request.said(fields_key).starts_with("vufield");
+  return request.option_or_empty(fields_key).starts_with("vufield");
 }
 
 std::string contact_fields_source(const ExportRequest& request) {
   TemplateValues values;
   values.text["stress"] = solver_unit("MPa", request.units).name;
   values.lists["source"] = fortran::comments({source_of_signature});
-  const bool windows = request.said(fields_key) == "vufield_windows";
+  const bool windows = request.option_or_empty(fields_key) == "vufield_windows";
   values.flags["windows"] = windows;
   values.text["locks"] = fortran::locks("fv", windows);
   return render_template("abaqus/frictab_vufield.f", values);

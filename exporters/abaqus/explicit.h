@@ -30,8 +30,8 @@ codegen::SolverGives force_gives(const ForceNames& names);
 
 // One history and one force per contact point.
 struct ForceRoutine {
-  codegen::Exporter about; // without options: force_exporter knows them
-  std::string entry;       // "vfric"
+  codegen::TargetDescription about; // without options: ForceTarget knows them
+  std::string entry;                // "vfric"
   codegen::SolverGives gives;
   std::string points;                 // "nContact"
   std::string time_increment;         // "dTimCur"
@@ -47,7 +47,27 @@ struct ForceRoutine {
 };
 
 // The target of such a routine; its templates are abaqus/<entry>/frictab_<entry>.f and driver.f.
-codegen::Exporter force_exporter(const ForceRoutine& routine);
+class ForceTarget : public codegen::RoutineTarget {
+protected:
+  explicit ForceTarget(const ForceRoutine& routine);
+
+private:
+  const codegen::SolverGives& gives(const codegen::ExportRequest&) const final {
+    return routine_.gives;
+  }
+  codegen::SourceBundle sources(const codegen::ExportRequest& request,
+                                const Inputs& inputs) const final;
+  void add_recipe(nlohmann::ordered_json& out, const codegen::ExportRequest& request,
+                  const Inputs& inputs) const final;
+  std::vector<codegen::BuildVariant> builds(const codegen::ExportRequest& request) const final;
+  codegen::Driver driver(const codegen::ExportRequest& request, const Inputs& inputs) const final;
+  void check(const codegen::ExportRequest& request, const Inputs& inputs) const final;
+  codegen::TemplateValues driver_values(const codegen::ExportRequest& request,
+                                        const Inputs& inputs) const final;
+  std::string quit() const final;
+
+  ForceRoutine routine_;
+};
 
 // What `explain` says about both alike: unknown states, state variables, precision, sides that
 // refuse.

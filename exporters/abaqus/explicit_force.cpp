@@ -167,49 +167,23 @@ std::vector<std::string> files_of(const ForceRoutine& routine, const ExportReque
   return files;
 }
 
-std::string arguments(const ForceRoutine& routine) {
-  return render_template("abaqus/" + routine.entry + "/arguments.f", {});
-}
-
-std::string source(const ForceRoutine& routine, const ExportRequest& request,
+std::string source(const ForceRoutine& routine, const Exporter& self, const ExportRequest& request,
                    const std::vector<SolverInput>& inputs) {
   const frictab::table::Table& table = request.table;
   const fortran::Core core = fortran::core(
       request, {.unknown = fortran::refuses(table) || fortran::needs_unknown(inputs, routine.gives),
                 .quit = quit(Solver::explicit_),
-                .summary = fortran::outside_summary(*find_exporter(routine.about.name), request),
+                .summary = fortran::outside_summary(self, request),
                 .directory_routine = directory_routine(Solver::explicit_)});
   const std::size_t n_x = std::max(core.n_x, inputs.size());
   TemplateValues values;
-  values.text = {{"head", explicit_head(*find_exporter(routine.about.name), request, inputs,
-                                        remarks(routine, request, inputs))},
-                 {"arguments", fortran::without_last_break(arguments(routine))},
+  values.text = {{"head", explicit_head(self, request, inputs, remarks(routine, request, inputs))},
+                 {"arguments", fortran::without_last_break(render_template(
+                                   "abaqus/" + routine.entry + "/arguments.f", {}))},
                  {"body", body(routine, request, inputs, n_x)},
                  {"point", point(routine, request, inputs, n_x)},
                  {"core", core.text}};
   return render_template("abaqus/" + routine.entry + "/" + file_of(routine), values);
-}
-
-void add_recipe(json& out, const ForceRoutine& routine, const ExportRequest& request,
-                const std::vector<SolverInput>& inputs) {
-  out["arguments"] = recipe_states(inputs);
-  out["arguments_note"] = routine.arguments_note;
-  out["result"] = {
-      {"name", "fTangential(1,k)"},
-      {"meaning", "-max(-tau_R*area, min(tau_R*area, fStickForce)); other components 0"}};
-  out["state_variables_by"] = routine.state_by;
-  json states = json::array();
-  for (const StateVariable& state : state_variables(request, inputs))
-    states.push_back({{"number", states.size() + 1},
-                      {"name", state.name},
-                      {"unit", state.unit},
-                      {"meaning", state.meaning}});
-  out["state_variables"] = states;
-  out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
-  add_compile(out, files_of(routine, request));
-  out["input_deck"] =
-      friction_lines(routine.user, state_count(inputs), inputs, speed_scale(request, inputs)) +
-      routine.deck_tail + field_lines(inputs) + contact_fields_lines(request);
 }
 
 } // namespace
@@ -247,41 +221,58 @@ std::string force_notes(const std::string& state_name, const std::string& state_
       explicit_states + shown_states, state_by, state_name);
 }
 
-Exporter force_exporter(const ForceRoutine& routine) {
-  Exporter about = routine.about;
-  about.options = {values_option(), speed_scale_option(), outside_summary_option(),
-                   contact_fields_option()};
-  const RoutineParts parts = {
-      .gives = [routine](const ExportRequest&) -> const SolverGives& { return routine.gives; },
-      .sources =
-          [routine](const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-            SourceBundle files = {{file_of(routine), source(routine, request, inputs)}};
-            if (has_contact_fields(request))
-              files[contact_fields_file] = contact_fields_source(request);
-            return files;
-          },
-      .recipe =
-          [routine](json& out, const ExportRequest& request,
-                    const std::vector<SolverInput>& inputs) {
-            add_recipe(out, routine, request, inputs);
-          },
-      .variants =
-          [routine](const ExportRequest& request) {
-            return explicit_variants(request, files_of(routine, request));
-          },
-      .drive =
-          [routine](const ExportRequest&, const std::vector<SolverInput>&) {
-            return explicit_driver(routine.gives, fortran::Coefficient::stress);
-          }};
-  return routine_exporter(
-      {.about = std::move(about),
-       .entry = routine.entry,
-       .parts = parts,
-       .check = check_contact_fields,
-       .driver_values = area_of_driver,
-       .arguments = [routine](const ExportRequest&) { return arguments(routine); },
-       .selector = routine.selector,
-       .quit = [] { return quit(Solver::explicit_); }});
+ForceTarget::ForceTarget(const ForceRoutine& routine)
+    : RoutineTarget(routine.about, routine.entry, routine.selector), routine_(routine) {
+  options = {values_option(), speed_scale_option(), outside_summary_option(),
+             contact_fields_option()};
+}
+
+SourceBundle ForceTarget::sources(const ExportRequest& request, const Inputs& inputs) const {
+  SourceBundle files = {{file_of(routine_), source(routine_, *this, request, inputs)}};
+  if (has_contact_fields(request)) files[contact_fields_file] = contact_fields_source(request);
+  return files;
+}
+
+void ForceTarget::add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const {
+  out["arguments"] = recipe_states(inputs);
+  out["arguments_note"] = routine_.arguments_note;
+  out["result"] = {
+      {"name", "fTangential(1,k)"},
+      {"meaning", "-max(-tau_R*area, min(tau_R*area, fStickForce)); other components 0"}};
+  out["state_variables_by"] = routine_.state_by;
+  json states = json::array();
+  for (const StateVariable& state : state_variables(request, inputs))
+    states.push_back({{"number", states.size() + 1},
+                      {"name", state.name},
+                      {"unit", state.unit},
+                      {"meaning", state.meaning}});
+  out["state_variables"] = states;
+  out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
+  add_compile(out, files_of(routine_, request));
+  out["input_deck"] =
+      friction_lines(routine_.user, state_count(inputs), inputs, speed_scale(request, inputs)) +
+      routine_.deck_tail + field_lines(inputs) + contact_fields_lines(request);
+}
+
+std::vector<BuildVariant> ForceTarget::builds(const ExportRequest& request) const {
+  return explicit_variants(request, files_of(routine_, request));
+}
+
+Driver ForceTarget::driver(const ExportRequest&, const Inputs&) const {
+  return explicit_driver(routine_.gives, fortran::Coefficient::stress);
+}
+
+void ForceTarget::check(const ExportRequest& request, const Inputs& inputs) const {
+  check_contact_fields(request, inputs);
+}
+
+TemplateValues ForceTarget::driver_values(const ExportRequest& request,
+                                          const Inputs& inputs) const {
+  return area_of_driver(request, inputs);
+}
+
+std::string ForceTarget::quit() const {
+  return abaqus::quit(Solver::explicit_);
 }
 
 } // namespace frictab::abaqus

@@ -156,9 +156,9 @@ std::string table_source(const ExportRequest& request, const std::vector<InputAr
   return render_template("c/frictab_tau_R.c", values);
 }
 
-std::string recipe(const ExportRequest& request, const std::vector<InputArgument>& inputs,
-                   const SourceBundle& files) {
-  nlohmann::ordered_json out = recipe_head(*find_exporter("c"), request, "frictab_tau_R", files);
+std::string recipe(const Exporter& self, const ExportRequest& request,
+                   const std::vector<InputArgument>& inputs, const SourceBundle& files) {
+  nlohmann::ordered_json out = recipe_head(self, request, "frictab_tau_R", files);
   const std::string one = join(parameters(inputs, "double"), ", ");
   const std::string many = "size_t n, " + join(parameters(inputs, "const double*"), ", ");
   out["prototypes"] = {"double frictab_tau_R(" + one + ")",
@@ -180,54 +180,53 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
   return io::json_text(out);
 }
 
-SourceBundle generate(const ExportRequest& request) {
-  check_request(request);
-  const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
-  SourceBundle files;
-  files["frictab_tau_R.h"] = header(request, inputs);
-  files["frictab_tau_R.c"] =
-      request.table.is_direct() ? direct_source(request, inputs) : table_source(request, inputs);
-  add_values_file(files, request);
-  files["recipe.json"] = recipe(request, inputs, files);
-  return with_prefix(files, request);
-}
-
-std::vector<BuildVariant> variants(const ExportRequest& request) {
-  BuildVariant build;
-  build.name = "c99";
-  build.command = {"gcc",
-                   optimisation(request.table),
-                   "-std=c99",
-                   "-ffp-contract=off",
-                   "-fPIC",
-                   "-shared",
-                   "-o",
-                   "@{out}",
-                   "@{dir}/" + prefixed(request, "frictab_tau_R.c"),
-                   "-lm"};
-  build.eps = 0x1p-53;
-  return {build};
-}
-
 const char* const notes =
     "One .c and one .h file, no allocation, no input or output (but for the values of a large "
     "table, see the option), safe from any thread. "
     "Arguments the law does not use are ignored. Compile with -ffp-contract=off and without "
     "-ffast-math: otherwise the bits that were verified are not the bits that run.";
 
-const Registered<Exporter> registered{[] {
-  return Exporter{.name = "c",
-                  .order = 10,
-                  .title = "C99 function",
-                  .signature_source = "verified: ours, fixed by frictab's contract",
-                  .notes = notes,
-                  .options = {values_option(), prefix_option()},
-                  .generate = generate,
-                  .variants = variants,
-                  .drive = drive_entry,
-                  .batch = batch_entry,
-                  .several_laws = told_apart_by_prefix};
-}};
+class CFunction final : public EntryTarget {
+public:
+  CFunction()
+      : EntryTarget({.name = "c",
+                     .order = 10,
+                     .title = "C99 function",
+                     .signature_source = "verified: ours, fixed by frictab's contract",
+                     .notes = notes,
+                     .options = {values_option(), prefix_option()}}) {}
+
+  SourceBundle generate(const ExportRequest& request) const override {
+    check_request(request);
+    const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
+    SourceBundle files;
+    files["frictab_tau_R.h"] = header(request, inputs);
+    files["frictab_tau_R.c"] =
+        request.table.is_direct() ? direct_source(request, inputs) : table_source(request, inputs);
+    add_values_file(files, request);
+    files["recipe.json"] = recipe(*this, request, inputs, files);
+    return with_prefix(files, request);
+  }
+
+  std::vector<BuildVariant> variants(const ExportRequest& request) const override {
+    BuildVariant build;
+    build.name = "c99";
+    build.command = {"gcc",
+                     optimisation(request.table),
+                     "-std=c99",
+                     "-ffp-contract=off",
+                     "-fPIC",
+                     "-shared",
+                     "-o",
+                     "@{out}",
+                     "@{dir}/" + prefixed(request, "frictab_tau_R.c"),
+                     "-lm"};
+    build.eps = 0x1p-53;
+    return {build};
+  }
+};
+
+const Registered<ExporterPointer> registered{make_exporter<CFunction>};
 
 } // namespace
 

@@ -132,10 +132,9 @@ std::string optimisation(const Table& table) {
   return table.is_direct() ? "-O3" : "-O2";
 }
 
-std::string recipe(const ExportRequest& request, const std::vector<InputArgument>& inputs,
-                   const SourceBundle& files) {
-  nlohmann::ordered_json out =
-      recipe_head(*find_exporter("fortran"), request, "frictab_tau_R", files);
+std::string recipe(const Exporter& self, const ExportRequest& request,
+                   const std::vector<InputArgument>& inputs, const SourceBundle& files) {
+  nlohmann::ordered_json out = recipe_head(self, request, "frictab_tau_R", files);
   std::vector<std::string> names;
   for (const InputArgument& input : inputs)
     names.push_back(input.argument);
@@ -160,47 +159,47 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
   return io::json_text(out);
 }
 
-SourceBundle generate(const ExportRequest& request) {
-  check_request(request);
-  const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
-  SourceBundle files;
-  files["frictab_tau_R.f90"] = source(request, inputs);
-  add_values_file(files, request);
-  files["recipe.json"] = recipe(request, inputs, files);
-  return with_prefix(files, request);
-}
-
-std::vector<BuildVariant> variants(const ExportRequest& request) {
-  BuildVariant build;
-  build.name = "f2008";
-  build.command = {"gfortran",   optimisation(request.table),
-                   "-std=f2008", "-ffp-contract=off",
-                   "-fPIC",      "-J@{dir}",
-                   "-shared",    "-o",
-                   "@{out}",     "@{dir}/" + prefixed(request, "frictab_tau_R.f90")};
-  build.eps = 0x1p-53;
-  return {build};
-}
-
 const char* const notes =
     "One free-form file with the module frictab_law: tau_R for numbers and arrays, and with C "
     "names frictab_tau_R, its derivatives, many states at once, and which axes are left. For "
     "programs of your own, and for solvers whose routine you write yourself; those with a target "
     "here have their argument list written already. No state, safe from any thread.";
 
-const Registered<Exporter> registered{[] {
-  return Exporter{.name = "fortran",
-                  .order = 15,
-                  .title = "Fortran 2008 module",
-                  .signature_source = "verified: ours, the C interface fixed by frictab's contract",
-                  .notes = notes,
-                  .options = {values_option(), prefix_option()},
-                  .generate = generate,
-                  .variants = variants,
-                  .drive = drive_entry,
-                  .batch = batch_entry,
-                  .several_laws = told_apart_by_prefix};
-}};
+class FortranModule final : public EntryTarget {
+public:
+  FortranModule()
+      : EntryTarget(
+            {.name = "fortran",
+             .order = 15,
+             .title = "Fortran 2008 module",
+             .signature_source = "verified: ours, the C interface fixed by frictab's contract",
+             .notes = notes,
+             .options = {values_option(), prefix_option()}}) {}
+
+  SourceBundle generate(const ExportRequest& request) const override {
+    check_request(request);
+    const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
+    SourceBundle files;
+    files["frictab_tau_R.f90"] = source(request, inputs);
+    add_values_file(files, request);
+    files["recipe.json"] = recipe(*this, request, inputs, files);
+    return with_prefix(files, request);
+  }
+
+  std::vector<BuildVariant> variants(const ExportRequest& request) const override {
+    BuildVariant build;
+    build.name = "f2008";
+    build.command = {"gfortran",   optimisation(request.table),
+                     "-std=f2008", "-ffp-contract=off",
+                     "-fPIC",      "-J@{dir}",
+                     "-shared",    "-o",
+                     "@{out}",     "@{dir}/" + prefixed(request, "frictab_tau_R.f90")};
+    build.eps = 0x1p-53;
+    return {build};
+  }
+};
+
+const Registered<ExporterPointer> registered{make_exporter<FortranModule>};
 
 } // namespace
 

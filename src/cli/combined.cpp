@@ -72,12 +72,12 @@ std::vector<const codegen::Exporter*> combining(const std::vector<std::string>& 
   std::vector<const codegen::Exporter*> out;
   std::vector<std::string> left_out;
   for (const codegen::Exporter* exporter : codegen::exporters_named(names))
-    if (exporter->combine)
+    if (exporter->combines())
       out.push_back(exporter);
     else
       left_out.push_back(exporter->name + " has no routine to combine: " +
-                         (exporter->whole() ? exporter->several_laws
-                                            : "the solver's own tables are one per contact"));
+                         (exporter->is_routine() ? exporter->several_laws
+                                                 : "the solver's own tables are one per contact"));
   if (out.empty()) throw InputError({}, join(left_out, "; "), "for example --targets abaqus_vfric");
   for (const std::string& line : left_out)
     note(common, "left out: " + line);
@@ -135,7 +135,7 @@ void read_recipe(Combined& out, const fs::path& file) {
       out.options.options = law.at("export").at("options").get<decltype(out.options.options)>();
     }
   });
-  if (!out.exporter || !out.exporter->combine)
+  if (!out.exporter || !out.exporter->combines())
     throw InputError({file.string(), 0, 0}, "this frictab has no such target", "export again");
 }
 

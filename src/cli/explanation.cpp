@@ -110,7 +110,7 @@ Explanation about(const effects::EffectForm& effect) {
 Explanation about(const codegen::Exporter& target) {
   Explanation out{target.name, "target", target.title, {}, "choices in [export.options]", {}};
   out.fields = {{"signature", target.signature_source}, {"notes", target.notes}};
-  if (target.combine) out.fields.push_back({"laws told apart by", target.several_laws});
+  if (target.combines()) out.fields.push_back({"laws told apart by", target.several_laws});
   for (const codegen::ExportOption& option : target.options) {
     Explanation::Item& item = out.items.emplace_back();
     item = {option.name, option.meaning, {}};

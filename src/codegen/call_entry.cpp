@@ -58,8 +58,12 @@ constexpr std::array<CallBatch, sizeof...(N)> all_batch_calls(std::index_sequenc
 
 } // namespace
 
-void batch_entry(void* library, const ExportRequest& request, std::size_t rows,
-                 std::span<const double* const> columns, std::span<double> tau) {
+EntryTarget::EntryTarget(TargetDescription description) : Exporter(std::move(description)) {
+  several_laws = "give each law names of its own, [export.options] prefix = \"die_oil\"";
+}
+
+void EntryTarget::batch(void* library, const ExportRequest& request, std::size_t rows,
+                        std::span<const double* const> columns, std::span<double> tau) const {
   static constexpr auto calls = all_batch_calls(std::make_index_sequence<most_arguments + 1>{});
   const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
   if (inputs.size() > most_arguments) throw std::runtime_error("too many arguments to call with");
@@ -72,8 +76,8 @@ void batch_entry(void* library, const ExportRequest& request, std::size_t rows,
                        tau.data());
 }
 
-void drive_entry(const Built& built, const ExportRequest& request, std::size_t rows,
-                 std::span<const double* const> columns, std::span<double> tau) {
+void EntryTarget::drive(const Built& built, const ExportRequest& request, std::size_t rows,
+                        std::span<const double* const> columns, std::span<double> tau) const {
   static constexpr auto calls = all_calls(std::make_index_sequence<most_arguments + 1>{});
   const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
   const std::vector<std::string> needed = request.table.inputs();

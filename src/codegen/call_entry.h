@@ -1,16 +1,21 @@
-// Calls an entry with the C interface of the contract, whatever language it is written in.
+// Targets with the C interface of the contract, whatever language they are written in.
 #pragma once
 
 #include "codegen/exporter.h"
 
 namespace frictab::codegen {
 
-// frictab_tau_R through its own argument list, one state at a time; as Exporter::drive.
-void drive_entry(const Built& built, const ExportRequest& request, std::size_t rows,
-                 std::span<const double* const> columns, std::span<double> tau);
+class EntryTarget : public Exporter {
+public:
+  explicit EntryTarget(TargetDescription description);
 
-// frictab_tau_R_batch with these columns; as Exporter::batch.
-void batch_entry(void* library, const ExportRequest& request, std::size_t rows,
-                 std::span<const double* const> columns, std::span<double> tau);
+  // frictab_tau_R through its own argument list, one state at a time.
+  void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+             std::span<const double* const> columns, std::span<double> tau) const final;
+  // frictab_tau_R_batch with these columns.
+  bool has_batch() const final { return true; }
+  void batch(void* library, const ExportRequest& request, std::size_t rows,
+             std::span<const double* const> columns, std::span<double> tau) const final;
+};
 
 } // namespace frictab::codegen

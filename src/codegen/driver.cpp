@@ -59,10 +59,10 @@ public:
 
   // Whether a contact point can be in the state of this row: not where the row contradicts itself;
   // NaN contradicts nothing.
-  bool row_can_be_posed(std::size_t row) const {
+  bool is_representable(std::size_t row) const {
     for (std::size_t i = 1; i < slips_.size(); ++i)
       if (slips_[i - 1][row] != slips_[i][row]) return false;
-    if (!histories_can_be_posed(inputs_, columns_, row)) return false;
+    if (!histories_are_representable(inputs_, columns_, row)) return false;
     if (driver_.zero_is_no_temperature && temperature_ && temperature_[row] == 0.0) return false;
     return !peak_ || !(peak_[row] < (pressure_ ? pressure_[row] : lowest_pressure()));
   }
@@ -209,7 +209,7 @@ void drive_routine(const Driver& driver, const std::vector<SolverInput>& inputs,
   const Routine routine(driver, inputs, built, request, columns);
   std::vector<std::size_t> asked;
   for (std::size_t row = 0; row < rows; ++row)
-    if (routine.row_can_be_posed(row)) asked.push_back(row);
+    if (routine.is_representable(row)) asked.push_back(row);
   for (const std::vector<std::size_t>& group :
        call_groups(inputs, std::move(asked), columns, driver.most_points))
     routine.run(group, tau);

@@ -28,13 +28,13 @@ struct Driver {
   std::size_t most_points = 1;                                // in a call of ftdriv
   // Where a law asks for the peak pressure and not for the pressure, the one stands for both.
   bool peak_presses = false;
-  // A temperature of exactly 0 says that there is none: no such row can be posed.
+  // A temperature of exactly 0 says that there is none: such a row cannot be represented.
   bool zero_is_no_temperature = false;
 };
 
 // As Exporter::drive; `inputs` are those of the driver's table for this request. Rows that
 // contradict themselves as the state of a contact point (two sliding distances, a peak below the
-// present pressure) keep what is in `tau`. Constants of the source are set where it has them in
+// present pressure) are left unchanged. Constants of the source are set where it has them in
 // COMMON /FTCONS/ (of one of several laws, /F1CONS/ and so on).
 void drive_routine(const Driver& driver, const std::vector<SolverInput>& inputs, const Built& built,
                    const ExportRequest& request, std::size_t rows,

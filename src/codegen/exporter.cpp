@@ -11,9 +11,23 @@
 
 namespace frictab::codegen {
 
+table::Table Exporter::own_table(const ExportRequest&, const SourceBundle&) const {
+  throw std::logic_error(name + " is a routine");
+}
+
+void Exporter::batch(void*, const ExportRequest&, std::size_t, std::span<const double* const>,
+                     std::span<double>) const {
+  throw std::logic_error(name + " has no batch entry");
+}
+
+CombinedBundle Exporter::combine(const std::vector<ExportRequest>&,
+                                 const std::vector<std::string>&) const {
+  throw std::logic_error(name + " combines no laws");
+}
+
 const std::string& Exporter::option(const ExportRequest& request, const std::string& wanted) const {
-  if (const auto said = request.options.find(wanted); said != request.options.end())
-    return said->second;
+  if (const auto given = request.options.find(wanted); given != request.options.end())
+    return given->second;
   for (const ExportOption& option : options)
     if (option.name == wanted) return option.allowed.front();
   throw std::logic_error(name + " has no option " + wanted);
@@ -34,12 +48,16 @@ std::vector<ExportOption> all_export_options() {
   return all;
 }
 
-const std::vector<Exporter>& all_exporters() {
-  return Registry<Exporter>::instance().all();
+std::vector<std::reference_wrapper<const Exporter>> all_exporters() {
+  std::vector<std::reference_wrapper<const Exporter>> all;
+  for (const ExporterPointer& exporter : Registry<ExporterPointer>::instance().all())
+    all.emplace_back(*exporter);
+  return all;
 }
 
 const Exporter* find_exporter(std::string_view name) {
-  return Registry<Exporter>::instance().find(name);
+  const ExporterPointer* found = Registry<ExporterPointer>::instance().find(name);
+  return found ? found->get() : nullptr;
 }
 
 std::vector<const Exporter*> exporters_named(const std::vector<std::string>& names) {

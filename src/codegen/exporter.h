@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/registry.h"
@@ -29,9 +31,8 @@ struct ExportRequest {
   std::string law_name = {};
   std::string law_stem = {};
 
-  // What the job says for an option; empty: nothing.
-  std::string said(const std::string& option) const {
-    const auto found = options.find(option);
+  std::string option_or_empty(const std::string& name) const {
+    const auto found = options.find(name);
     return found == options.end() ? "" : found->second;
   }
 };
@@ -74,50 +75,58 @@ struct CombinedBundle {
   std::vector<ExportRequest> laws; // with names and numbers
 };
 
-struct Exporter {
+// What lists and `explain` show of a target.
+struct TargetDescription {
   std::string name = {};
   int order = 0;
   std::string title = {};
   // Where the argument list comes from: "verified: ..." / "recalled: ..."
   std::string signature_source = {};
-  std::string notes = {}; // traps and limits, for `explain`
+  std::string notes = {}; // traps and limits
   std::vector<ExportOption> options = {};
+  std::string several_laws = {}; // what tells them apart; where nothing is combined, why
+};
+
+class Exporter : public TargetDescription {
+public:
+  explicit Exporter(TargetDescription description) : TargetDescription(std::move(description)) {}
+  virtual ~Exporter() = default;
 
   // All files with recipe.json. Throws InputError where the request cannot be met.
-  std::function<SourceBundle(const ExportRequest&)> generate = {};
-  std::function<std::vector<BuildVariant>(const ExportRequest&)> variants = {};
+  virtual SourceBundle generate(const ExportRequest& request) const = 0;
+  virtual std::vector<BuildVariant> variants(const ExportRequest& request) const = 0;
   // Calls the routine as its solver would, for rows of states in canonical units (columns in the
-  // order of request.table.inputs()), and gives tau_R in MPa; rows it cannot pose stay as they are.
-  std::function<void(const Built&, const ExportRequest&, std::size_t rows,
-                     std::span<const double* const> columns, std::span<double> tau)>
-      drive = {};
-  // A solver's own table, which has fewer axes than the law, instead of a routine: what the solver
-  // makes of these files, with the states that it holds as numbers. Null: a routine.
-  std::function<table::Table(const ExportRequest&, const SourceBundle&)> own_table = {};
+  // order of request.table.inputs()), and gives tau_R in MPa; rows that its arguments cannot
+  // represent are left unchanged.
+  virtual void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+                     std::span<const double* const> columns, std::span<double> tau) const = 0;
+
+  // A routine computes the law; otherwise the target is a solver's own table, which has fewer axes
+  // than the law: own_table() is what the solver makes of these files, with the states that it
+  // holds as numbers.
+  virtual bool is_routine() const { return true; }
+  virtual table::Table own_table(const ExportRequest& request, const SourceBundle& files) const;
   // The states of request.table.inputs() that these files hold, at which values (canonical): those
-  // that the solver's own table has no column for; those that the job says are constants. Null:
-  // none ever.
-  std::function<table::HeldStates(const ExportRequest&)> held = {};
+  // that the solver's own table has no column for; those that the job fixes as constants.
+  virtual table::HeldStates held(const ExportRequest&) const { return {}; }
   // Whether the solver gets a coefficient mu and multiplies it by the pressure: at most
-  // fortran::largest_coefficient then. Null: never.
-  std::function<bool(const ExportRequest&)> gives_mu = {};
-  // What a user has to know of these files before taking them; empty: nothing. Null: never.
-  std::function<std::string(const ExportRequest&)> caution = {};
+  // fortran::largest_coefficient then.
+  virtual bool gives_mu(const ExportRequest&) const { return false; }
+  // What a user has to know of these files before taking them; empty: nothing.
+  virtual std::string caution(const ExportRequest&) const { return ""; }
+
   // Its own entry for many states at once, in the units of the request and without any conversion:
-  // what a benchmark calls. Null where the target has none.
-  void (*batch)(void* library, const ExportRequest&, std::size_t rows,
-                std::span<const double* const> columns, std::span<double> tau) = nullptr;
+  // what a benchmark calls. Throws std::logic_error where the target has none.
+  virtual bool has_batch() const { return false; }
+  virtual void batch(void* library, const ExportRequest& request, std::size_t rows,
+                     std::span<const double* const> columns, std::span<double> tau) const;
 
   // Several laws in one user file (codegen/combine.h), for requests with these names: the bundle,
-  // and the requests by which a variant of it is built and driven for one of the laws. Null: the
-  // target has no such file.
-  std::function<CombinedBundle(const std::vector<ExportRequest>&,
-                               const std::vector<std::string>& names)>
-      combine = {};
-  std::string several_laws = {}; // what tells them apart; where nothing is combined, why
-
-  // A routine, which is the law's; not so a table of the solver's, made from the law for it.
-  bool whole() const { return !own_table; }
+  // and the requests by which a variant of it is built and driven for one of the laws. Throws
+  // std::logic_error where the target has no such file.
+  virtual bool combines() const { return false; }
+  virtual CombinedBundle combine(const std::vector<ExportRequest>& requests,
+                                 const std::vector<std::string>& names) const;
 
   bool offers(std::string_view option) const;
 
@@ -125,10 +134,16 @@ struct Exporter {
   const std::string& option(const ExportRequest& request, const std::string& name) const;
 };
 
+// `const Registered<ExporterPointer> registered{make_exporter<Fric>};` adds a target.
+using ExporterPointer = std::unique_ptr<const Exporter>;
+template <class Target> ExporterPointer make_exporter() {
+  return std::make_unique<const Target>();
+}
+
 // Those of all targets, each once.
 std::vector<ExportOption> all_export_options();
 
-const std::vector<Exporter>& all_exporters();
+std::vector<std::reference_wrapper<const Exporter>> all_exporters();
 const Exporter* find_exporter(std::string_view name);
 
 // Each once, in the order of the registry; "all" stands for all. Throws InputError for a name that

@@ -197,20 +197,20 @@ void CurvedRequest::drive(std::size_t rows, std::span<const double* const> colum
                           std::span<double> tau, const Drive& drive) const {
   if (!curved_) return drive(rows, columns, tau);
   const std::vector<double> strain_of = strains(rows, columns);
-  std::vector<std::size_t> posed;
+  std::vector<std::size_t> asked;
   for (std::size_t row = 0; row < rows; ++row)
-    if (!std::isnan(strain_of[row])) posed.push_back(row);
+    if (!std::isnan(strain_of[row])) asked.push_back(row);
   std::vector<std::vector<double>> states;
   for (const std::string& name : table_.inputs())
     states.push_back(picked(
-        name == strain_name ? strain_of : column_of(original_.table, name, rows, columns), posed));
+        name == strain_name ? strain_of : column_of(original_.table, name, rows, columns), asked));
   std::vector<const double*> pointers;
   for (const std::vector<double>& one : states)
     pointers.push_back(one.data());
-  std::vector<double> answers = picked({tau.begin(), tau.end()}, posed);
-  drive(posed.size(), pointers, answers);
-  for (std::size_t i = 0; i < posed.size(); ++i)
-    tau[posed[i]] = answers[i];
+  std::vector<double> answers = picked({tau.begin(), tau.end()}, asked);
+  drive(asked.size(), pointers, answers);
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    tau[asked[i]] = answers[i];
 }
 
 } // namespace frictab::codegen

@@ -7,9 +7,9 @@
 //
 // in strain (equivalent plastic strain, from 0), the contact temperature and other states of the
 // law. It takes the place of sigma_f_MPa in the law's formula, so that values, derivatives and
-// every source follow from it as from any formula. Verified like any: a row is posed at the
+// every source follow from it as from any formula. Verified like any: a row is asked at the
 // smallest strain at which the curve gives its flow stress; rows at which none up to `most_strain`
-// does are none that this simulation can meet.
+// does cannot be represented.
 #pragma once
 
 #include <functional>
@@ -36,8 +36,8 @@ public:
 
   const ExportRequest& get() const { return curved_ ? *curved_ : original_; }
 
-  // Calls `drive` with the rows that can be posed, as columns of get().table.inputs(); `columns`
-  // are those of the original's. The others keep what is in `tau`.
+  // Calls `drive` with the rows that can be represented, as columns of get().table.inputs();
+  // `columns` are those of the original's. The others are left unchanged.
   using Drive = std::function<void(std::size_t, std::span<const double* const>, std::span<double>)>;
   void drive(std::size_t rows, std::span<const double* const> columns, std::span<double> tau,
              const Drive& drive) const;

@@ -295,8 +295,8 @@ std::vector<double> history_values(const std::vector<SolverInput>& inputs,
   return values;
 }
 
-bool histories_can_be_posed(const std::vector<SolverInput>& inputs,
-                            std::span<const double* const> columns, std::size_t row) {
+bool histories_are_representable(const std::vector<SolverInput>& inputs,
+                                 std::span<const double* const> columns, std::size_t row) {
   const double* time = nullptr;
   for (std::size_t c = 0; c < columns.size(); ++c)
     if (is(inputs[c], C::per_time)) time = columns[c];

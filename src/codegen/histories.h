@@ -103,10 +103,10 @@ TemplateValues area_of_driver(const ExportRequest&, const std::vector<SolverInpu
 std::vector<double> history_values(const std::vector<SolverInput>& inputs,
                                    std::span<const double* const> columns, std::size_t row);
 
-// Whether there are such ones: a peak is not below the present value (0 where the law does not take
-// it and it is no constant), a mean needs time, a load over its peak a load that the law takes, and
-// a load rises or falls.
-bool histories_can_be_posed(const std::vector<SolverInput>& inputs,
-                            std::span<const double* const> columns, std::size_t row);
+// Whether a contact point can have these histories: a peak is not below the present value (0 where
+// the law does not take it and it is no constant), a mean needs time, a load over its peak a load
+// that the law takes, and a load rises or falls.
+bool histories_are_representable(const std::vector<SolverInput>& inputs,
+                                 std::span<const double* const> columns, std::size_t row);
 
 } // namespace frictab::codegen

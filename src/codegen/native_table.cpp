@@ -409,48 +409,40 @@ table::Table native_as_table(const NativeForm& form, const NativeValues& values,
   return out;
 }
 
-namespace {
+SourceBundle NativeTarget::generate(const ExportRequest& request) const {
+  const NativeForm native = form(request);
+  const NativeTable table = native_table(request, native);
+  SourceBundle files = {
+      {text_.file, write(request, table, native_comments(*this, request, native, table))}};
+  files["recipe.json"] =
+      native_recipe(*this, request, native, table, files, text_.entry, text_.input_deck);
+  return files;
+}
 
-std::vector<BuildVariant> native_variants() {
+std::vector<BuildVariant> NativeTarget::variants(const ExportRequest&) const {
   BuildVariant deck;
   deck.name = "deck";
   deck.eps = 5e-9; // nine digits
   return {deck};
 }
 
-SourceBundle bundle(const NativeTarget& target, const ExportRequest& request) {
-  const Exporter& self = *find_exporter(target.about.name);
-  const NativeForm form = target.form(request);
-  const NativeTable table = native_table(request, form);
-  SourceBundle files = {
-      {target.file, target.write(request, table, native_comments(self, request, form, table))}};
-  files["recipe.json"] =
-      native_recipe(self, request, form, table, files, target.entry, target.input_deck);
-  return files;
+void NativeTarget::drive(const Built& built, const ExportRequest& request, std::size_t rows,
+                         std::span<const double* const> columns, std::span<double> tau) const {
+  const NativeValues values = read(io::read_file(built.directory / text_.file), request);
+  drive_native(form(request), values, request, rows, columns, tau);
 }
 
-} // namespace
+bool NativeTarget::gives_mu(const ExportRequest& request) const {
+  return form(request).factor == NativeFactor::pressure;
+}
 
-Exporter native_exporter(const NativeTarget& target) {
-  Exporter out = target.about;
-  out.generate = [target](const ExportRequest& request) { return bundle(target, request); };
-  out.variants = [](const ExportRequest&) { return native_variants(); };
-  out.drive = [target](const Built& built, const ExportRequest& request, std::size_t rows,
-                       std::span<const double* const> columns, std::span<double> tau) {
-    const NativeValues values = target.read(io::read_file(built.directory / target.file), request);
-    drive_native(target.form(request), values, request, rows, columns, tau);
-  };
-  out.gives_mu = [target](const ExportRequest& request) {
-    return target.form(request).factor == NativeFactor::pressure;
-  };
-  out.own_table = [target](const ExportRequest& request, const SourceBundle& files) {
-    return native_as_table(target.form(request), target.read(files.at(target.file), request),
-                           request);
-  };
-  out.held = [target](const ExportRequest& request) {
-    return native_held(request, target.form(request));
-  };
-  return out;
+table::Table NativeTarget::own_table(const ExportRequest& request,
+                                     const SourceBundle& files) const {
+  return native_as_table(form(request), read(files.at(text_.file), request), request);
+}
+
+table::HeldStates NativeTarget::held(const ExportRequest& request) const {
+  return native_held(request, form(request));
 }
 
 } // namespace frictab::codegen

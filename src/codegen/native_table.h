@@ -3,7 +3,7 @@
 // and read back.
 #pragma once
 
-#include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -78,35 +78,54 @@ table::Table native_as_table(const NativeForm& form, const NativeValues& values,
 void drive_native(const NativeForm& form, const NativeValues& values, const ExportRequest& request,
                   std::size_t rows, std::span<const double* const> columns, std::span<double> tau);
 
-// A target of this kind: what its text is called, how it is written and read back.
-struct NativeTarget {
-  Exporter about;   // name, order, title, signature_source, notes, options
-  std::string file; // "frictab_friction.k"
-  std::function<NativeForm(const ExportRequest&)> form;
-  std::function<std::string(const ExportRequest&, const NativeTable&,
-                            const std::vector<std::string>& comments)>
-      write;
-  // Throws std::runtime_error where the text is not what was written.
-  std::function<NativeValues(const std::string& text, const ExportRequest&)> read;
+// What the text of such a target is called, in its recipe and by `frictab table convert`.
+struct NativeText {
+  std::string file;       // "frictab_friction.k"
   std::string entry;      // for the recipe: "*FRICTION"
   std::string input_deck; // lines to be pasted
-  // For `frictab table convert`.
   std::string plain_name;
   int plain_order = 0;
   std::string plain_title;
 };
 
-// Nothing is compiled: the text is read.
-Exporter native_exporter(const NativeTarget& target);
+// A target of this kind: nothing is compiled, the text is read.
+class NativeTarget : public Exporter {
+public:
+  SourceBundle generate(const ExportRequest& request) const final;
+  std::vector<BuildVariant> variants(const ExportRequest& request) const final;
+  void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+             std::span<const double* const> columns, std::span<double> tau) const final;
+  bool is_routine() const final { return false; }
+  table::Table own_table(const ExportRequest& request, const SourceBundle& files) const final;
+  table::HeldStates held(const ExportRequest& request) const final;
+  bool gives_mu(const ExportRequest& request) const final;
 
-// The same text, with what the command holds as constants. Refuses (InputError) a state that is
-// neither held nor a column.
-table::PlainFormat native_plain_format(const NativeTarget& target);
+  // The same text as `table convert` writes it, with what the command holds as constants. Throws
+  // InputError for a state that is neither held nor a column.
+  std::string plain_text(const table::PlainRequest& request) const;
+  const NativeText& text() const { return text_; }
 
-// `const RegisteredNative<target> registered;` at the end of a target's file registers both.
-template <NativeTarget (*target)()> struct RegisteredNative {
-  Registered<Exporter> exporter{[] { return native_exporter(target()); }};
-  Registered<table::PlainFormat> plain_format{[] { return native_plain_format(target()); }};
+protected:
+  NativeTarget(TargetDescription description, NativeText text)
+      : Exporter(std::move(description)), text_(std::move(text)) {}
+
+private:
+  virtual NativeForm form(const ExportRequest& request) const = 0;
+  virtual std::string write(const ExportRequest& request, const NativeTable& table,
+                            const std::vector<std::string>& comments) const = 0;
+  // Throws std::runtime_error where the text is not what was written.
+  virtual NativeValues read(const std::string& text, const ExportRequest& request) const = 0;
+
+  NativeText text_;
+};
+
+table::PlainFormat native_plain_format(const std::shared_ptr<const NativeTarget>& target);
+
+// `const RegisteredNative<Target> registered;` at the end of a target's file registers both.
+template <class Target> struct RegisteredNative {
+  Registered<ExporterPointer> exporter{make_exporter<Target>};
+  Registered<table::PlainFormat> plain_format{
+      [] { return native_plain_format(std::make_shared<Target>()); }};
 };
 
 // What the notes of every such target say of a state that is no column.

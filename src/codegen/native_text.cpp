@@ -134,16 +134,13 @@ std::string native_recipe(const Exporter& exporter, const ExportRequest& request
   return io::json_text(out);
 }
 
-namespace {
-
-std::string plain_text(const table::PlainRequest& request, const NativeTarget& target) {
+std::string NativeTarget::plain_text(const table::PlainRequest& request) const {
   std::vector<std::string> columns;
   ExportRequest asked{request.table, "mm-t-s", {}};
   for (const auto& [name, value] : request.held)
     asked.inputs[name] = "constant:" + shortest(value);
   const ExportRequest whole{request.table, "mm-t-s", {}};
-  const std::vector<NativeColumn> all = native_columns(whole, target.form(whole));
-  for (const NativeColumn& column : all) {
+  for (const NativeColumn& column : native_columns(whole, form(whole))) {
     columns.push_back(column.argument.name);
     const bool given = column.state == "sigma_n_MPa" || column.state == "v_rel_mm_s";
     if (given && request.held.count(column.argument.name))
@@ -151,15 +148,14 @@ std::string plain_text(const table::PlainRequest& request, const NativeTarget& t
                        "leave out --at " + column.argument.name);
   }
   table::check_all_known(request.table, request.held, columns);
-  return find_exporter(target.about.name)->generate(asked).at(target.file);
+  return generate(asked).at(text_.file);
 }
 
-} // namespace
-
-table::PlainFormat native_plain_format(const NativeTarget& target) {
-  return {target.plain_name, target.plain_order, target.plain_title, target.about.signature_source,
+table::PlainFormat native_plain_format(const std::shared_ptr<const NativeTarget>& target) {
+  const NativeText& text = target->text();
+  return {text.plain_name, text.plain_order, text.plain_title, target->signature_source,
           [target](const table::PlainRequest& request, std::ostream& out) {
-            out << plain_text(request, target);
+            out << target->plain_text(request);
           }};
 }
 

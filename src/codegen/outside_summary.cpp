@@ -50,7 +50,7 @@ ExportOption outside_summary_option() {
 }
 
 std::string fortran::outside_summary(const Exporter& exporter, const ExportRequest& request) {
-  const std::string said = request.said(summary_key);
+  const std::string said = request.option_or_empty(summary_key);
   const std::vector<table::AxisEnds> ends = table::all_ends(request.table);
   if (!exporter.offers(summary_key) || said.empty() || said == "none" || ends.empty()) return "";
   TemplateValues values;

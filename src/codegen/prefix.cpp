@@ -56,7 +56,7 @@ ExportOption prefix_option() {
 
 std::string prefix(const ExportRequest& request) {
   if (!request.law_stem.empty()) return fmt::format("{}_{}", usual_prefix, request.law_stem);
-  const std::string said = request.said(prefix_name);
+  const std::string said = request.option_or_empty(prefix_name);
   return said.empty() ? usual_prefix : said;
 }
 

@@ -12,10 +12,6 @@ namespace frictab::codegen {
 // Of targets whose sources are linked into programs of all kinds.
 ExportOption prefix_option();
 
-// Exporter::several_laws of targets whose functions a program of the user's own calls.
-inline constexpr const char* told_apart_by_prefix =
-    "give each law names of its own, [export.options] prefix = \"die_oil\"";
-
 // What the request says; "frictab" where it says nothing; "frictab_f2" of one of several laws of a
 // user file.
 std::string prefix(const ExportRequest& request);

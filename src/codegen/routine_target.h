@@ -1,8 +1,6 @@
 // A target whose solver calls a Fortran routine: what is left to say once its parts are there.
 #pragma once
 
-#include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -16,38 +14,49 @@
 
 namespace frictab::codegen {
 
-// What every routine has: `.parts = {gives, sources, add_recipe, variants, driver}`.
-struct RoutineParts {
+// A target named `marc_ufric` has its templates in marc/ufric; driver.f there calls the routine.
+class RoutineTarget : public Exporter {
+public:
+  SourceBundle generate(const ExportRequest& request) const final;
+  std::vector<BuildVariant> variants(const ExportRequest& request) const final;
+  void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+             std::span<const double* const> columns, std::span<double> tau) const final;
+  table::HeldStates held(const ExportRequest& request) const final;
+  bool gives_mu(const ExportRequest& request) const final;
+  bool combines() const final { return !selector_.argument.empty(); }
+  CombinedBundle combine(const std::vector<ExportRequest>& requests,
+                         const std::vector<std::string>& names) const final;
+
+protected:
+  using Inputs = std::vector<SolverInput>;
+
+  // `entry`: "ufric"; `selector`: which of the arguments tells several laws apart.
+  RoutineTarget(TargetDescription description, std::string entry, LawSelector selector);
+
+private:
   // What the solver gives; may depend on the job's [export.options].
-  std::function<const SolverGives&(const ExportRequest&)> gives;
+  virtual const SolverGives& gives(const ExportRequest& request) const = 0;
   // The sources by name, without values file and recipe.
-  std::function<SourceBundle(const ExportRequest&, const std::vector<SolverInput>&)> sources;
+  virtual SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const = 0;
   // Adds to recipe.json what stands between its head and the table.
-  std::function<void(nlohmann::ordered_json&, const ExportRequest&,
-                     const std::vector<SolverInput>&)>
-      recipe;
-  std::function<std::vector<BuildVariant>(const ExportRequest&)> variants; // without the driver
-  std::function<Driver(const ExportRequest&, const std::vector<SolverInput>&)> drive;
-};
+  virtual void add_recipe(nlohmann::ordered_json& out, const ExportRequest& request,
+                          const Inputs& inputs) const = 0;
+  virtual std::vector<BuildVariant> builds(const ExportRequest& request) const = 0; // no driver yet
+  virtual Driver driver(const ExportRequest& request, const Inputs& inputs) const = 0;
+  // Throws InputError for inputs that the routine cannot take.
+  virtual void check(const ExportRequest&, const Inputs&) const {}
+  // What the driver's template is filled with.
+  virtual TemplateValues driver_values(const ExportRequest&, const Inputs&) const { return {}; }
+  // The head of the entry: argument list and declarations of the arguments.
+  virtual std::string arguments(const ExportRequest& request) const;
+  // ftquit of fortran::Core, for a contact that none of several laws is for.
+  virtual std::string quit() const { return ""; }
 
-// Its name is `marc_ufric`, so the template of its driver is marc/ufric/driver.f.
-struct RoutineTarget {
-  Exporter about;    // name, order, title, signature_source, notes, options
-  std::string entry; // "ufric"
-  RoutineParts parts;
-  // Refuses inputs that the routine cannot take (InputError); empty: takes all.
-  std::function<void(const ExportRequest&, const std::vector<SolverInput>&)> check = {};
-  std::function<std::string(const ExportRequest&)> caution = {}; // Exporter::caution
-  // What the driver's template is filled with; empty: nothing.
-  std::function<TemplateValues(const ExportRequest&, const std::vector<SolverInput>&)>
-      driver_values = {};
-  // The head of the entry in its template: argument list and declarations of the arguments.
-  std::function<std::string(const ExportRequest&)> arguments = {};
-  LawSelector selector = {}; // what of them tells several laws apart
-  // ftquit of fortran::Core, for a contact that none of them is for.
-  std::function<std::string()> quit = {};
-};
+  std::string template_path(const std::string& file) const;
+  Inputs checked_inputs(const ExportRequest& request) const;
 
-Exporter routine_exporter(const RoutineTarget& target);
+  std::string entry_;
+  LawSelector selector_;
+};
 
 } // namespace frictab::codegen

@@ -19,7 +19,7 @@ ExportOption speed_scale_option() {
 
 FurtherProperties speed_scale(const ExportRequest& request,
                               const std::vector<SolverInput>& inputs) {
-  if (request.said(scale_key) != "property") return {};
+  if (request.option_or_empty(scale_key) != "property") return {};
   const std::string meaning = "how many times faster than the process the simulation runs";
   return {{.number = property_count(inputs) + 1,
            .quantity = scale_key,

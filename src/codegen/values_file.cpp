@@ -62,13 +62,13 @@ ExportOption values_option() {
 
 bool values_in_file(const ExportRequest& request) {
   if (request.table.is_direct() || request.table.axes.empty()) return false;
-  const std::string said = request.said(values_key);
+  const std::string said = request.option_or_empty(values_key);
   if (!said.empty() && said != "auto") return said != "source";
   return baked_numbers(request.table) > most_baked_numbers;
 }
 
 bool values_for_windows(const ExportRequest& request) {
-  return request.said(values_key) == "file_windows";
+  return request.option_or_empty(values_key) == "file_windows";
 }
 
 void check_request(const ExportRequest& request) {
@@ -79,7 +79,7 @@ void check_request(const ExportRequest& request) {
 void check_request_size(const table::Table& table, const std::vector<const Exporter*>& targets,
                         const std::map<std::string, std::string>& options) {
   for (const Exporter* target : targets) {
-    if (!target->whole()) continue; // a table of its own
+    if (!target->is_routine()) continue; // a table of its own
     const ExportRequest request{.table = table, .options = options};
     if (target->offers(values_key))
       check_size(request);

@@ -4,12 +4,21 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <string_view>
 #include <vector>
 
 namespace frictab {
 
-// T has `std::string name` and `int order` (the position in listings).
+template <class T> const T& registered_item(const T& item) {
+  return item;
+}
+template <class T> const T& registered_item(const std::unique_ptr<T>& item) {
+  return *item;
+}
+
+// T has `std::string name` and `int order` (the position in listings), or is a std::unique_ptr to
+// an interface that has.
 template <class T> class Registry {
 public:
   static Registry& instance() {
@@ -18,7 +27,8 @@ public:
   }
 
   void add(T item) {
-    const auto later = [](const T& a, const T& b) {
+    const auto later = [](const T& left, const T& right) {
+      const auto &a = registered_item(left), &b = registered_item(right);
       return a.order != b.order ? a.order < b.order : a.name < b.name;
     };
     items_.insert(std::upper_bound(items_.begin(), items_.end(), item, later), std::move(item));
@@ -28,7 +38,7 @@ public:
 
   const T* find(std::string_view name) const {
     for (const T& item : items_)
-      if (item.name == name) return &item;
+      if (registered_item(item).name == name) return &item;
     return nullptr;
   }
 

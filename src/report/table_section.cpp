@@ -124,8 +124,8 @@ std::string below_text(const DriftRecord& r) {
 // What holds states says which, and what that costs; a routine, what it was not asked.
 std::string subject_text(const DriftRecord& r) {
   std::string text = svg::escape(r.subject);
-  for (const std::string& remark :
-       {r.held ? verify::cost_text(r) : std::string(), verify::not_posed_text(r), below_text(r)})
+  for (const std::string& remark : {r.held ? verify::cost_text(r) : std::string(),
+                                    verify::not_representable_text(r), below_text(r)})
     if (!remark.empty()) text += "<br>" + svg::escape(remark);
   return text;
 }

@@ -54,7 +54,7 @@ void add_to(DriftLine& line, const verify::Verification& verification,
     line.notes += fmt::format("  {} {} drifts by up to {:.3g} MPa, and the law errs by {:.3g} MPa: "
                               "table.tolerance_MPa = \"auto\" is a twentieth of that\n",
                               r.model, r.subject, verify::largest_drift_MPa(r), *r.law_error_MPa);
-  if (const std::string left = verify::not_posed_text(r); !left.empty())
+  if (const std::string left = verify::not_representable_text(r); !left.empty())
     line.notes += fmt::format("  {} {} {}\n", r.model, r.subject, left);
   if (r.held) return; // has a line of its own
   if (r.n_rows > 0) {

@@ -34,7 +34,7 @@ Fault said_in_job(Fault fault, const std::string& target, const codegen::ExportO
 void write_sources(Run& run, const codegen::Exporter& exporter,
                    const codegen::ExportRequest& request, const std::string& directory) {
   codegen::SourceBundle& bundle = run.sources[directory] = exporter.generate(request);
-  const std::string caution = exporter.caution ? exporter.caution(request) : "";
+  const std::string caution = exporter.caution(request);
   if (!caution.empty() && std::find(run.notes.begin(), run.notes.end(), caution) == run.notes.end())
     run.notes.push_back(caution);
   for (const auto& [path, text] : bundle)
@@ -66,7 +66,7 @@ void export_sources(Run& run) {
     const Table direct = direct_form(law_of(run, table), table);
     for (const codegen::Exporter* exporter : targets) {
       if (refused.count(exporter)) continue; // for the same reason
-      const bool of_law = run.job.exports.form == codegen::ExportForm::direct || !exporter->whole();
+      const bool of_law = run.job.exports.form == codegen::ExportForm::direct || !exporter->is_routine();
       try {
         write_sources(run, *exporter,
                       export_request(run.job, exporter->name, of_law ? direct : table),

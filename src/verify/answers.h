@@ -5,8 +5,9 @@
 
 namespace frictab::verify {
 
-// What a driver leaves where its solver can never be: tau_R is not negative.
-inline constexpr double not_posed = -1;
+// The answer that a driver leaves for a row that its arguments cannot represent: tau_R is not
+// negative.
+inline constexpr double not_representable = -1;
 
 // |a - b| in MPa; 0 where both are NaN, infinite where one is.
 inline double difference(double a, double b) {

@@ -80,12 +80,12 @@ std::string cost_text(const DriftRecord& record) {
   return target_of(record) + " holds " + held_text(record);
 }
 
-std::string not_posed_text(const DriftRecord& record) {
-  if (record.n_rows_not_posed + record.n_points_not_posed == 0) return "";
+std::string not_representable_text(const DriftRecord& record) {
+  if (record.n_rows_not_representable + record.n_points_not_representable == 0) return "";
   return fmt::format("not asked {} of {} rows and {} points of the range: states its solver is "
                      "never in",
-                     thousands(record.n_rows_not_posed), thousands(record.n_rows),
-                     thousands(record.n_points_not_posed));
+                     thousands(record.n_rows_not_representable), thousands(record.n_rows),
+                     thousands(record.n_points_not_representable));
 }
 
 } // namespace frictab::verify

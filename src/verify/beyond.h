@@ -39,6 +39,6 @@ std::string cost_text(const DriftRecord& record);
 
 // "not asked 1,200 of 16,500 rows and ...: states its solver is never in"; empty where it was asked
 // all.
-std::string not_posed_text(const DriftRecord& record);
+std::string not_representable_text(const DriftRecord& record);
 
 } // namespace frictab::verify

@@ -62,13 +62,13 @@ Asked ask_table(const codegen::Exporter& exporter, const codegen::ExportRequest&
   Asked asked;
   asked.names = law.table.inputs();
   asked.states = states_of(law.table, samples);
-  const table::HeldStates held = exporter.held ? exporter.held(law) : table::HeldStates{};
+  const table::HeldStates held = exporter.held(law);
   for (std::size_t d = 0; d < asked.names.size(); ++d)
     if (const auto value = held.find(asked.names[d]); value != held.end())
       std::fill(asked.states[d].begin(), asked.states[d].end(), value->second);
   asked.tau.resize(asked.states.empty() ? 1 : asked.states.front().size());
   table::TableFunction(law.table).evaluate(asked.tau.size(), asked.columns(), asked.tau);
-  if (exporter.gives_mu && exporter.gives_mu(law)) limit_mu(asked);
+  if (exporter.gives_mu(law)) limit_mu(asked);
   return asked;
 }
 
@@ -76,8 +76,8 @@ void compare(DriftRecord& record, const Asked& asked, const std::vector<double>&
   std::size_t furthest = 0;
   record.n_points = tau.size();
   for (std::size_t i = 0; i < tau.size(); ++i) {
-    if (tau[i] == not_posed) {
-      ++record.n_points_not_posed;
+    if (tau[i] == not_representable) {
+      ++record.n_points_not_representable;
       continue;
     }
     const double d = difference(tau[i], asked.tau[i]);
@@ -86,7 +86,7 @@ void compare(DriftRecord& record, const Asked& asked, const std::vector<double>&
     furthest = i;
   }
   // A law that was never asked has shown nothing.
-  if (record.n_points_not_posed == tau.size()) record.max_vs_table_MPa = HUGE_VAL;
+  if (record.n_points_not_representable == tau.size()) record.max_vs_table_MPa = HUGE_VAL;
   for (std::size_t d = 0; d < asked.names.size(); ++d)
     record.worst_state[asked.names[d]] = asked.states[d][furthest];
 }
@@ -101,7 +101,7 @@ DriftRecord verify_law(const CombinedSource& source, const codegen::ExportReques
     record.why_not = "there is no " + variant.program() + " on this machine";
     return record;
   }
-  std::vector<double> tau(asked.tau.size(), not_posed);
+  std::vector<double> tau(asked.tau.size(), not_representable);
   codegen::CompiledTarget(*source.exporter, law, source.bundle.files, variant)
       .drive(tau.size(), asked.columns(), tau);
   compare(record, asked, tau);

@@ -47,10 +47,9 @@ struct DriftRecord {
   double worst_case_MPa = 0;                 // largest drift found over the whole range
   std::map<std::string, double> worst_state; // where; canonical names
   std::size_t n_points = 0;                  // points looked at over the range
-  // Sources: states that their solver can never be in, as a peak pressure below the present one;
-  // they say nothing of the source and count as the table's own. Of the rows, of the range's
-  // points.
-  std::size_t n_rows_not_posed = 0, n_points_not_posed = 0;
+  // Sources: states that the routine's arguments cannot represent, as a peak pressure below the
+  // present one; they add no drift. Among the rows, among the range's points.
+  std::size_t n_rows_not_representable = 0, n_points_not_representable = 0;
   double unit_roundoff = 0;             // sources: of their real type (2^-24 in single precision)
   double max_vs_table_MPa = 0;          // sources: largest difference from the table itself
   std::optional<BelowRange> below = {}; // where the law takes sigma_n_MPa, unless it is refused

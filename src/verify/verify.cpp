@@ -183,13 +183,15 @@ void compare_below(DriftRecord& record, const Subjects& s, const std::vector<dou
         std::max(record.below->max_abs_MPa, difference(answer[i], s.below.law[i]));
 }
 
-// Such rows say nothing of a source, so they count as the table's own. A source that was asked
-// nothing at all has shown nothing. Gives how many they are.
-std::size_t leave_out_not_posed(std::vector<double>& tau, const std::vector<double>& table) {
-  const auto count = static_cast<std::size_t>(std::count(tau.begin(), tau.end(), not_posed));
+// Replaces rows that the source cannot represent by the table's value, so that they add no drift;
+// if it can represent none, replaces none. Returns their number.
+std::size_t leave_out_not_representable(std::vector<double>& tau,
+                                        const std::vector<double>& table) {
+  const auto count =
+      static_cast<std::size_t>(std::count(tau.begin(), tau.end(), not_representable));
   if (count == tau.size()) return count;
   for (std::size_t i = 0; i < tau.size(); ++i)
-    if (tau[i] == not_posed) tau[i] = table[i];
+    if (tau[i] == not_representable) tau[i] = table[i];
   return count;
 }
 
@@ -200,15 +202,15 @@ DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::stri
   record.subject = subject;
   std::size_t furthest_row = 0;
   for (const Probe* reference : {&s.rows, &s.range, &s.below}) {
-    std::vector<double> tau(reference->law.size(), not_posed);
+    std::vector<double> tau(reference->law.size(), not_representable);
     if (reference->law.size() == 0) continue;
     answer(*reference, tau);
-    const std::size_t left_out = leave_out_not_posed(tau, reference->table);
+    const std::size_t left_out = leave_out_not_representable(tau, reference->table);
     if (reference == &s.rows) {
-      record.n_rows_not_posed = left_out;
+      record.n_rows_not_representable = left_out;
       furthest_row = compare_rows(record, *reference, s.beyond, tau);
     } else if (reference == &s.range) {
-      record.n_points_not_posed = left_out;
+      record.n_points_not_representable = left_out;
       compare_range(record, s, tau);
     } else {
       compare_below(record, s, tau);
@@ -360,13 +362,13 @@ DriftRecord compare_reduced(const VerifyInput& input, const Subjects& s, const S
   DriftRecord record = compare(input, at_held, subject, answer);
   record.held = held;
   if (s.rows.law.empty()) return record;
-  std::vector<double> tau(s.rows.law.size(), not_posed);
+  std::vector<double> tau(s.rows.law.size(), not_representable);
   // A solver's table knows nothing of them; a routine's driver may set its constants.
   answer(own_table ? s.rows : at_held.rows, tau);
   std::size_t count = 0;
   double sum = 0;
   for (std::size_t i = 0; i < tau.size(); ++i) {
-    if (s.beyond.kinds[i] != RowKind::compared || tau[i] == not_posed) continue;
+    if (s.beyond.kinds[i] != RowKind::compared || tau[i] == not_representable) continue;
     const double d = difference(tau[i], s.rows.law[i]);
     record.cost_max_abs_MPa = std::max(record.cost_max_abs_MPa, d);
     sum += d;
@@ -379,7 +381,8 @@ DriftRecord compare_reduced(const VerifyInput& input, const Subjects& s, const S
 DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
                            const GeneratedSource& source, const codegen::BuildVariant& variant) {
   const codegen::Exporter& exporter = *source.exporter;
-  const std::string form = source.request.table.is_direct() && exporter.whole() ? " direct" : "";
+  const std::string form =
+      source.request.table.is_direct() && exporter.is_routine() ? " direct" : "";
   const std::string subject = source.exporter->name + "/" + variant.name + form;
   if (!have_program(variant.program())) {
     DriftRecord record;
@@ -394,17 +397,16 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
   const Answer answer = [&](const Probe& reference, std::vector<double>& tau) {
     target.drive(reference.law.size(), columns_for(source.request.table, s, reference), tau);
   };
-  const bool gives_mu = exporter.gives_mu && exporter.gives_mu(source.request);
+  const bool gives_mu = exporter.gives_mu(source.request);
   const auto given = [&](const Subjects& all) { return gives_mu ? with_largest_mu(all) : all; };
-  const table::HeldStates held =
-      exporter.held ? exporter.held(source.request) : table::HeldStates{};
-  if (exporter.whole() && held.empty()) return compare(input, given(s), subject, answer);
+  const table::HeldStates held = exporter.held(source.request);
+  if (exporter.is_routine() && held.empty()) return compare(input, given(s), subject, answer);
   const Reference reference(input, s.names);
-  Subjects reduced = at_held(input.table, s, reference, held, !exporter.whole());
-  if (!exporter.whole())
+  Subjects reduced = at_held(input.table, s, reference, held, !exporter.is_routine());
+  if (!exporter.is_routine())
     add_furthest(reduced, input, reference, exporter.own_table(source.request, source.bundle), held,
                  gives_mu);
-  return compare_reduced(input, s, given(reduced), held, !exporter.whole(), subject, answer);
+  return compare_reduced(input, s, given(reduced), held, !exporter.is_routine(), subject, answer);
 }
 
 } // namespace

@@ -73,8 +73,9 @@ Json record_json(const DriftRecord& record) {
     j["outside"].push_back(beyond_json(end));
   j["max_abs_outside_MPa"] = record.max_abs_outside_MPa;
   j["n_refused"] = record.n_refused;
-  if (record.n_rows_not_posed > 0) j["n_rows_not_posed"] = record.n_rows_not_posed;
-  if (record.n_points_not_posed > 0) j["n_points_not_posed"] = record.n_points_not_posed;
+  if (record.n_rows_not_representable > 0) j["n_rows_not_posed"] = record.n_rows_not_representable;
+  if (record.n_points_not_representable > 0)
+    j["n_points_not_posed"] = record.n_points_not_representable;
   if (record.n_not_refused > 0) j["n_not_refused"] = record.n_not_refused;
   j["worst_case_MPa"] = record.worst_case_MPa;
   j["worst_case_at"] = record.worst_state;
@@ -170,8 +171,8 @@ Verification parse_verification(std::string_view text, const std::string& file) 
                               io::count_of(end.at("rows")), end.at("largest_excess")});
         r.max_abs_outside_MPa = one.at("max_abs_outside_MPa");
         r.n_refused = io::count_of(one.at("n_refused"));
-        r.n_rows_not_posed = count_or_0(one, "n_rows_not_posed");
-        r.n_points_not_posed = count_or_0(one, "n_points_not_posed");
+        r.n_rows_not_representable = count_or_0(one, "n_rows_not_posed");
+        r.n_points_not_representable = count_or_0(one, "n_points_not_posed");
         r.n_not_refused = count_or_0(one, "n_not_refused");
         r.worst_case_MPa = one.at("worst_case_MPa");
         r.worst_state = one.at("worst_case_at").get<std::map<std::string, double>>();

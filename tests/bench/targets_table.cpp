@@ -61,7 +61,7 @@ Times times(const std::function<void()>& pass, const std::function<void()>& kern
 Times times_of(const Exporter& exporter, const ExportRequest& request, void* library,
                const test::States& states, const std::function<void()>& kernel) {
   std::vector<double> tau(rows);
-  if (exporter.batch)
+  if (exporter.has_batch())
     return times([&] { exporter.batch(library, request, rows, states.columns(), tau); }, kernel);
   auto* core =
       library ? reinterpret_cast<double (*)(const double*)>(dlsym(library, "fttau_")) : nullptr;
@@ -106,12 +106,12 @@ void print_line(const Subject& subject, const Exporter& exporter, const ExportRe
   const codegen::SourceBundle bundle = exporter.generate(request);
   std::vector<double> tau(rows, std::nan(""));
   Times cost = {std::nan(""), std::nan("")};
-  std::size_t posed = 0;
+  std::size_t asked = 0;
   try {
     const codegen::CompiledTarget target(exporter, request, bundle, variant);
     const auto drive = [&] { target.drive(rows, states.columns(), tau); };
     drive();
-    posed = static_cast<std::size_t>(
+    asked = static_cast<std::size_t>(
         std::count_if(tau.begin(), tau.end(), [](double t) { return !std::isnan(t); }));
     cost = times_of(exporter, request, target.handle(), states, subject.kernel);
   } catch (const std::exception& error) {
@@ -120,8 +120,8 @@ void print_line(const Subject& subject, const Exporter& exporter, const ExportRe
   }
   std::vector<double> expected = truth;
   for (std::size_t i = 0; i < rows; ++i)
-    if (std::isnan(tau[i])) expected[i] = tau[i]; // not posed
-  fmt::print("{} | {} of {} | {} | {} | {} |\n", who, posed, rows,
+    if (std::isnan(tau[i])) expected[i] = tau[i]; // not representable
+  fmt::print("{} | {} of {} | {} | {} | {} |\n", who, asked, rows,
              subject.kernel ? "-" : fmt::format("{:.1e}", test::worst_relative(tau, expected)),
              std::isnan(cost.ns) ? "-" : fmt::format("{:.0f}", cost.ns),
              subject.kernel && !std::isnan(cost.ns)
@@ -137,7 +137,7 @@ void print_subject(const Subject& subject) {
                             subject.kernel ? fixed : in_range);
   const std::vector<double> truth = test::expected(subject.table, states);
   for (const Exporter& exporter : codegen::all_exporters()) {
-    if (!exporter.whole()) continue;
+    if (!exporter.is_routine()) continue;
     const ExportRequest request{subject.table, "mm-t-s", {}};
     for (const BuildVariant& variant : compilers(exporter, request))
       if (have_program(variant.program()))
@@ -210,7 +210,7 @@ void print_blocks(const Subject& subject) {
 }
 
 int run(const std::filesystem::path& directory) {
-  fmt::print("| table | target | compiler | rows posed | largest difference, relative | ns per "
+  fmt::print("| table | target | compiler | rows asked | largest difference, relative | ns per "
              "point | over the kernel |\n|---|---|---|--:|--:|--:|--:|\n");
   for (const std::vector<std::size_t>& counts :
        {std::vector<std::size_t>{6, 4, 5, 5, 8}, {17, 9, 9, 9, 17}}) {

@@ -99,7 +99,7 @@ TEST(SharedCore, OfFortranIsOneTextInTheRoutinesOfAllSolvers) {
                with_gradient = functions_of("abaqus_fric", sample.table);
     ASSERT_TRUE(plain.count("fttau"));
     for (const Exporter& exporter : codegen::all_exporters()) {
-      if (!exporter.whole()) continue;
+      if (!exporter.is_routine()) continue;
       for (const auto& [name, text] : functions_of(exporter.name.c_str(), sample.table))
         if (name == "fttau" || name == "ftintp" || name == "ftpiec") {
           const auto one = plain.find(name), other = with_gradient.find(name);
@@ -118,7 +118,7 @@ TEST(SharedCore, OfFortranIsOneTextInTheRoutinesOfAllSolvers) {
 // a solver's routine over a tenth of them.
 TEST_P(SlowAgreement, OfTheRoutineWithFrictabItselfAndItCompilesWithoutAWarning) {
   const Exporter& exporter = *find_exporter(GetParam().target);
-  const std::size_t rows = exporter.batch ? 200000 : 20000;
+  const std::size_t rows = exporter.has_batch() ? 200000 : 20000;
   for (const test::NamedTable& sample : test::sample_tables()) {
     SCOPED_TRACE(sample.name);
     if (!goes_through(sample, exporter, GetParam().units)) continue;
@@ -189,7 +189,7 @@ std::vector<Case> every_routine() {
   std::vector<Case> cases;
   for (const Exporter& exporter : codegen::all_exporters())
     for (const char* units : {"mm-t-s", "m-kg-s"})
-      if (exporter.whole()) cases.push_back({exporter.name, units});
+      if (exporter.is_routine()) cases.push_back({exporter.name, units});
   return cases;
 }
 

@@ -256,7 +256,7 @@ TEST_F(CombinedLaws, EndTheAnalysisForANameThatIsNoneOfThem) {
 TEST(CombinedText, NamesEachLawWithItsOwnLinesForTheDeck) {
   const Laws laws{{"Punch", "DIE"}, {test::constant_table(), test::branching_table()}};
   for (const codegen::Exporter& exporter : codegen::all_exporters()) {
-    if (!exporter.combine || !exporter.name.starts_with("abaqus")) continue;
+    if (!exporter.combines() || !exporter.name.starts_with("abaqus")) continue;
     const std::string recipe = laws.bundle(exporter).files.at("recipe.json");
     EXPECT_THAT(recipe, HasSubstr("*Surface Interaction, name=Punch\\n"));
     EXPECT_THAT(recipe, HasSubstr("*Surface Interaction, name=DIE\\n"));
@@ -266,7 +266,7 @@ TEST(CombinedText, NamesEachLawWithItsOwnLinesForTheDeck) {
 
 TEST(CombinedText, IsMadeOfEveryTableAndOfMoreThanNineLaws) {
   for (const codegen::Exporter& exporter : codegen::all_exporters()) {
-    if (!exporter.combine) continue;
+    if (!exporter.combines()) continue;
     Laws laws;
     for (const test::NamedTable& sample : test::sample_tables())
       if (!sample.table.is_direct()) laws.tables.push_back(sample.table);
@@ -318,7 +318,7 @@ TEST(CombinedText, RefusesHistoriesThatNothingTellsApartByContact) {
 TEST(SlowCombinedLaws, AreTheirSeparateRoutinesBitForBitInEveryTargetThatCombines) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   for (const codegen::Exporter& exporter : codegen::all_exporters()) {
-    if (!exporter.combine) continue;
+    if (!exporter.combines()) continue;
     const bool numbers = exporter.name.find("abaqus") == std::string::npos;
     const std::vector<std::string> names =
         numbers ? std::vector<std::string>{"3", "71"} : std::vector<std::string>{"PUNCH", "a die"};

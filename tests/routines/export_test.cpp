@@ -49,7 +49,7 @@ TEST(SlowExport, FixedFormSourcesAreFortran2008) {
   for (const Exporter& exporter : all_exporters())
     for (const Table& table : tables) {
       ExportRequest request{table, "mm-t-s", test::sample_inputs(exporter)};
-      if (exporter.whole() && !table.is_direct()) request.options["values"] = "file";
+      if (exporter.is_routine() && !table.is_direct()) request.options["values"] = "file";
       codegen::SourceBundle files = exporter.generate(request);
       for (const char* include : {"vaba_param.inc", "aba_param.inc"})
         files[include] = "      implicit double precision (a-h,o-z)\n"
@@ -152,7 +152,7 @@ TEST(Export, RefusesTablesNoCompilerTakesAndNamesTheRemedy) {
     table.axes[0].nodes.push_back(1 + i);
   table.value.assign(200000, 1.0);
   for (const Exporter& exporter : all_exporters()) { // a file would still leave nodes and widths
-    if (!exporter.whole()) continue;
+    if (!exporter.is_routine()) continue;
     const char* numbers = exporter.name == "qform_lua" ? "600,000" : "400,000";
     EXPECT_THAT(
         refusal({table, "mm-t-s", {}}, exporter.name),

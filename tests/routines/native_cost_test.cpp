@@ -144,7 +144,7 @@ TEST(NativeCost, OfAShearLawIsNothingInDeformWhichMultipliesByItsOwnShearYieldSt
 TEST(SlowConstantOfTheJob, IsWhereEveryRoutineIsComparedAndItsCostIsTold) {
   const Case c("wanheim_bay");
   for (const Exporter& exporter : codegen::all_exporters()) {
-    if (!exporter.whole() || !exporter.held) continue; // C and Fortran take every state
+    if (!exporter.is_routine() || exporter.has_batch()) continue; // C and Fortran take every state
     const codegen::ExportRequest request = {
         c.table, "mm-t-s", {{"sigma_f_MPa", "constant:480"}}, {}};
     const DriftRecord record = c.compared({{&exporter, request, exporter.generate(request)}});

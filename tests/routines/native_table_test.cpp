@@ -263,7 +263,7 @@ TEST(NativeTables, RecipeAndHeldAgreeWithTheComments) {
     EXPECT_EQ(names, held.at(target)) << target;
     EXPECT_EQ(recipe.at("held").size(), names.size());
     EXPECT_TRUE(recipe.at("grid").at("met"));
-    EXPECT_FALSE(exporter.whole());
+    EXPECT_FALSE(exporter.is_routine());
   }
 }
 

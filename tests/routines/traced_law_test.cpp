@@ -177,14 +177,15 @@ void SlowTracedLawOf::expect_verified(const Case& c) {
   const codegen::Exporter& exporter = *find_exporter(GetParam());
   const Table direct = table::direct_form(AssembledLaw(c.model), c.table);
   std::map<std::string, std::string> held;
-  if (!exporter.whole()) held = {{"sigma_f_MPa", "constant:480"}};
+  if (!exporter.is_routine()) held = {{"sigma_f_MPa", "constant:480"}};
   // Arguments are divided by units in the same lines for either form: one of each, and one alone
   // where the core is another target's. (A solver's own table is made from the law itself, by units
   // of its own text.)
   std::vector<std::pair<const Table*, std::string>> forms = {{&c.table, "mm-t-s"},
                                                              {&direct, "m-kg-s"}};
-  if (!exporter.whole()) forms[0].first = &direct;
-  if (exporter.whole() && !test::has_a_core_of_its_own(exporter)) forms = {{&c.table, "m-kg-s"}};
+  if (!exporter.is_routine()) forms[0].first = &direct;
+  if (exporter.is_routine() && !test::has_a_core_of_its_own(exporter))
+    forms = {{&c.table, "m-kg-s"}};
   for (const auto& [form, units] : forms) {
     Table with_tolerance = *form;
     with_tolerance.record.tolerance_MPa = 0.5;
@@ -192,7 +193,7 @@ void SlowTracedLawOf::expect_verified(const Case& c) {
       if (!record.ran) GTEST_SKIP() << record.why_not;
       EXPECT_TRUE(record.passed) << record.subject << ' ' << units << ' ' << record.worst_case_MPa
                                  << ' ' << record.rows.max_abs;
-      EXPECT_LT(record.n_rows_not_posed, record.n_rows) << record.subject;
+      EXPECT_LT(record.n_rows_not_representable, record.n_rows) << record.subject;
     }
   }
 }

@@ -54,7 +54,7 @@ std::vector<test::NamedTable> samples() {
 TEST(ValuesFile, EveryRoutineOfEverySolverReadsItButLua) {
   std::vector<std::string> others;
   for (const Exporter& exporter : codegen::all_exporters())
-    if (exporter.whole() && !exporter.offers(codegen::values_option().name))
+    if (exporter.is_routine() && !exporter.offers(codegen::values_option().name))
       others.push_back(exporter.name);
   EXPECT_EQ(others, (std::vector<std::string>{"qform_lua"}));
 }

@@ -281,7 +281,7 @@ bool has_every_kind_of_argument(const NamedTable& sample) {
 }
 
 std::map<std::string, std::string> sample_inputs(const codegen::Exporter& exporter) {
-  const bool knows_flow_stress = exporter.whole() && exporter.name != "calculix_usrmu";
+  const bool knows_flow_stress = exporter.is_routine() && exporter.name != "calculix_usrmu";
   if (knows_flow_stress) return {};
   return {{"sigma_f_MPa", "constant:480"}};
 }
@@ -289,7 +289,7 @@ std::map<std::string, std::string> sample_inputs(const codegen::Exporter& export
 SampleRequest::SampleRequest(const codegen::Exporter& exporter, const Table& table,
                              const std::string& units)
     : table_(table), units_(units), inputs_(sample_inputs(exporter)) {
-  if (exporter.whole()) return;
+  if (exporter.is_routine()) return;
   table_.record.tolerance_MPa = 40;
   table_.record.worst_case_MPa = 0.25;
 }

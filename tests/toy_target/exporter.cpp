@@ -15,46 +15,44 @@ namespace frictab {
 
 namespace {
 
-codegen::SourceBundle generate(const codegen::ExportRequest& request) {
-  if (!request.table.axes.empty())
-    throw InputError({}, "the toy target knows no axes", "a law of one coefficient");
-  std::map<std::string, expr::Expr> numbers = {{"value", request.table.value.at(0)}};
-  for (const auto& [name, number] : request.table.constants)
-    numbers[name] = number;
-  codegen::SourceBundle files;
-  files["toy.txt"] = expr::to_text(substitute(request.table.combine, numbers)) + "\n";
-  files["recipe.json"] = io::json_text(
-      codegen::recipe_head(*codegen::find_exporter("toy"), request, "toy.txt", files));
-  return files;
-}
+class Toy final : public codegen::Exporter {
+public:
+  Toy()
+      : Exporter({.name = "toy",
+                  .order = 1000,
+                  .title = "A toy",
+                  .signature_source = "verified: by its own test",
+                  .notes = "Tables without axes only."}) {}
 
-std::vector<codegen::BuildVariant> variants(const codegen::ExportRequest&) {
-  codegen::BuildVariant text;
-  text.name = "text";
-  text.eps = 0x1p-53;
-  return {text};
-}
+  codegen::SourceBundle generate(const codegen::ExportRequest& request) const override {
+    if (!request.table.axes.empty())
+      throw InputError({}, "the toy target knows no axes", "a law of one coefficient");
+    std::map<std::string, expr::Expr> numbers = {{"value", request.table.value.at(0)}};
+    for (const auto& [name, number] : request.table.constants)
+      numbers[name] = number;
+    codegen::SourceBundle files;
+    files["toy.txt"] = expr::to_text(substitute(request.table.combine, numbers)) + "\n";
+    files["recipe.json"] = io::json_text(codegen::recipe_head(*this, request, "toy.txt", files));
+    return files;
+  }
 
-void drive(const codegen::Built& built, const codegen::ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  std::string text = io::read_file(built.directory / "toy.txt");
-  text.pop_back();
-  expr::Program(expr::parse_expr(text), request.table.inputs(), {})
-      .evaluate(rows, columns, {}, tau.data());
-}
+  std::vector<codegen::BuildVariant> variants(const codegen::ExportRequest&) const override {
+    codegen::BuildVariant text;
+    text.name = "text";
+    text.eps = 0x1p-53;
+    return {text};
+  }
 
-const Registered<codegen::Exporter> registered{[] {
-  codegen::Exporter out;
-  out.name = "toy";
-  out.order = 1000;
-  out.title = "A toy";
-  out.signature_source = "verified: by its own test";
-  out.notes = "Tables without axes only.";
-  out.generate = generate;
-  out.variants = variants;
-  out.drive = drive;
-  return out;
-}};
+  void drive(const codegen::Built& built, const codegen::ExportRequest& request, std::size_t rows,
+             std::span<const double* const> columns, std::span<double> tau) const override {
+    std::string text = io::read_file(built.directory / "toy.txt");
+    text.pop_back();
+    expr::Program(expr::parse_expr(text), request.table.inputs(), {})
+        .evaluate(rows, columns, {}, tau.data());
+  }
+};
+
+const Registered<codegen::ExporterPointer> registered{codegen::make_exporter<Toy>};
 
 } // namespace
 

@@ -300,45 +300,46 @@ TEST(Verify, FailsASourceThatAnswersWhereItIsToRefuse) {
   EXPECT_FALSE(r.passed);
 }
 
-// A target whose driver poses no row, or every other one, with an answer that is wrong by 3 MPa.
-Exporter sparse(bool poses) {
-  Exporter out;
-  out.name = "sparse";
-  out.variants = [](const ExportRequest&) {
-    return std::vector<codegen::BuildVariant>{{"none", {}, {}, 0}};
-  };
-  if (poses)
-    out.drive = [](const codegen::Built&, const ExportRequest& request, std::size_t rows,
-                   std::span<const double* const> columns, std::span<double> tau) {
-      std::vector<double> all(rows);
-      table::TableFunction(request.table).evaluate(rows, columns, all);
-      for (std::size_t i = 0; i < rows; i += 2)
-        tau[i] = all[i] + 3;
-    };
-  else
-    out.drive = [](const codegen::Built&, const ExportRequest&, std::size_t,
-                   std::span<const double* const>, std::span<double>) {};
-  return out;
-}
+// A target that can represent no row, or every other one, with an answer that is wrong by 3 MPa.
+class SparseTarget final : public codegen::Exporter {
+public:
+  explicit SparseTarget(bool answers) : Exporter({.name = "sparse"}), answers_(answers) {}
 
-TEST(Verify, CountsRowsThatADriverCannotPoseAndLeavesThemOutButNotAllOfThem) {
+  codegen::SourceBundle generate(const ExportRequest&) const override { return {}; }
+  std::vector<codegen::BuildVariant> variants(const ExportRequest&) const override {
+    return {{"none", {}, {}, 0}};
+  }
+  void drive(const codegen::Built&, const ExportRequest& request, std::size_t rows,
+             std::span<const double* const> columns, std::span<double> tau) const override {
+    std::vector<double> all(rows);
+    table::TableFunction(request.table).evaluate(rows, columns, all);
+    for (std::size_t i = 0; answers_ && i < rows; i += 2)
+      tau[i] = all[i] + 3;
+  }
+
+private:
+  bool answers_;
+};
+
+TEST(Verify, CountsRowsThatADriverCannotRepresentAndLeavesThemOutButNotAllOfThem) {
   const Model model = log_coulomb();
   const data::Dataset data = test::sample_data(model);
   const TableOptions options;
   const Table table =
       build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, options), options);
-  for (const bool poses : {true, false}) {
-    const Exporter exporter = sparse(poses);
+  for (const bool answers : {true, false}) {
+    const SparseTarget exporter(answers);
     const DriftRecord r = verify::verify({AssembledLaw(model), table, "table", &data, 0.5, 2000},
                                          {{&exporter, {table, "mm-t-s", {}}, {}}})
                               .back();
     EXPECT_FALSE(r.passed);
-    EXPECT_EQ(r.n_rows_not_posed, poses ? data.rows() / 2 : data.rows());
-    EXPECT_GT(r.n_points_not_posed, 1000u);
-    EXPECT_THAT(verify::not_posed_text(r), testing::EndsWith("states its solver is never in"));
+    EXPECT_EQ(r.n_rows_not_representable, answers ? data.rows() / 2 : data.rows());
+    EXPECT_GT(r.n_points_not_representable, 1000u);
+    EXPECT_THAT(verify::not_representable_text(r),
+                testing::EndsWith("states its solver is never in"));
     const std::string text = verification_json({0.5, {r}});
     EXPECT_EQ(verification_json(verify::parse_verification(text, "verify.json")), text);
-    if (poses)
+    if (answers)
       EXPECT_NEAR(r.rows.mean_abs, 1.5, 0.1) << "half of the rows, 3 MPa each";
     else
       EXPECT_GT(r.rows.mean_abs, 3);

@@ -45,36 +45,6 @@ json state_variables(const ExportRequest& request, const std::vector<SolverInput
                                  request, inputs);
 }
 
-void add_recipe(json& out, const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  const Exporter& exporter = *find_exporter("abaqus_fric");
-  out["options"] = {{"abaqus_coefficient", exporter.option(request, "abaqus_coefficient")}};
-  out["arguments"] = recipe_states(inputs);
-  out["arguments_note"] = "FRIC's own 39 arguments; listed is where each state comes from";
-  out["result"] = {{"name", "TAU, DDTDDG, DDTDDP, DDTDDT"},
-                   {"meaning",
-                    "tau_R along the slip, or its share along the elastic slip while "
-                    "the point sticks; derivatives by motion, pressure and temperature"}};
-  out["state_variables_by"] = "contact point";
-  out["state_variables"] = state_variables(request, inputs);
-  out["properties"] = recipe_properties(inputs, critical_slip(request, inputs));
-  out["compile"] = {"abaqus job=<job> user=frictab_fric.f",
-                    fortran::fixed_form_check("frictab_fric.f")};
-  out["compile_note"] = "the last line only checks the source, beside an aba_param.inc of your own";
-  out["input_deck"] = input_deck(request, inputs);
-}
-
-SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  return {{file, fric_source(request, inputs)}};
-}
-
-std::vector<BuildVariant> variants(const ExportRequest& request) {
-  return {abaqus::standard_variant(request, file)};
-}
-
-Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
-  return {.gives = gives(request), .most_points = 136};
-}
-
 const char* const source_of_signature =
     "verified: argument list in public copies of the manual page (releases 6.5 to 2024; SLNAME and "
     "MSNAME are SECNAME and MAINNAME in 2024, same places) and in public routines; LM; positive "
@@ -107,21 +77,57 @@ const char* const notes =
     "states of unconverged iterations count too: prefer clamp or law in Standard. LM is 0 on "
     "return, or 2 where the point was open. PNEWDT is not touched.";
 
-const Registered<Exporter> registered{[] {
-  return routine_exporter(
-      {.about = {.name = "abaqus_fric",
-                 .order = 24,
-                 .title = "Abaqus/Standard FRIC, stress with derivatives",
-                 .signature_source = source_of_signature,
-                 .notes = notes,
-                 .options = {abaqus::coefficient_option(), values_option(),
-                             outside_summary_option()}},
-       .entry = "fric",
-       .parts = {gives, sources, add_recipe, variants, driver},
-       .arguments = arguments,
-       .selector = abaqus::interaction(abaqus::Solver::standard, "ciname", "fgh"),
-       .quit = [] { return abaqus::quit(abaqus::Solver::standard); }});
-}};
+class Fric final : public RoutineTarget {
+public:
+  Fric()
+      : RoutineTarget(
+            {.name = "abaqus_fric",
+             .order = 24,
+             .title = "Abaqus/Standard FRIC, stress with derivatives",
+             .signature_source = source_of_signature,
+             .notes = notes,
+             .options = {abaqus::coefficient_option(), values_option(), outside_summary_option()}},
+            "fric", abaqus::interaction(abaqus::Solver::standard, "ciname", "fgh")) {}
+
+private:
+  const SolverGives& gives(const ExportRequest& request) const override {
+    return fric::gives(request);
+  }
+
+  SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const override {
+    return {{file, fric_source(request, inputs)}};
+  }
+
+  void add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const override {
+    out["options"] = {{"abaqus_coefficient", option(request, "abaqus_coefficient")}};
+    out["arguments"] = recipe_states(inputs);
+    out["arguments_note"] = "FRIC's own 39 arguments; listed is where each state comes from";
+    out["result"] = {{"name", "TAU, DDTDDG, DDTDDP, DDTDDT"},
+                     {"meaning",
+                      "tau_R along the slip, or its share along the elastic slip while "
+                      "the point sticks; derivatives by motion, pressure and temperature"}};
+    out["state_variables_by"] = "contact point";
+    out["state_variables"] = state_variables(request, inputs);
+    out["properties"] = recipe_properties(inputs, critical_slip(request, inputs));
+    out["compile"] = {"abaqus job=<job> user=frictab_fric.f",
+                      fortran::fixed_form_check("frictab_fric.f")};
+    out["compile_note"] =
+        "the last line only checks the source, beside an aba_param.inc of your own";
+    out["input_deck"] = input_deck(request, inputs);
+  }
+
+  std::vector<BuildVariant> builds(const ExportRequest& request) const override {
+    return {abaqus::standard_variant(request, file)};
+  }
+
+  Driver driver(const ExportRequest& request, const Inputs&) const override {
+    return {.gives = fric::gives(request), .most_points = 136};
+  }
+
+  std::string quit() const override { return abaqus::quit(abaqus::Solver::standard); }
+};
+
+const Registered<ExporterPointer> registered{make_exporter<Fric>};
 
 } // namespace
 

@@ -64,10 +64,6 @@ FurtherProperties critical_slip(const ExportRequest& request,
            .where_absent = 0}};
 }
 
-std::string arguments(const ExportRequest&) {
-  return render_template("abaqus/fric/arguments.f", {});
-}
-
 std::string fric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   TemplateValues values;
   // Without DROT, CHRLNGTH and the like being numbers, TAU is NaN: ftqnan is always there.
@@ -75,7 +71,8 @@ std::string fric_source(const ExportRequest& request, const std::vector<SolverIn
   abaqus::add_routine(values, *find_exporter("abaqus_fric"), request, inputs, gives(request), true,
                       {.further_properties = critical});
   values.text["critical"] = std::to_string(critical.front().number);
-  values.text["arguments"] = fortran::without_last_break(arguments(request));
+  values.text["arguments"] =
+      fortran::without_last_break(render_template("abaqus/fric/arguments.f", {}));
   // A millionth of a millimetre, where the deck and the solver give no length.
   values.text["least_slip"] = fortran_number(solver_unit("mm", request.units).from_canonical(1e-6));
   abaqus::add_states(values, state_count(inputs));

@@ -15,9 +15,6 @@ const codegen::SolverGives& gives(const codegen::ExportRequest&);
 inline constexpr std::size_t history = 7;
 std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 
-// The head of the entry: argument list and its declarations.
-std::string arguments(const codegen::ExportRequest&);
-
 // The property behind those of the states.
 codegen::FurtherProperties critical_slip(const codegen::ExportRequest& request,
                                          const std::vector<codegen::SolverInput>& inputs);

@@ -43,43 +43,6 @@ json state_variables(const ExportRequest& request, const std::vector<SolverInput
                                  request, inputs);
 }
 
-void add_recipe(json& out, const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  const Exporter& exporter = *find_exporter("abaqus_fric_coef");
-  for (const ExportOption& option : exporter.options)
-    out["options"][option.name] = exporter.option(request, option.name);
-  out["arguments"] = recipe_states(inputs);
-  out["arguments_note"] = "FRIC_COEF's own 16 arguments, in the list of the release in options; "
-                          "listed is where each state comes from";
-  out["result"] = {
-      {"name", is_2024(request) ? "fCoef(:,1), fCoefDeriv(:,:,1)" : "fCoef, fCoefDeriv"},
-      {"meaning", "tau_R/p; derivatives by slip rate (1), pressure (2), temperature (3)" +
-                      std::string(is_2024(request) ? ", equivalent slip (6)" : "")}};
-  out["state_variables_by"] = "contact point";
-  out["state_variables"] = state_variables(request, inputs);
-  out["properties"] = recipe_properties(inputs);
-  out["compile"] = {"abaqus job=<job> user=frictab_fric_coef.f",
-                    fortran::fixed_form_check("frictab_fric_coef.f")};
-  out["compile_note"] = "the last line only checks the source, beside an aba_param.inc of your own";
-  out["input_deck"] = input_deck(request, inputs);
-}
-
-SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  return {{file, coef_source(request, inputs)}};
-}
-
-std::vector<BuildVariant> variants(const ExportRequest& request) {
-  return {abaqus::standard_variant(request, file)};
-}
-
-// State variables are those of one point.
-Driver driver(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  const bool kept = takes(inputs, "friction_work") || takes(inputs, "peak_sigma_n") ||
-                    uses(inputs, Source::history);
-  return {.gives = gives(request),
-          .result = fortran::Coefficient::coulomb,
-          .most_points = kept ? std::size_t{1} : std::size_t{136}};
-}
-
 const char* const source_of_signature =
     "verified: the list of 2024 in the v2024 reference and in 3DEXPERIENCE, that of 2020 in a "
     "public routine for releases up to about 2020; between these it is not known which release "
@@ -108,30 +71,78 @@ const char* const notes =
     "Beyond a side with outside = error STDB_ABQERR ends the analysis, and states of unconverged "
     "iterations count too: prefer clamp or law in Standard.";
 
-const Registered<Exporter> registered{[] {
-  return routine_exporter(
-      {.about = {.name = "abaqus_fric_coef",
-                 .order = 26,
-                 .title = "Abaqus/Standard FRIC_COEF, coefficient with derivatives",
-                 .signature_source = source_of_signature,
-                 .notes = notes,
-                 .options =
-                     {{"abaqus_release",
-                       {"2024", "2020"},
-                       "the argument list of FRIC_COEF: the one of 2024, or that of releases up to "
-                       "about 2020; between them see which one your manual shows"},
-                      abaqus::coefficient_option(),
-                      values_option()}},
-       .entry = "fric_coef",
-       .parts = {gives, sources, add_recipe, variants, driver},
-       .driver_values =
-           [](const ExportRequest& request, const std::vector<SolverInput>&) {
-             return TemplateValues{.text = {}, .flags = {{"new", is_2024(request)}}, .lists = {}};
-           },
-       .arguments = arguments,
-       .selector = abaqus::interaction(abaqus::Solver::standard, "surfInt", "pqr"),
-       .quit = [] { return abaqus::quit(abaqus::Solver::standard); }});
-}};
+class FricCoef final : public RoutineTarget {
+public:
+  FricCoef()
+      : RoutineTarget(
+            {.name = "abaqus_fric_coef",
+             .order = 26,
+             .title = "Abaqus/Standard FRIC_COEF, coefficient with derivatives",
+             .signature_source = source_of_signature,
+             .notes = notes,
+             .options =
+                 {{"abaqus_release",
+                   {"2024", "2020"},
+                   "the argument list of FRIC_COEF: the one of 2024, or that of releases up to "
+                   "about 2020; between them see which one your manual shows"},
+                  abaqus::coefficient_option(),
+                  values_option()}},
+            "fric_coef", abaqus::interaction(abaqus::Solver::standard, "surfInt", "pqr")) {}
+
+private:
+  const SolverGives& gives(const ExportRequest& request) const override {
+    return fric_coef::gives(request);
+  }
+
+  SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const override {
+    return {{file, coef_source(request, inputs)}};
+  }
+
+  void add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const override {
+    for (const ExportOption& one : options)
+      out["options"][one.name] = option(request, one.name);
+    out["arguments"] = recipe_states(inputs);
+    out["arguments_note"] = "FRIC_COEF's own 16 arguments, in the list of the release in options; "
+                            "listed is where each state comes from";
+    out["result"] = {
+        {"name", is_2024(request) ? "fCoef(:,1), fCoefDeriv(:,:,1)" : "fCoef, fCoefDeriv"},
+        {"meaning", "tau_R/p; derivatives by slip rate (1), pressure (2), temperature (3)" +
+                        std::string(is_2024(request) ? ", equivalent slip (6)" : "")}};
+    out["state_variables_by"] = "contact point";
+    out["state_variables"] = state_variables(request, inputs);
+    out["properties"] = recipe_properties(inputs);
+    out["compile"] = {"abaqus job=<job> user=frictab_fric_coef.f",
+                      fortran::fixed_form_check("frictab_fric_coef.f")};
+    out["compile_note"] =
+        "the last line only checks the source, beside an aba_param.inc of your own";
+    out["input_deck"] = input_deck(request, inputs);
+  }
+
+  std::vector<BuildVariant> builds(const ExportRequest& request) const override {
+    return {abaqus::standard_variant(request, file)};
+  }
+
+  // State variables are those of one point.
+  Driver driver(const ExportRequest& request, const Inputs& inputs) const override {
+    const bool kept = takes(inputs, "friction_work") || takes(inputs, "peak_sigma_n") ||
+                      uses(inputs, Source::history);
+    return {.gives = fric_coef::gives(request),
+            .result = fortran::Coefficient::coulomb,
+            .most_points = kept ? std::size_t{1} : std::size_t{136}};
+  }
+
+  TemplateValues driver_values(const ExportRequest& request, const Inputs&) const override {
+    return {.text = {}, .flags = {{"new", is_2024(request)}}, .lists = {}};
+  }
+
+  std::string arguments(const ExportRequest& request) const override {
+    return fric_coef::arguments(request);
+  }
+
+  std::string quit() const override { return abaqus::quit(abaqus::Solver::standard); }
+};
+
+const Registered<ExporterPointer> registered{make_exporter<FricCoef>};
 
 } // namespace
 

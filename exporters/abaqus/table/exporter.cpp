@@ -19,20 +19,6 @@ namespace {
 constexpr const char* file_name = "frictab_friction.inp";
 constexpr std::size_t first_field = 3; // cells behind the coefficient: rate, pressure, temperature
 
-NativeForm form(const ExportRequest&) {
-  NativeForm out;
-  out.gives = {.states = {{.state = "v_rel_mm_s", .text = "column 2, slip rate"},
-                          {.state = "sigma_n_MPa", .text = "column 3, contact pressure"},
-                          {.state = "T_contact_C",
-                           .text = "column 4, average temperature of both surfaces"}},
-               .field = {.text = "field variable @{field}"}};
-  out.limits = true;
-  out.most_fields = 4; // further ones go on another line
-  out.interpolation =
-      "linear between the lines, the slip rate varies fastest (recalled); TAUMAX limits the stress";
-  return out;
-}
-
 std::size_t cell_of(const NativeColumn& column) {
   if (column.field > 0) return first_field + column.field - 1;
   if (column.state == "T_contact_C") return 2;
@@ -72,46 +58,12 @@ std::string data_lines(const NativeTable& table, std::size_t fields) {
   return out;
 }
 
-std::string write(const ExportRequest&, const NativeTable& table,
-                  const std::vector<std::string>& comments) {
-  const std::size_t fields = field_count(table.columns);
-  TemplateValues values;
-  values.lists["comments"] = items(comments);
-  values.text["taumax"] =
-      table.values.limit ? ", TAUMAX=" + native_number(*table.values.limit) : "";
-  values.text["dependencies"] = fields > 0 ? fmt::format(", DEPENDENCIES={}", fields) : "";
-  values.text["data"] = data_lines(table, fields);
-  return render_template("abaqus/table/frictab_friction.inp", values);
-}
-
 // "*FRICTION, TAUMAX=350" -> the limit.
 void read_keyword(std::string_view line, NativeValues& values) {
   const auto cells = split_cells(line, ',');
   if (cells[0] != "*FRICTION") throw std::runtime_error("no *FRICTION line");
   for (std::size_t i = 1; i < cells.size(); ++i)
     if (cells[i].starts_with("TAUMAX=")) values.limit = read_number(cells[i].substr(7));
-}
-
-NativeValues read(const std::string& text, const ExportRequest& request) {
-  const std::vector<NativeColumn> columns = native_columns(request, form(request));
-  const auto lines = deck_lines(text, "**");
-  if (lines.empty()) throw std::runtime_error("no *FRICTION line");
-  NativeValues keyword;
-  read_keyword(lines[0], keyword);
-  std::vector<std::vector<double>> places;
-  std::vector<double> value;
-  for (std::size_t l = 1; l < lines.size(); ++l) {
-    const auto cells = split_cells(lines[l], ',');
-    value.push_back(read_number(cells[0]));
-    std::vector<double> place(columns.size(), std::nan(""));
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      if (const std::size_t at = cell_of(columns[c]) + 1; at < cells.size() && !cells[at].empty())
-        place[c] = read_number(cells[at]);
-    places.push_back(std::move(place));
-  }
-  NativeValues out = values_of_rows(places, value);
-  out.limit = keyword.limit;
-  return out;
 }
 
 const char* const source_of_signature =
@@ -129,26 +81,74 @@ const std::string notes =
     "the ends Abaqus keeps "
     "the coefficient there; downwards the table goes to where tau_R is below the tolerance.";
 
-NativeTarget target() {
-  return {.about = {.name = "abaqus_table",
-                    .order = 70,
-                    .title = "Abaqus *FRICTION data lines, no user routine",
-                    .signature_source = source_of_signature,
-                    .notes = notes,
-                    .options = {}},
-          .file = file_name,
-          .form = form,
-          .write = write,
-          .read = read,
-          .entry = "*FRICTION",
-          .input_deck =
-              "*Surface Interaction, name=FRICTAB\n*Include, input=frictab_friction.inp\n",
-          .plain_name = "abaqus",
-          .plain_order = 3,
-          .plain_title = "*FRICTION data lines: mu over slip rate, pressure, temperature"};
-}
+class AbaqusTable final : public NativeTarget {
+public:
+  AbaqusTable()
+      : NativeTarget(
+            {.name = "abaqus_table",
+             .order = 70,
+             .title = "Abaqus *FRICTION data lines, no user routine",
+             .signature_source = source_of_signature,
+             .notes = notes},
+            {.file = file_name,
+             .entry = "*FRICTION",
+             .input_deck =
+                 "*Surface Interaction, name=FRICTAB\n*Include, input=frictab_friction.inp\n",
+             .plain_name = "abaqus",
+             .plain_order = 3,
+             .plain_title = "*FRICTION data lines: mu over slip rate, pressure, temperature"}) {}
 
-const RegisteredNative<target> registered;
+private:
+  NativeForm form(const ExportRequest&) const override {
+    NativeForm out;
+    out.gives = {.states = {{.state = "v_rel_mm_s", .text = "column 2, slip rate"},
+                            {.state = "sigma_n_MPa", .text = "column 3, contact pressure"},
+                            {.state = "T_contact_C",
+                             .text = "column 4, average temperature of both surfaces"}},
+                 .field = {.text = "field variable @{field}"}};
+    out.limits = true;
+    out.most_fields = 4; // further ones go on another line
+    out.interpolation = "linear between the lines, the slip rate varies fastest (recalled); TAUMAX "
+                        "limits the stress";
+    return out;
+  }
+
+  std::string write(const ExportRequest&, const NativeTable& table,
+                    const std::vector<std::string>& comments) const override {
+    const std::size_t fields = field_count(table.columns);
+    TemplateValues values;
+    values.lists["comments"] = items(comments);
+    values.text["taumax"] =
+        table.values.limit ? ", TAUMAX=" + native_number(*table.values.limit) : "";
+    values.text["dependencies"] = fields > 0 ? fmt::format(", DEPENDENCIES={}", fields) : "";
+    values.text["data"] = data_lines(table, fields);
+    return render_template("abaqus/table/frictab_friction.inp", values);
+  }
+
+  NativeValues read(const std::string& text, const ExportRequest& request) const override {
+    const std::vector<NativeColumn> columns = native_columns(request, form(request));
+    const auto lines = deck_lines(text, "**");
+    if (lines.empty()) throw std::runtime_error("no *FRICTION line");
+    NativeValues keyword;
+    read_keyword(lines[0], keyword);
+    std::vector<std::vector<double>> places;
+    std::vector<double> value;
+    for (std::size_t l = 1; l < lines.size(); ++l) {
+      const auto cells = split_cells(lines[l], ',');
+      value.push_back(read_number(cells[0]));
+      std::vector<double> place(columns.size(), std::nan(""));
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        if (const std::size_t at = cell_of(columns[c]) + 1; at < cells.size() && !cells[at].empty())
+          place[c] = read_number(cells[at]);
+      places.push_back(std::move(place));
+    }
+    NativeValues out = values_of_rows(places, value);
+    out.limit = keyword.limit;
+    return out;
+  }
+};
+
+const RegisteredNative<AbaqusTable> registered;
 
 } // namespace
 

@@ -63,7 +63,12 @@ abaqus::ForceRoutine routine() {
   return r;
 }
 
-const Registered<Exporter> registered{[] { return abaqus::force_exporter(routine()); }};
+class Vfric final : public abaqus::ForceTarget {
+public:
+  Vfric() : ForceTarget(routine()) {}
+};
+
+const Registered<ExporterPointer> registered{make_exporter<Vfric>};
 
 } // namespace
 

@@ -63,10 +63,6 @@ std::vector<std::string> remarks(const ExportRequest& request) {
   return lines;
 }
 
-std::string arguments(const ExportRequest&) {
-  return render_template("abaqus/vfric_coef/arguments.f", {});
-}
-
 std::string source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const bool refuses = fortran::refuses(request.table);
   const bool unknown = fortran::needs_unknown(inputs, gives(request));
@@ -78,7 +74,8 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
   TemplateValues values;
   values.text = {{"head", abaqus::explicit_head(*find_exporter("abaqus_vfric_coef"), request,
                                                 inputs, remarks(request))},
-                 {"arguments", fortran::without_last_break(arguments(request))},
+                 {"arguments", fortran::without_last_break(
+                                   render_template("abaqus/vfric_coef/arguments.f", {}))},
                  {"n_x", std::to_string(core.n_x)},
                  {"reads_once", fortran::reads(inputs, gives(request), "once")},
                  {"reads_point", fortran::reads(inputs, gives(request), "point", 2)},
@@ -90,39 +87,6 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
   values.flags = {{"unknown", unknown}, {"refuses", refuses}};
   add_speed_scale(values, request, inputs);
   return render_template("abaqus/vfric_coef/frictab_vfric_coef.f", values);
-}
-
-void add_recipe(nlohmann::ordered_json& out, const ExportRequest& request,
-                const std::vector<SolverInput>& inputs) {
-  out["arguments"] = recipe_states(inputs);
-  const SolverUnit stress = solver_unit("MPa", request.units);
-  out["arguments_note"] = "VFRIC_COEF's own 16 arguments; listed is where each state comes from";
-  out["result"] = {
-      {"name", "fCoef(k)"},
-      {"meaning", fmt::format("tau_R/pressure, below {:.6g} {} the value there, at most {:g}; "
-                              "fCoefDeriv 0",
-                              stress.from_canonical(fortran::least_pressure), stress.name,
-                              fortran::largest_coefficient)}};
-  out["state_variables"] = nlohmann::ordered_json::array();
-  out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
-  abaqus::add_compile(out, {file});
-  out["input_deck"] =
-      abaqus::friction_lines("user=coefficient", 0, inputs, speed_scale(request, inputs)) +
-      "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
-      "*Contact Property Assignment\n , , FRICTAB\n" +
-      abaqus::field_lines(inputs);
-}
-
-SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  return {{file, source(request, inputs)}};
-}
-
-std::vector<BuildVariant> variants(const ExportRequest& request) {
-  return abaqus::explicit_variants(request, {file});
-}
-
-Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
-  return abaqus::explicit_driver(gives(request), fortran::Coefficient::coulomb);
 }
 
 const char* const source_of_signature =
@@ -147,21 +111,61 @@ const char* const notes =
     "contact never do. Works with the single- and the double-precision solver; table and "
     "arithmetic are double in both.";
 
-const Registered<Exporter> registered{[] {
-  return routine_exporter(
-      {.about = {.name = "abaqus_vfric_coef",
-                 .order = 22,
-                 .title = "Abaqus/Explicit VFRIC_COEF, general contact, coefficient only",
-                 .signature_source = source_of_signature,
-                 .notes = notes,
-                 .options = {values_option(), speed_scale_option()}},
-       .entry = "vfric_coef",
-       .parts = {gives, sources, add_recipe, variants, driver},
-       .arguments = arguments,
-       .selector = abaqus::of_general_contact(
-           abaqus::interaction(abaqus::Solver::explicit_, "surfInt", "uvw")),
-       .quit = [] { return abaqus::quit(abaqus::Solver::explicit_); }});
-}};
+class VfricCoef final : public RoutineTarget {
+public:
+  VfricCoef()
+      : RoutineTarget({.name = "abaqus_vfric_coef",
+                       .order = 22,
+                       .title = "Abaqus/Explicit VFRIC_COEF, general contact, coefficient only",
+                       .signature_source = source_of_signature,
+                       .notes = notes,
+                       .options = {values_option(), speed_scale_option()}},
+                      "vfric_coef",
+                      abaqus::of_general_contact(
+                          abaqus::interaction(abaqus::Solver::explicit_, "surfInt", "uvw"))) {}
+
+private:
+  const SolverGives& gives(const ExportRequest& request) const override {
+    return vfric_coef::gives(request);
+  }
+
+  SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const override {
+    return {{file, source(request, inputs)}};
+  }
+
+  void add_recipe(nlohmann::ordered_json& out, const ExportRequest& request,
+                  const Inputs& inputs) const override {
+    out["arguments"] = recipe_states(inputs);
+    const SolverUnit stress = solver_unit("MPa", request.units);
+    out["arguments_note"] = "VFRIC_COEF's own 16 arguments; listed is where each state comes from";
+    out["result"] = {
+        {"name", "fCoef(k)"},
+        {"meaning", fmt::format("tau_R/pressure, below {:.6g} {} the value there, at most {:g}; "
+                                "fCoefDeriv 0",
+                                stress.from_canonical(fortran::least_pressure), stress.name,
+                                fortran::largest_coefficient)}};
+    out["state_variables"] = nlohmann::ordered_json::array();
+    out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
+    abaqus::add_compile(out, {file});
+    out["input_deck"] =
+        abaqus::friction_lines("user=coefficient", 0, inputs, speed_scale(request, inputs)) +
+        "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
+        "*Contact Property Assignment\n , , FRICTAB\n" +
+        abaqus::field_lines(inputs);
+  }
+
+  std::vector<BuildVariant> builds(const ExportRequest& request) const override {
+    return abaqus::explicit_variants(request, {file});
+  }
+
+  Driver driver(const ExportRequest& request, const Inputs&) const override {
+    return abaqus::explicit_driver(vfric_coef::gives(request), fortran::Coefficient::coulomb);
+  }
+
+  std::string quit() const override { return abaqus::quit(abaqus::Solver::explicit_); }
+};
+
+const Registered<ExporterPointer> registered{make_exporter<VfricCoef>};
 
 } // namespace
 

@@ -71,7 +71,12 @@ abaqus::ForceRoutine routine() {
   return r;
 }
 
-const Registered<Exporter> registered{[] { return abaqus::force_exporter(routine()); }};
+class Vfriction final : public abaqus::ForceTarget {
+public:
+  Vfriction() : ForceTarget(routine()) {}
+};
+
+const Registered<ExporterPointer> registered{make_exporter<Vfriction>};
 
 } // namespace
 

@@ -62,47 +62,6 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
   return render_template("calculix/usrmu/frictab_usrmu.f", values);
 }
 
-void add_recipe(json& out, const ExportRequest&, const std::vector<SolverInput>& inputs) {
-  out["arguments"] = recipe_states(inputs);
-  out["arguments_note"] =
-      "USRMU's 7 arguments and the time increment that USRMU_TIME is given; listed is "
-      "where each state comes from";
-  out["result"] = {{"name", "UM"},
-                   {"meaning", "friction coefficient mu = tau_R/p"},
-                   {"least_pressure_MPa", fortran::least_pressure},
-                   {"at_most", fortran::largest_coefficient},
-                   {"unit", "1"}};
-  out["state_variables"] = json::array();
-  out["properties"] = json::array();
-  out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
-  out["build"] = {
-      "take the source of CalculiX CrunchiX 2.20 (Debian: apt-get source calculix-ccx)",
-      "sh frictab_hook.sh <its folder src>: puts calls of USRMU where friction is limited",
-      "build as its README says, with frictab_usrmu.f among the objects (gfortran "
-      "-frecursive)"};
-  out["compile"] = {fortran::fixed_form_check(file)};
-  out["compile_note"] = "this line only checks the source; the program is built as `build` says";
-  out["input_deck"] = "*Surface Interaction, name=FRICTAB\n"
-                      "*Surface Behavior, pressure-overclosure=LINEAR\n <stiffness>\n"
-                      "*Friction\n 0.1, <stick slope>\n"
-                      "*Contact Pair, interaction=FRICTAB, type=SURFACE TO SURFACE\n"
-                      " <secondary>, <main>\n";
-  out["input_deck_note"] = "the coefficient has to be above 0; USRMU takes its place";
-}
-
-SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  return {{file, source(request, inputs)},
-          {hook, std::string(embedded_template("calculix/usrmu/frictab_hook.sh"))}};
-}
-
-std::vector<BuildVariant> variants(const ExportRequest& request) {
-  return {fortran::fortran_variant(request, "double", 0x1p-53, {file})};
-}
-
-Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
-  return {.gives = gives(request), .result = Coefficient::coulomb, .zero_is_no_temperature = true};
-}
-
 const char* const source_of_signature =
     "the list is our own: CalculiX has no user routine for friction. verified: what the arguments "
     "hold where frictab_hook.sh puts the calls, in the source of 2.20 and by running it "
@@ -125,18 +84,69 @@ const char* const notes =
     "standard output and stops. CalculiX is under the GPL, and so is a program linked from both "
     "when it is passed on.";
 
-const Registered<Exporter> registered{[] {
-  return routine_exporter({.about = {.name = "calculix_usrmu",
-                                     .order = 56,
-                                     .title = "CalculiX CrunchiX 2.20, calls put into its source",
-                                     .signature_source = source_of_signature,
-                                     .notes = notes,
-                                     .options = {values_option()}},
-                           .entry = "usrmu",
-                           .parts = {gives, sources, add_recipe, variants, driver},
-                           .selector = {.meaning = "USRMU is called with numbers of the contact "
-                                                   "point, which do not say which contact it is"}});
-}};
+class Usrmu final : public RoutineTarget {
+public:
+  Usrmu()
+      : RoutineTarget({.name = "calculix_usrmu",
+                       .order = 56,
+                       .title = "CalculiX CrunchiX 2.20, calls put into its source",
+                       .signature_source = source_of_signature,
+                       .notes = notes,
+                       .options = {values_option()}},
+                      "usrmu",
+                      {.meaning = "USRMU is called with numbers of the contact "
+                                  "point, which do not say which contact it is"}) {}
+
+private:
+  const SolverGives& gives(const ExportRequest& request) const override {
+    return usrmu::gives(request);
+  }
+
+  SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const override {
+    return {{file, source(request, inputs)},
+            {hook, std::string(embedded_template("calculix/usrmu/frictab_hook.sh"))}};
+  }
+
+  void add_recipe(json& out, const ExportRequest&, const Inputs& inputs) const override {
+    out["arguments"] = recipe_states(inputs);
+    out["arguments_note"] =
+        "USRMU's 7 arguments and the time increment that USRMU_TIME is given; listed is "
+        "where each state comes from";
+    out["result"] = {{"name", "UM"},
+                     {"meaning", "friction coefficient mu = tau_R/p"},
+                     {"least_pressure_MPa", fortran::least_pressure},
+                     {"at_most", fortran::largest_coefficient},
+                     {"unit", "1"}};
+    out["state_variables"] = json::array();
+    out["properties"] = json::array();
+    out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
+    out["build"] = {
+        "take the source of CalculiX CrunchiX 2.20 (Debian: apt-get source calculix-ccx)",
+        "sh frictab_hook.sh <its folder src>: puts calls of USRMU where friction is limited",
+        "build as its README says, with frictab_usrmu.f among the objects (gfortran "
+        "-frecursive)"};
+    out["compile"] = {fortran::fixed_form_check(file)};
+    out["compile_note"] = "this line only checks the source; the program is built as `build` says";
+    out["input_deck"] = "*Surface Interaction, name=FRICTAB\n"
+                        "*Surface Behavior, pressure-overclosure=LINEAR\n <stiffness>\n"
+                        "*Friction\n 0.1, <stick slope>\n"
+                        "*Contact Pair, interaction=FRICTAB, type=SURFACE TO SURFACE\n"
+                        " <secondary>, <main>\n";
+    out["input_deck_note"] = "the coefficient has to be above 0; USRMU takes its place";
+  }
+
+  std::vector<BuildVariant> builds(const ExportRequest& request) const override {
+    return {fortran::fortran_variant(request, "double", 0x1p-53, {file})};
+  }
+
+  Driver driver(const ExportRequest& request, const Inputs&) const override {
+    return {.gives = usrmu::gives(request),
+            .result = Coefficient::coulomb,
+            .zero_is_no_temperature = true};
+  }
+};
+
+const Registered<ExporterPointer> registered{make_exporter<Usrmu>};
 
 } // namespace
 

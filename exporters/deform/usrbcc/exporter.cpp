@@ -82,42 +82,6 @@ json build_steps(const std::vector<SolverInput>& inputs) {
   return steps;
 }
 
-void add_recipe(json& out, const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  const Coefficient kind = coefficient_kind(request);
-  out["arguments"] = recipe_states(inputs);
-  out["arguments_note"] = "USRBCC's own 18 arguments and COMMON /UFHCOM/, /UFHCOM2/; listed is "
-                          "where each state comes from";
-  out["result"] = result(kind, solver_unit("MPa", request.units));
-  out["acts_when"] = "IMODE = 1 and ITYPE = 2; otherwise VARIABLE stays as it is";
-  out["state_variables_by"] = "node, USRNOD(i,node); written by FTUPD once per converged step";
-  out["state_variables"] = takes_history(inputs) ? user_variables(request, inputs) : json::array();
-  out["properties"] = json::array();
-  out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
-  out["build"] = build_steps(inputs);
-  out["compile"] = {fortran::fixed_form_check("frictab_usrbcc.f")};
-  out["compile_note"] = "this line only checks the source; the engine is built as `build` says";
-  out["input_deck"] = keyword(kind);
-  out["input_deck_note"] =
-      "-1: user routine 1; the die has to be ELASTIC (meshed), else DEFORM computes neither SLDVEL "
-      "nor PRESS";
-}
-
-SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  SourceBundle files = {{main_file, usrbcc_source(request, inputs)}};
-  if (takes_history(inputs)) files[update_file] = usrupd_source(request, inputs);
-  return files;
-}
-
-std::vector<BuildVariant> variants(const ExportRequest& request) {
-  std::vector<std::string> files = {main_file};
-  if (takes_history(solver_inputs(request, gives(request)))) files.push_back(update_file);
-  return {fortran::fortran_variant(request, "double", 0x1p-53, files)};
-}
-
-Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
-  return {.gives = gives(request), .result = coefficient_kind(request), .peak_presses = true};
-}
-
 // USRBCC is called for heat as well, and for edges that touch nothing.
 const char* const guard = "      if (imode .ne. 1) return\n"
                           "      if (itype .ne. 2) return\n"
@@ -144,29 +108,78 @@ const char* const notes =
     "threads. Beyond a side with outside = error the routine writes state and value to the "
     "standard output and stops (FTQUIT). There is no USRBCC in DEFORM-3D.";
 
-const Registered<Exporter> registered{[] {
-  return routine_exporter(
-      {.about = {.name = "deform_usrbcc",
-                 .order = 52,
-                 .title = "DEFORM-2D USRBCC",
-                 .signature_source = source_of_signature,
-                 .notes = notes,
-                 .options = {{"deform_friction",
-                              {"coulomb", "shear", "constant"},
-                              "the friction type of FRCFAC: mu, m, or tau_R (2-D routine only)"},
-                             values_option()}},
-       .entry = "usrbcc",
-       .parts = {gives, sources, add_recipe, variants, driver},
-       .check = check_fields,
-       .arguments = arguments,
-       .selector = {.argument = "ndie",
-                    .meaning = "number of the object that is touched",
-                    .number = true,
-                    .alone = "2",
-                    .guard = guard,
-                    .deck = {{"<die>", "@"}}},
-       .quit = quit});
-}};
+class Usrbcc final : public RoutineTarget {
+public:
+  Usrbcc()
+      : RoutineTarget(
+            {.name = "deform_usrbcc",
+             .order = 52,
+             .title = "DEFORM-2D USRBCC",
+             .signature_source = source_of_signature,
+             .notes = notes,
+             .options = {{"deform_friction",
+                          {"coulomb", "shear", "constant"},
+                          "the friction type of FRCFAC: mu, m, or tau_R (2-D routine only)"},
+                         values_option()}},
+            "usrbcc",
+            {.argument = "ndie",
+             .meaning = "number of the object that is touched",
+             .number = true,
+             .alone = "2",
+             .guard = guard,
+             .deck = {{"<die>", "@"}}}) {}
+
+private:
+  const SolverGives& gives(const ExportRequest& request) const override {
+    return usrbcc::gives(request);
+  }
+
+  SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const override {
+    SourceBundle files = {{main_file, usrbcc_source(request, inputs)}};
+    if (takes_history(inputs)) files[update_file] = usrupd_source(request, inputs);
+    return files;
+  }
+
+  void add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const override {
+    const Coefficient kind = coefficient_kind(request);
+    out["arguments"] = recipe_states(inputs);
+    out["arguments_note"] = "USRBCC's own 18 arguments and COMMON /UFHCOM/, /UFHCOM2/; listed is "
+                            "where each state comes from";
+    out["result"] = result(kind, solver_unit("MPa", request.units));
+    out["acts_when"] = "IMODE = 1 and ITYPE = 2; otherwise VARIABLE stays as it is";
+    out["state_variables_by"] = "node, USRNOD(i,node); written by FTUPD once per converged step";
+    out["state_variables"] =
+        takes_history(inputs) ? user_variables(request, inputs) : json::array();
+    out["properties"] = json::array();
+    out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
+    out["build"] = build_steps(inputs);
+    out["compile"] = {fortran::fixed_form_check("frictab_usrbcc.f")};
+    out["compile_note"] = "this line only checks the source; the engine is built as `build` says";
+    out["input_deck"] = keyword(kind);
+    out["input_deck_note"] = "-1: user routine 1; the die has to be ELASTIC (meshed), else DEFORM "
+                             "computes neither SLDVEL "
+                             "nor PRESS";
+  }
+
+  std::vector<BuildVariant> builds(const ExportRequest& request) const override {
+    std::vector<std::string> files = {main_file};
+    if (takes_history(solver_inputs(request, usrbcc::gives(request)))) files.push_back(update_file);
+    return {fortran::fortran_variant(request, "double", 0x1p-53, files)};
+  }
+
+  Driver driver(const ExportRequest& request, const Inputs&) const override {
+    return {
+        .gives = usrbcc::gives(request), .result = coefficient_kind(request), .peak_presses = true};
+  }
+
+  void check(const ExportRequest& request, const Inputs& inputs) const override {
+    check_fields(request, inputs);
+  }
+
+  std::string quit() const override { return usrbcc::quit(); }
+};
+
+const Registered<ExporterPointer> registered{make_exporter<Usrbcc>};
 
 } // namespace
 

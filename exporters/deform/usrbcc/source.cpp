@@ -142,10 +142,6 @@ void check_fields(const ExportRequest&, const std::vector<SolverInput>& inputs) 
   faults.throw_if_any();
 }
 
-std::string arguments(const ExportRequest&) {
-  return render_template("deform/usrbcc/arguments.f", {});
-}
-
 std::string quit() {
   return fortran::quit("stop 1");
 }
@@ -172,7 +168,8 @@ std::string usrbcc_source(const ExportRequest& request, const std::vector<Solver
   values.text["constants"] = fortran::constants_data(inputs);
   values.text["coefficient"] = fortran::coefficient(table, kind);
   values.text["core"] = fortran::core(request, {.unknown = refuses, .quit = quit()}).text;
-  values.text["arguments"] = fortran::without_last_break(arguments(request));
+  values.text["arguments"] =
+      fortran::without_last_break(render_template("deform/usrbcc/arguments.f", {}));
   values.flags["histories"] = takes_history(inputs);
   Lines& warmest = values.lists["warmest"];
   for (const std::size_t state : peak_temperatures(inputs))

@@ -24,8 +24,7 @@ std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 // Throws InputError where a field's number is one of the histories.
 void check_fields(const codegen::ExportRequest&, const std::vector<codegen::SolverInput>& inputs);
 
-// The head of the entry: argument list and its declarations; and ftquit.
-std::string arguments(const codegen::ExportRequest&);
+// ftquit of fortran::Core.
 std::string quit();
 
 std::string usrbcc_source(const codegen::ExportRequest& request,

@@ -18,16 +18,6 @@ constexpr const char* file_name = "frictab_friction.k";
 constexpr int table_id = 90000; // curves count on from it
 constexpr std::size_t width = 20;
 
-NativeForm form(const ExportRequest&) {
-  NativeForm out;
-  out.gives.states = {
-      {.state = "sigma_n_MPa", .text = "abscissa of the curves, interface pressure"},
-      {.state = "v_rel_mm_s", .text = "value of the table, relative velocity"}};
-  out.every_column = true;
-  out.interpolation = "linear along each curve and between curves (recalled)";
-  return out;
-}
-
 Lines curves(const NativeTable& table) {
   const auto &pressure = table.values.nodes[0], &speed = table.values.nodes[1];
   Lines out;
@@ -52,19 +42,6 @@ std::string input_deck() {
                      file_name, table_id, table_id);
 }
 
-std::string write(const ExportRequest& request, const NativeTable& table,
-                  const std::vector<std::string>& comments) {
-  TemplateValues values;
-  values.lists["comments"] = items(comments);
-  values.text["id"] = fmt::format("{:>10}", table_id);
-  values.text["stress"] = solver_unit("MPa", request.units).name;
-  values.text["speed"] = solver_unit("mm/s", request.units).name;
-  for (const double speed : table.values.nodes[1])
-    values.lists["speeds"].push_back(item(fmt::format("{:>20}", native_number(speed))));
-  values.lists["curves"] = curves(table);
-  return render_template("lsdyna/table/frictab_friction.k", values);
-}
-
 double card(std::string_view line, std::size_t cell) {
   if (line.size() < width * (cell + 1)) throw std::runtime_error("a card is too short");
   const auto cells = split_cells(line.substr(width * cell, width), ' ');
@@ -75,31 +52,6 @@ double card(std::string_view line, std::size_t cell) {
 double number_of(std::string_view line) {
   const auto cells = split_cells(line, ' ');
   return read_number(cells.size() == 1 ? cells[0] : line);
-}
-
-NativeValues read(const std::string& text, const ExportRequest&) {
-  const auto lines = deck_lines(text, "$");
-  if (lines.empty() || lines[0] != "*DEFINE_TABLE") throw std::runtime_error("no *DEFINE_TABLE");
-  std::vector<double> speeds, value;
-  std::vector<std::vector<double>> places;
-  if (lines.size() < 2 || number_of(lines[1]) != table_id)
-    throw std::runtime_error("no number of the table");
-  std::size_t at = 2;
-  for (; at < lines.size() && lines[at][0] != '*'; ++at)
-    speeds.push_back(card(lines[at], 0));
-  for (const double speed : speeds) { // the curves follow in the order of the table's values
-    if (at >= lines.size() || lines[at] != "*DEFINE_CURVE")
-      throw std::runtime_error("fewer curves than values of the table");
-    if (++at >= lines.size() || !(number_of(lines[at]) > table_id))
-      throw std::runtime_error("no number of a curve");
-    for (++at; at < lines.size() && lines[at][0] != '*'; ++at) {
-      places.push_back({card(lines[at], 0), speed});
-      value.push_back(card(lines[at], 1));
-    }
-  }
-  if (at < lines.size() && lines[at] != "*END")
-    throw std::runtime_error("more curves than values of the table");
-  return values_of_rows(places, value);
 }
 
 const char* const source_of_signature =
@@ -115,27 +67,75 @@ const std::string notes =
     "from 90000: renumber them where your deck has these. The grid is made to "
     "table.tolerance_MPa with at most 30,000 points.";
 
-NativeTarget target() {
-  return {
-      .about = {.name = "lsdyna_table",
-                .order = 75,
-                .title =
-                    "LS-DYNA *DEFINE_TABLE of friction over velocity and pressure, no user routine",
-                .signature_source = source_of_signature,
-                .notes = notes,
-                .options = {}},
-      .file = file_name,
-      .form = form,
-      .write = write,
-      .read = read,
-      .entry = fmt::format("*DEFINE_TABLE {}", table_id),
-      .input_deck = input_deck(),
-      .plain_name = "lsdyna",
-      .plain_order = 4,
-      .plain_title = "*DEFINE_TABLE and *DEFINE_CURVE: mu over pressure, a curve per speed"};
-}
+class LsdynaTable final : public NativeTarget {
+public:
+  LsdynaTable()
+      : NativeTarget(
+            {.name = "lsdyna_table",
+             .order = 75,
+             .title =
+                 "LS-DYNA *DEFINE_TABLE of friction over velocity and pressure, no user routine",
+             .signature_source = source_of_signature,
+             .notes = notes},
+            {.file = file_name,
+             .entry = fmt::format("*DEFINE_TABLE {}", table_id),
+             .input_deck = input_deck(),
+             .plain_name = "lsdyna",
+             .plain_order = 4,
+             .plain_title =
+                 "*DEFINE_TABLE and *DEFINE_CURVE: mu over pressure, a curve per speed"}) {}
 
-const RegisteredNative<target> registered;
+private:
+  NativeForm form(const ExportRequest&) const override {
+    NativeForm out;
+    out.gives.states = {
+        {.state = "sigma_n_MPa", .text = "abscissa of the curves, interface pressure"},
+        {.state = "v_rel_mm_s", .text = "value of the table, relative velocity"}};
+    out.every_column = true;
+    out.interpolation = "linear along each curve and between curves (recalled)";
+    return out;
+  }
+
+  std::string write(const ExportRequest& request, const NativeTable& table,
+                    const std::vector<std::string>& comments) const override {
+    TemplateValues values;
+    values.lists["comments"] = items(comments);
+    values.text["id"] = fmt::format("{:>10}", table_id);
+    values.text["stress"] = solver_unit("MPa", request.units).name;
+    values.text["speed"] = solver_unit("mm/s", request.units).name;
+    for (const double speed : table.values.nodes[1])
+      values.lists["speeds"].push_back(item(fmt::format("{:>20}", native_number(speed))));
+    values.lists["curves"] = curves(table);
+    return render_template("lsdyna/table/frictab_friction.k", values);
+  }
+
+  NativeValues read(const std::string& text, const ExportRequest&) const override {
+    const auto lines = deck_lines(text, "$");
+    if (lines.empty() || lines[0] != "*DEFINE_TABLE") throw std::runtime_error("no *DEFINE_TABLE");
+    std::vector<double> speeds, value;
+    std::vector<std::vector<double>> places;
+    if (lines.size() < 2 || number_of(lines[1]) != table_id)
+      throw std::runtime_error("no number of the table");
+    std::size_t at = 2;
+    for (; at < lines.size() && lines[at][0] != '*'; ++at)
+      speeds.push_back(card(lines[at], 0));
+    for (const double speed : speeds) { // the curves follow in the order of the table's values
+      if (at >= lines.size() || lines[at] != "*DEFINE_CURVE")
+        throw std::runtime_error("fewer curves than values of the table");
+      if (++at >= lines.size() || !(number_of(lines[at]) > table_id))
+        throw std::runtime_error("no number of a curve");
+      for (++at; at < lines.size() && lines[at][0] != '*'; ++at) {
+        places.push_back({card(lines[at], 0), speed});
+        value.push_back(card(lines[at], 1));
+      }
+    }
+    if (at < lines.size() && lines[at] != "*END")
+      throw std::runtime_error("more curves than values of the table");
+    return values_of_rows(places, value);
+  }
+};
+
+const RegisteredNative<LsdynaTable> registered;
 
 } // namespace
 

@@ -68,31 +68,6 @@ json history(std::string_view units, const std::vector<SolverInput>& inputs) {
   return out;
 }
 
-void add_recipe(json& out, const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  out["arguments"] = recipe_states(inputs);
-  out["arguments_note"] = "USRFRC's own 58 arguments; listed is where each state comes from";
-  out["result"] = {{"name", "fxis, fyis, fzis; fdat(3..5)"},
-                   {"meaning", "force along what would hold the node, of magnitude "
-                               "min(tau_R*areas*frc(1,.), that force)"}};
-  out["state_variables_by"] = "contact node, ufhist(i, ilbsv(ii))";
-  out["state_variables"] = history(request.units, inputs);
-  out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
-  out["build"] = {"compare the argument list with that of usrfrc in the dyn21.f of your release's "
-                  "object package; older ones end at isurface and have no history",
-                  "replace subroutine usrfrc in dyn21.f by frictab_usrfrc.f",
-                  "build with the package's Makefile, which sets the kinds of real and integer"};
-  out["compile"] = {"make", fortran::fixed_form_check("frictab_usrfrc.f")};
-  out["compile_note"] = "the last line only checks the source";
-  out["input_deck"] = keywords(request, inputs);
-  out["input_deck_note"] =
-      "a forming contact, or one-way or node-to-surface contact (only they have nodal areas), with "
-      "FS above 0 (recalled: friction is processed only then)";
-}
-
-SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  return {{"frictab_usrfrc.f", usrfrc_source(request, inputs)}};
-}
-
 BuildVariant variant(const ExportRequest& request, const std::string& name, double eps,
                      const std::vector<std::string>& flags) {
   BuildVariant out =
@@ -103,16 +78,6 @@ BuildVariant variant(const ExportRequest& request, const std::string& name, doub
                          "      character*(*) text\n"
                          "      end\n";
   return out;
-}
-
-std::vector<BuildVariant> variants(const ExportRequest& request) {
-  return {variant(request, "double", 0x1p-53,
-                  {"-fdefault-real-8", "-fdefault-double-8", "-fdefault-integer-8"}),
-          variant(request, "single", 0x1p-24, {})};
-}
-
-Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
-  return {.gives = gives(request), .most_points = 128, .peak_presses = true};
 }
 
 const char* const source_of_signature =
@@ -144,25 +109,72 @@ const char* const notes =
     "arithmetic are double in both. Beyond a side with outside = error the routine writes state "
     "and value to the standard output and ends the analysis through CSTOP.";
 
-const Registered<Exporter> registered{[] {
-  return routine_exporter(
-      {.about = {.name = "lsdyna_usrfrc",
-                 .order = 54,
-                 .title = "LS-DYNA USRFRC, SMP",
-                 .signature_source = source_of_signature,
-                 .notes = notes,
-                 .options = {values_option(), speed_scale_option(), outside_summary_option()}},
-       .entry = "usrfrc",
-       .parts = {gives, sources, add_recipe, variants, driver},
-       .driver_values = area_of_driver,
-       .arguments = arguments,
-       .selector = {.argument = "nosl",
-                    .meaning = "number of the contact",
-                    .number = true,
-                    .alone = "1",
-                    .deck = {{"<contact>", "@"}}},
-       .quit = quit});
-}};
+class Usrfrc final : public RoutineTarget {
+public:
+  Usrfrc()
+      : RoutineTarget(
+            {.name = "lsdyna_usrfrc",
+             .order = 54,
+             .title = "LS-DYNA USRFRC, SMP",
+             .signature_source = source_of_signature,
+             .notes = notes,
+             .options = {values_option(), speed_scale_option(), outside_summary_option()}},
+            "usrfrc",
+            {.argument = "nosl",
+             .meaning = "number of the contact",
+             .number = true,
+             .alone = "1",
+             .deck = {{"<contact>", "@"}}}) {}
+
+private:
+  const SolverGives& gives(const ExportRequest& request) const override {
+    return usrfrc::gives(request);
+  }
+
+  SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const override {
+    return {{"frictab_usrfrc.f", usrfrc_source(request, inputs)}};
+  }
+
+  void add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const override {
+    out["arguments"] = recipe_states(inputs);
+    out["arguments_note"] = "USRFRC's own 58 arguments; listed is where each state comes from";
+    out["result"] = {{"name", "fxis, fyis, fzis; fdat(3..5)"},
+                     {"meaning", "force along what would hold the node, of magnitude "
+                                 "min(tau_R*areas*frc(1,.), that force)"}};
+    out["state_variables_by"] = "contact node, ufhist(i, ilbsv(ii))";
+    out["state_variables"] = history(request.units, inputs);
+    out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
+    out["build"] = {
+        "compare the argument list with that of usrfrc in the dyn21.f of your release's "
+        "object package; older ones end at isurface and have no history",
+        "replace subroutine usrfrc in dyn21.f by frictab_usrfrc.f",
+        "build with the package's Makefile, which sets the kinds of real and integer"};
+    out["compile"] = {"make", fortran::fixed_form_check("frictab_usrfrc.f")};
+    out["compile_note"] = "the last line only checks the source";
+    out["input_deck"] = keywords(request, inputs);
+    out["input_deck_note"] = "a forming contact, or one-way or node-to-surface contact (only they "
+                             "have nodal areas), with "
+                             "FS above 0 (recalled: friction is processed only then)";
+  }
+
+  std::vector<BuildVariant> builds(const ExportRequest& request) const override {
+    return {variant(request, "double", 0x1p-53,
+                    {"-fdefault-real-8", "-fdefault-double-8", "-fdefault-integer-8"}),
+            variant(request, "single", 0x1p-24, {})};
+  }
+
+  Driver driver(const ExportRequest& request, const Inputs&) const override {
+    return {.gives = usrfrc::gives(request), .most_points = 128, .peak_presses = true};
+  }
+
+  TemplateValues driver_values(const ExportRequest& request, const Inputs& inputs) const override {
+    return area_of_driver(request, inputs);
+  }
+
+  std::string quit() const override { return usrfrc::quit(); }
+};
+
+const Registered<ExporterPointer> registered{make_exporter<Usrfrc>};
 
 } // namespace
 

@@ -57,10 +57,6 @@ std::size_t state_count(const std::vector<SolverInput>& inputs) {
   return before_histories + 2 * history_count(inputs) + 2;
 }
 
-std::string arguments(const ExportRequest&) {
-  return render_template("lsdyna/usrfrc/arguments.f", {});
-}
-
 std::string quit() {
   return fortran::quit("call cstop('E r r o r   t e r m i n a t i o n')");
 }
@@ -90,7 +86,8 @@ std::string usrfrc_source(const ExportRequest& request, const std::vector<Solver
                      .quits = true,
                      .summary = fortran::outside_summary(*find_exporter("lsdyna_usrfrc"), request)})
           .text;
-  values.text["arguments"] = fortran::without_last_break(arguments(request));
+  values.text["arguments"] =
+      fortran::without_last_break(render_template("lsdyna/usrfrc/arguments.f", {}));
   values.flags["has_ends"] = !frictab::table::all_ends(table).empty();
   add_speed_scale(values, request, inputs);
   values.flags["uses_temperature"] = takes(inputs, "T_contact_C");

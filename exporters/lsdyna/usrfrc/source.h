@@ -16,8 +16,7 @@ inline constexpr std::size_t before_histories = 6; // of UFHIST
 // be looked at the frictional shear stress and its share of the pressure.
 std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 
-// The head of the entry: argument list and its declarations; and ftquit.
-std::string arguments(const codegen::ExportRequest&);
+// ftquit of fortran::Core.
 std::string quit();
 
 std::string usrfrc_source(const codegen::ExportRequest& request,

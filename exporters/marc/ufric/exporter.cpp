@@ -45,48 +45,6 @@ json result(const Choices& chosen) {
           {"unit", "1"}};
 }
 
-void add_recipe(json& out, const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  const Choices chosen = choices(request);
-  out["arguments"] = recipe_states(inputs);
-  out["arguments_note"] = "UFRIC's own 10 arguments; listed is where each state comes from";
-  out["result"] = result(chosen);
-  out["dimension"] = chosen.slip_components == 1 ? "2d" : "3d";
-  out["state_variables"] = json::array();
-  out["properties"] = json::array();
-  out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
-  out["compile"] = {"run_marc -jid <job> -user frictab_ufric.f",
-                    fortran::fixed_form_check("frictab_ufric.f")};
-  out["compile_note"] = "the first line is recalled; the last one only checks the source";
-  out["input_deck"] = input_deck(chosen);
-}
-
-SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  return {{"frictab_ufric.f", ufric_source(request, inputs)}};
-}
-
-std::vector<BuildVariant> variants(const ExportRequest& request) {
-  BuildVariant out = fortran::fortran_variant(request, "double", 0x1p-53, {"frictab_ufric.f"});
-  if (!fortran::ends(request)) return {out};
-  out.command.push_back("@{dir}/quit.f"); // for the bundle's own ftquit
-  out.extra["quit.f"] = "C     Stand-in for the solver's routine.\n"
-                        "      subroutine quit(number)\n"
-                        "      integer number\n"
-                        "      end\n";
-  return {out};
-}
-
-Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
-  return {.gives = gives(request), .result = choices(request).coefficient};
-}
-
-// Nothing in UFRIC's arguments tells the model's dimension.
-std::string caution(const ExportRequest& request) {
-  return request.options.count("marc_dimension")
-             ? ""
-             : "marc_ufric is for 2-D models; in 3-D it would take one component of the sliding "
-               "velocity for all of it: [export.options] marc_dimension = \"3d\"";
-}
-
 const char* const source_of_signature =
     "recalled: the argument list, what its arguments hold (MIBODY(4); VREL and X of 1 and 2 "
     "components in 2-D, 2 and 3 in 3-D; FN a stress in stress-based models and a force in nodal "
@@ -107,31 +65,83 @@ const char* const notes =
     "side with outside = error the routine writes state and value to the standard output and ends "
     "the analysis through QUIT(1234).";
 
-const Registered<Exporter> registered{[] {
-  return routine_exporter(
-      {.about =
-           {.name = "marc_ufric",
-            .order = 50,
-            .title = "Marc and Simufact Forming UFRIC",
-            .signature_source = source_of_signature,
-            .notes = notes,
-            .options =
-                {{"marc_friction", {"coulomb", "shear"}, "what UFRIC gives back: mu or m"},
-                 {"marc_normal",
-                  {"stress", "force"},
-                  "what FN is: the normal stress (stress-based models) or a force (nodal ones)"},
-                 {"marc_dimension", {"2d", "3d"}, "sizes of UFRIC's arrays X and VREL"},
-                 values_option()}},
-       .entry = "ufric",
-       .parts = {gives, sources, add_recipe, variants, driver},
-       .caution = caution,
-       .arguments = arguments,
-       .selector = {.argument = "nsurf",
-                    .meaning = "number of the contact body that is touched",
-                    .number = true,
-                    .alone = "1"},
-       .quit = quit});
-}};
+class Ufric final : public RoutineTarget {
+public:
+  Ufric()
+      : RoutineTarget(
+            {.name = "marc_ufric",
+             .order = 50,
+             .title = "Marc and Simufact Forming UFRIC",
+             .signature_source = source_of_signature,
+             .notes = notes,
+             .options =
+                 {{"marc_friction", {"coulomb", "shear"}, "what UFRIC gives back: mu or m"},
+                  {"marc_normal",
+                   {"stress", "force"},
+                   "what FN is: the normal stress (stress-based models) or a force (nodal ones)"},
+                  {"marc_dimension", {"2d", "3d"}, "sizes of UFRIC's arrays X and VREL"},
+                  values_option()}},
+            "ufric",
+            {.argument = "nsurf",
+             .meaning = "number of the contact body that is touched",
+             .number = true,
+             .alone = "1"}) {}
+
+  // Nothing in UFRIC's arguments tells the model's dimension.
+  std::string caution(const ExportRequest& request) const override {
+    return request.options.count("marc_dimension")
+               ? ""
+               : "marc_ufric is for 2-D models; in 3-D it would take one component of the sliding "
+                 "velocity for all of it: [export.options] marc_dimension = \"3d\"";
+  }
+
+private:
+  const SolverGives& gives(const ExportRequest& request) const override {
+    return ufric::gives(request);
+  }
+
+  SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const override {
+    return {{"frictab_ufric.f", ufric_source(request, inputs)}};
+  }
+
+  void add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const override {
+    const Choices chosen = choices(request);
+    out["arguments"] = recipe_states(inputs);
+    out["arguments_note"] = "UFRIC's own 10 arguments; listed is where each state comes from";
+    out["result"] = result(chosen);
+    out["dimension"] = chosen.slip_components == 1 ? "2d" : "3d";
+    out["state_variables"] = json::array();
+    out["properties"] = json::array();
+    out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
+    out["compile"] = {"run_marc -jid <job> -user frictab_ufric.f",
+                      fortran::fixed_form_check("frictab_ufric.f")};
+    out["compile_note"] = "the first line is recalled; the last one only checks the source";
+    out["input_deck"] = input_deck(chosen);
+  }
+
+  std::vector<BuildVariant> builds(const ExportRequest& request) const override {
+    BuildVariant out = fortran::fortran_variant(request, "double", 0x1p-53, {"frictab_ufric.f"});
+    if (!fortran::ends(request)) return {out};
+    out.command.push_back("@{dir}/quit.f"); // for the bundle's own ftquit
+    out.extra["quit.f"] = "C     Stand-in for the solver's routine.\n"
+                          "      subroutine quit(number)\n"
+                          "      integer number\n"
+                          "      end\n";
+    return {out};
+  }
+
+  Driver driver(const ExportRequest& request, const Inputs&) const override {
+    return {.gives = ufric::gives(request), .result = choices(request).coefficient};
+  }
+
+  std::string arguments(const ExportRequest& request) const override {
+    return ufric::arguments(request);
+  }
+
+  std::string quit() const override { return ufric::quit(); }
+};
+
+const Registered<ExporterPointer> registered{make_exporter<Ufric>};
 
 } // namespace
 

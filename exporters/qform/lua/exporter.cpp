@@ -28,9 +28,9 @@ using json = nlohmann::ordered_json;
 
 constexpr const char* file_name = "frictab_qform.lua";
 
-std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
-                   const SourceBundle& files) {
-  json out = recipe_head(*find_exporter("qform_lua"), request, "FrictionStress", files);
+std::string recipe(const Exporter& self, const ExportRequest& request,
+                   const std::vector<SolverInput>& inputs, const SourceBundle& files) {
+  json out = recipe_head(self, request, "FrictionStress", files);
   out["arguments"] = json::array();
   for (const InputArgument& argument : entry_arguments(request.table, request.units)) {
     std::string source = "not used by this law";
@@ -57,29 +57,6 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
   out["input_deck"] = "lubricant database: load from file, frictab_qform.lua";
   out["table"] = recipe_table(request);
   return io::json_text(out);
-}
-
-SourceBundle generate(const ExportRequest& as_said) {
-  const CurvedRequest curved(as_said, gives());
-  const ExportRequest& request = curved.get();
-  check_table(request.table);
-  check_table_size(request.table);
-  const std::vector<SolverInput> inputs = solver_inputs(request, gives());
-  SourceBundle files;
-  files[file_name] = lua_source(request, inputs);
-  files["recipe.json"] = recipe(request, inputs, files);
-  return files;
-}
-
-std::vector<BuildVariant> variants(const ExportRequest&) {
-  std::vector<BuildVariant> out;
-  for (const char* program : {"luajit", "lua5.4"}) {
-    BuildVariant variant;
-    variant.name = variant.interpreter = program;
-    variant.eps = 0x1p-53;
-    out.push_back(variant);
-  }
-  return out;
 }
 
 // All rows in one process: states and answers go through files.
@@ -118,43 +95,69 @@ void run_rows(const Built& built, const ExportRequest& request, std::size_t rows
   }
 }
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  const CurvedRequest curved(request, gives());
-  curved.drive(rows, columns, tau, [&](std::size_t n, auto states, auto answers) {
-    run_rows(built, curved.get(), n, states, answers);
-  });
-}
+const char* const source_of_signature =
+    "verified: a lubricant's subroutine is Lua (LuaJIT), a function FrictionStress that returns "
+    "the stress, parameter(name, default) gives a number of the user's (QForm documentation). "
+    "recalled, check against your release: the names of the arguments of FrictionStress";
 
-Exporter exporter() {
-  Exporter out;
-  out.name = "qform_lua";
-  out.order = 90;
-  out.title = "QForm friction subroutine in Lua";
-  out.signature_source =
-      "verified: a lubricant's subroutine is Lua (LuaJIT), a function FrictionStress that returns "
-      "the stress, parameter(name, default) gives a number of the user's (QForm documentation). "
-      "recalled, check against your release: the names of the arguments of FrictionStress";
-  out.several_laws = "QForm loads a file for each lubricant: export each law by itself";
-  out.notes =
-      "frictab_tau_R holds law, table and interpolation and is what is verified; FrictionStress "
-      "only calls it, with argument names that you have to check against your release. Pressure, "
-      "sliding speed and temperature are taken from its arguments, every other state is a "
-      "parameter of the subroutine with the typical value as default, or the constant that "
-      "[export.inputs] gives. Strains and positions of QForm's Lua are current, other fields those "
-      "of the step before. Beyond a side with outside = error the answer is NaN. "
-      "frictab_outside tells whether a state lies outside the range.";
-  out.generate = generate;
-  out.variants = variants;
-  out.drive = drive;
-  out.held = [](const ExportRequest& request) {
+const char* const notes =
+    "frictab_tau_R holds law, table and interpolation and is what is verified; FrictionStress "
+    "only calls it, with argument names that you have to check against your release. Pressure, "
+    "sliding speed and temperature are taken from its arguments, every other state is a "
+    "parameter of the subroutine with the typical value as default, or the constant that "
+    "[export.inputs] gives. Strains and positions of QForm's Lua are current, other fields those "
+    "of the step before. Beyond a side with outside = error the answer is NaN. "
+    "frictab_outside tells whether a state lies outside the range.";
+
+class QFormLua final : public Exporter {
+public:
+  QFormLua()
+      : Exporter(
+            {.name = "qform_lua",
+             .order = 90,
+             .title = "QForm friction subroutine in Lua",
+             .signature_source = source_of_signature,
+             .notes = notes,
+             .several_laws = "QForm loads a file for each lubricant: export each law by itself"}) {}
+
+  SourceBundle generate(const ExportRequest& as_given) const override {
+    const CurvedRequest curved(as_given, gives());
+    const ExportRequest& request = curved.get();
+    check_table(request.table);
+    check_table_size(request.table);
+    const std::vector<SolverInput> inputs = solver_inputs(request, gives());
+    SourceBundle files;
+    files[file_name] = lua_source(request, inputs);
+    files["recipe.json"] = recipe(*this, request, inputs, files);
+    return files;
+  }
+
+  std::vector<BuildVariant> variants(const ExportRequest&) const override {
+    std::vector<BuildVariant> out;
+    for (const char* program : {"luajit", "lua5.4"}) {
+      BuildVariant variant;
+      variant.name = variant.interpreter = program;
+      variant.eps = 0x1p-53;
+      out.push_back(variant);
+    }
+    return out;
+  }
+
+  void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+             std::span<const double* const> columns, std::span<double> tau) const override {
+    const CurvedRequest curved(request, gives());
+    curved.drive(rows, columns, tau, [&](std::size_t n, auto states, auto answers) {
+      run_rows(built, curved.get(), n, states, answers);
+    });
+  }
+
+  table::HeldStates held(const ExportRequest& request) const override {
     const CurvedRequest curved(request, gives());
     return said_constants(curved.get(), solver_inputs(curved.get(), gives()));
-  };
-  return out;
-}
+  }
+};
 
-const Registered<Exporter> registered{exporter};
+const Registered<ExporterPointer> registered{make_exporter<QFormLua>};
 
 } // namespace
 
