@@ -87,7 +87,7 @@ std::string constants_data(const std::vector<SolverInput>& inputs) {
     const SolverInput& input = inputs[i];
     if (input.source != Source::constant && input.source != Source::field) continue;
     if (!input.fallback)
-      faults.add({"export.inputs." + input.argument.name, 0, 0},
+      faults.add(input_place(input.argument.name),
                  "neither the solver nor the table knows a value of this state", "constant:1.5");
     values[i] = input.fallback.value_or(0.0);
   }

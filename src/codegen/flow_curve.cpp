@@ -20,7 +20,7 @@ namespace {
 constexpr const char* stress_name = "sigma_f_MPa";
 constexpr std::string_view curve_choice = "curve:";
 
-const Place curve_place{"export.inputs.sigma_f_MPa", 0, 0};
+const Place curve_place = at_job_key("export.inputs", "sigma_f_MPa");
 
 void check_curve(const expr::Expr& curve, const table::Table& table) {
   std::vector<std::string> known = table.inputs();
@@ -137,7 +137,7 @@ CurvedRequest::CurvedRequest(const ExportRequest& request, const SolverGives& gi
     throw InputError(curve_place, "the solver gives this state itself",
                      "\"solver\", or the curve for other targets: [export.TARGET.inputs]");
   curve_ = expr::parse_expr(std::string_view(said->second).substr(curve_choice.size()),
-                            curve_place.file);
+                            format_place(curve_place));
   check_curve(curve_, request.table);
   table_ = request.table;
   table_.combine = substitute(table_.combine, {{stress_name, curve_}});

@@ -30,10 +30,6 @@ constexpr double usual_tolerance_MPa = 0.5;
 constexpr double share_of_tolerance = 0.93;
 constexpr double least_share = 0.05;
 
-Place input_place(const std::string& name) {
-  return {"export.inputs." + name, 0, 0};
-}
-
 bool is_pressure(const NativeColumn& column) {
   return column.state == "sigma_n_MPa";
 }

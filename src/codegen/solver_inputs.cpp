@@ -22,15 +22,15 @@
 
 namespace frictab::codegen {
 
+Place input_place(const std::string& name) {
+  return at_job_key("export.inputs", name);
+}
+
 namespace {
 
 // The state that a solver's table has a row for: what a routine sums up as slip is both.
 std::string state_of(const std::string& name) {
   return name == "sliding_distance" ? "s_mm" : name;
-}
-
-Place place(const std::string& name) {
-  return {"export.inputs." + name, 0, 0};
 }
 
 // The whole text as a number.
@@ -151,7 +151,7 @@ private:
   }
 
   void fault(const std::string& what, const std::string& hint) {
-    faults_.add(place(input_.argument.name), what, hint);
+    faults_.add(input_place(input_.argument.name), what, hint);
   }
 
   void read_constant(std::string_view text) {
@@ -205,7 +205,8 @@ void check_names(const ExportRequest& request, const std::vector<std::string>& n
   for (const auto& [name, choice] : request.inputs)
     if (std::find(known.begin(), known.end(), name) == known.end())
       if (const std::string near = nearest_name(name, known); !near.empty())
-        faults.add(place(name), "no state of this name", fmt::format("did you mean '{}'?", near));
+        faults.add(input_place(name), "no state of this name",
+                   fmt::format("did you mean '{}'?", near));
 }
 
 } // namespace

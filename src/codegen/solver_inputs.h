@@ -10,6 +10,7 @@
 
 #include "codegen/entry_arguments.h"
 #include "codegen/exporter.h"
+#include "core/error.h"
 
 namespace frictab::codegen {
 
@@ -77,6 +78,9 @@ struct SolverInput {
 // contact temperature where only a history follows it. Throws InputError with every fault of these
 // choices.
 std::vector<SolverInput> solver_inputs(const ExportRequest& request, const SolverGives& gives);
+
+// [export.inputs] NAME, for faults.
+Place input_place(const std::string& name);
 
 // A property of the deck that is no state of the law: what the routine itself has to be told. Its
 // number comes behind those of the states.

@@ -7,7 +7,13 @@
 
 namespace frictab {
 
+Place at_job_key(std::string table, std::string name) {
+  return {"", 0, 0, {std::move(table), std::move(name)}};
+}
+
 std::string format_place(const Place& place) {
+  if (!place.key.name.empty()) return place.key.table + "." + place.key.name;
+  if (!place.key.table.empty()) return place.key.table;
   if (place.line == 0) return place.file;
   if (place.column == 0) return fmt::format("{}:{}", place.file, place.line);
   return fmt::format("{}:{}:{}", place.file, place.line, place.column);

@@ -9,14 +9,22 @@
 
 namespace frictab {
 
-// A place in a user's file; line and column count from 1, 0 = unknown.
+// A key of the job, where it is known which one is at fault and not where the job states it.
+struct JobKey {
+  std::string table; // "export.inputs"
+  std::string name;  // "psi"; empty: the whole table
+};
+
+// A place in a user's file; line and column count from 1, 0 = unknown. With a key: no file yet.
 struct Place {
   std::string file;
   std::size_t line = 0;
   std::size_t column = 0;
+  JobKey key = {};
 };
+Place at_job_key(std::string table, std::string name);
 
-// "file:line:col", leaving out what is unknown.
+// "file:line:col", leaving out what is unknown; "export.inputs.psi".
 std::string format_place(const Place& place);
 
 // One fault of the input. `hint` says how to mend it and may be empty.

@@ -14,16 +14,17 @@ using table::Table;
 
 namespace {
 
-// A target names the key at fault; the job knows where it stands, and that there may be others.
-Fault said_in_job(Fault fault, const std::string& target, const codegen::ExportOptions& exports) {
+// Names the target at fault, and replaces the job's key by the place where the job states it.
+Fault with_job_location(Fault fault, const std::string& target,
+                        const codegen::ExportOptions& exports) {
   fault.what = target + ": " + fault.what;
-  const std::string all = "export.inputs.";
-  if (!fault.place.file.starts_with(all)) return fault;
+  const JobKey key = fault.place.key;
   const std::string own = "export." + target + ".inputs";
-  for (const std::string& key : {own + "." + fault.place.file.substr(all.size()), fault.place.file})
-    if (const auto known = exports.input_places.find(key); known != exports.input_places.end()) {
+  for (const std::string& table : {own, key.table})
+    if (const auto known = exports.input_places.find(table + "." + key.name);
+        known != exports.input_places.end()) {
       fault.place = known->second;
-      if (key.starts_with(all))
+      if (table != own)
         fault.hint +=
             (fault.hint.empty() ? "for" : "; for") + (" this target alone: [" + own + "]");
       break;
@@ -74,8 +75,8 @@ void export_sources(Run& run) {
       } catch (const InputError& error) {
         refused.insert(exporter);
         for (const Fault& fault : error.faults()) {
-          const Fault said = said_in_job(fault, exporter->name, run.job.exports);
-          faults.add(said.place, said.what, said.hint);
+          const Fault placed = with_job_location(fault, exporter->name, run.job.exports);
+          faults.add(placed.place, placed.what, placed.hint);
         }
       }
     }

@@ -98,7 +98,7 @@ std::string arguments(const ExportRequest& request) {
 std::string coef_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const bool newer = is_2024(request);
   if (!newer && abaqus::coefficient_is_frozen(target(), request))
-    throw InputError({"export.options.abaqus_coefficient", 0, 0},
+    throw InputError(at_job_key("export.options", "abaqus_coefficient"),
                      "abaqus_fric_coef keeps no coefficient with abaqus_release = \"2020\": that "
                      "argument list has no state variables",
                      "\"current\", or the target abaqus_fric");

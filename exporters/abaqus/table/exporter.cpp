@@ -34,7 +34,7 @@ std::size_t field_count(const std::vector<NativeColumn>& columns) {
   }
   if (count != last)
     throw InputError(
-        {"export.inputs", 0, 0},
+        at_job_key("export.inputs", ""),
         fmt::format("*FRICTION counts its fields from 1: {} of {} are used", count, last),
         "field:1, field:2, ... without a gap");
   return count;

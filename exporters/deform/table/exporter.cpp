@@ -27,7 +27,7 @@ const std::vector<ExportOption> options = {
 bool is_shear(const ExportRequest& request) {
   const std::string& said = find_exporter("deform_table")->option(request, friction_option);
   if (said != "shear" && said != "coulomb")
-    throw InputError({std::string("export.options.") + friction_option, 0, 0},
+    throw InputError(at_job_key("export.options", friction_option),
                      "a FRCFAC table holds mu or m, not '" + said + "'",
                      "coulomb or shear; only deform_usrbcc takes constant");
   return said == "shear";

@@ -136,7 +136,7 @@ void check_fields(const ExportRequest&, const std::vector<SolverInput>& inputs) 
   if (takes_history(inputs))
     for (const SolverInput& input : inputs)
       if (input.source == Source::field && input.field <= state_count(inputs))
-        faults.add({"export.inputs." + input.argument.name, 0, 0},
+        faults.add(input_place(input.argument.name),
                    fmt::format("USRNOD({}) holds a history that the law needs", input.field),
                    fmt::format("field:{} or higher", state_count(inputs) + 1));
   faults.throw_if_any();

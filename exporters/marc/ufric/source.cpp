@@ -93,7 +93,7 @@ std::string ufric_source(const ExportRequest& request, const std::vector<SolverI
   const table::Table& table = request.table;
   const Choices chosen = choices(request);
   if (chosen.by_force && !fortran::same_at_every_pressure(table, chosen.coefficient))
-    throw InputError({"export.options.marc_normal", 0, 0},
+    throw InputError(at_job_key("export.options", "marc_normal"),
                      fmt::format("the coefficient of {} depends on the pressure, which cannot be "
                                  "known where FN is a force: UFRIC gives no area",
                                  table.model),
