@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t most_bins = 1024;
 constexpr int most_in_bin = 8;
 
-// As ft_cell computes it.
+// Computes the bin as ft_cell does.
 int bin_of(const AxisSearch& axis, double u) {
   return static_cast<int>(u * axis.scale - axis.shift);
 }
@@ -25,7 +25,7 @@ void set_scale(AxisSearch& axis, double scale, double below) {
   axis.shift = axis.u.front() * axis.scale + below;
 }
 
-// Just below each node the guess is a cell that ends there or before.
+// Checks just below each node, where the guess has to be a cell that ends at the node or earlier.
 bool never_passes(const AxisSearch& axis) {
   for (std::size_t i = 1; i < axis.u.size(); ++i) {
     const double below = std::nextafter(axis.u[i], -std::numeric_limits<double>::infinity());
@@ -35,12 +35,12 @@ bool never_passes(const AxisSearch& axis) {
 }
 
 bool search_even(AxisSearch& axis) {
-  // Nodes may lie 1e-9 of a step beside their places.
+  // Evenly spaced nodes may deviate from their exact positions by 1e-9 of a step.
   set_scale(axis, per_step(axis.u), 1e-8);
   return axis.scale > 0 && never_passes(axis);
 }
 
-// Per bin the last node in a bin below it; false where too many nodes share a bin.
+// Stores per bin the last node that lies in a lower bin; false where too many nodes share a bin.
 bool fill_guide(AxisSearch& axis) {
   axis.guide.assign(static_cast<std::size_t>(bin_of(axis, axis.u.back())) + 1, 0);
   int crowd = 0, in_bin = 0;

@@ -1,4 +1,4 @@
-// Nodes of a table at states where its law has seen no data: there the law extrapolates.
+// Nodes of a table at states where the law has no data and therefore extrapolates.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace frictab::table {
 
-// Nodes below the least or above the largest value of TableAxis::data; 0 where that is not known.
+// Counts the nodes outside TableAxis::data; 0 where that range is not known.
 std::size_t nodes_beyond_data(const TableAxis& axis);
-double share_beyond_data(const TableAxis& axis); // of its nodes, 0 .. 1
+double share_beyond_data(const TableAxis& axis); // share of the axis' nodes, 0 .. 1
 
-// "8 of 17 nodes (47 %) beyond the data: from 10.3 up to 20": how many, and from where the data end
-// to where the axis does. Empty where no node is.
+// "8 of 17 nodes (47 %) beyond the data: from 10.3 up to 20": the count, and the interval from the
+// end of the data to the end of the axis. Empty where all nodes are within the data.
 std::string beyond_data_text(const TableAxis& axis);
 
 } // namespace frictab::table

@@ -34,7 +34,7 @@ Expr combine_of(const Table& table) {
   return substitute(table.combine, constants);
 }
 
-// The law's piece as the table holds it, in the coordinates of its axes.
+// Returns the law's piece as the table stores it, in the coordinates of its axes.
 Expr piece_of(const models::AssembledLaw& law, const Table& table) {
   std::set<std::string> logarithmic;
   for (const TableAxis& axis : table.axes)
@@ -52,17 +52,17 @@ std::vector<std::string> axis_names(const Table& table) {
 
 struct Box {
   std::vector<CellPart> parts; // per axis
-  std::vector<Bounds> state;   // per range; those of axes follow from the parts
-  std::vector<double> law;     // polynomial over the parts
-  double error = HUGE_VAL;     // of it
-  bool fresh = false;          // polynomial and error are of this very box
+  std::vector<Bounds> state;   // per range; for an axis it follows from its part
+  std::vector<double> law;     // coefficients of the polynomial over the parts
+  double error = HUGE_VAL;     // error bound of the polynomial
+  bool fresh = false;          // polynomial and error were computed for exactly this box
 };
 
-// What a look at one box finds.
+// The bound of one box, and the range by which to split it.
 struct Look {
   double bound = HUGE_VAL;
-  double drift = 0;          // in the middle
-  std::vector<double> state; // there
+  double drift = 0;          // at the centre of the box
+  std::vector<double> state; // the centre
   std::size_t split = 0;     // the range to halve
 };
 
@@ -94,7 +94,7 @@ public:
     bool out_of_boxes = false;
   };
 
-  // One thread's memory.
+  // Memory of one thread.
   struct Work {
     explicit Work(const Cells& cells) : taylor(cells.piece_) {}
     expr::TaylorProgram::Work taylor;
@@ -113,7 +113,8 @@ public:
     Look look;
   };
 
-  // Splits the cell until no box is above the goal, or above what was found in the cell itself.
+  // Splits the cell until every box is below the goal, or below the largest drift found in the
+  // cell.
   Result run(std::size_t cell, double goal, std::size_t most, Work& work) const {
     Result result;
     std::vector<Open> open; // a heap: the largest bound first
@@ -216,12 +217,12 @@ private:
   const CellPolynomials interpolant_;
   const Rewriting rewriting_;
   const Deviation deviation_;
-  const expr::Sensitivity combine_;              // of tau_R to the tabulated number
-  std::vector<std::vector<double>> coordinates_; // nodes, per axis
+  const expr::Sensitivity combine_;              // derivative of tau_R by the tabulated number
+  std::vector<std::vector<double>> coordinates_; // of the nodes, per axis
   std::vector<std::size_t> range_of_axis_;
 };
 
-// The largest |d tau_R / d value| over the box.
+// Bounds |d tau_R / d value| over the box.
 double Cells::reach(const Box& box, const Bounds& value) const {
   std::vector<Bounds> columns{value};
   columns.insert(columns.end(), box.state.begin(), box.state.end());
@@ -257,8 +258,8 @@ Look Cells::at(Box& box, double goal, Work& work) const {
   return look;
 }
 
-// Of each axis in the polynomial's error: by its terms and, where a branch hides them, by its
-// width.
+// Returns each axis' share in the polynomial's error, by its terms and by its width (a branch
+// of the formula can hide the terms).
 std::vector<double> Cells::shares(const Box& box) const {
   std::vector<double> terms(box.parts.size(), 0.0), share;
   double all_terms = 1e-300, width = 1e-300;
@@ -274,7 +275,7 @@ std::vector<double> Cells::shares(const Box& box) const {
   return share;
 }
 
-// The range whose halves promise most.
+// Chooses the range whose halves promise the smallest bound.
 void Cells::choose_split(Look& look, const Box& box, const Bounds& value, double most, double slope,
                          const Deviation::Result& bounds) const {
   double best = -1;
@@ -290,8 +291,8 @@ void Cells::choose_split(Look& look, const Box& box, const Bounds& value, double
       const double lower = reach(part, value);
       part.state[r] = {cut, x.high};
       const double upper = reach(part, value);
-      // A half that needs no more work counts too, but less the thinner the box is already: a kink
-      // would be chased for ever.
+      // A half that needs no further work counts too, but less for a box that is already thin:
+      // otherwise the search would split at a kink for ever.
       const double rest = a < box.parts.size()
                               ? box.parts[a].high - box.parts[a].low
                               : x.width() / (ranges_[r].high - ranges_[r].low + 1e-300);
@@ -332,7 +333,7 @@ Box Cells::half(const Box& box, const Look& look, bool upper) const {
   return out;
 }
 
-// Why there is no bound, or nothing.
+// Returns the reason why there cannot be a bound; empty if there can.
 std::string obstacle(const models::AssembledLaw& law, const Table& table,
                      const BoundOptions& options) {
   const Expr of_law = law.in_numbers(law.combine);
@@ -367,7 +368,8 @@ void run_cells(const Cells& cells, const std::vector<std::size_t>& chosen, doubl
   });
 }
 
-// Of every cell. Most cells need few boxes; what they leave goes to the others, which begin again.
+// Bounds every cell. Most cells need few boxes; the boxes they leave go to the other cells, which
+// start again.
 std::vector<Cells::Result> bounds_of(const Cells& cells, const BoundOptions& options,
                                      const std::string& model) {
   const std::size_t most_per_cell = std::max<std::size_t>(20, options.most_boxes / 500);
@@ -423,8 +425,8 @@ double rounded_up(double value) {
 
 namespace {
 
-// The bound is that of exact arithmetic. Rounding, of the kernel as of the law, is taken as below
-// 2^-40 of the largest stress: no bound is below that.
+// Estimates the rounding of kernel and law, which the bound leaves out, as 2^-40 of the largest
+// stress. No bound is shown below that.
 double rounding_of(const models::AssembledLaw& law, const std::vector<StateRange>& ranges) {
   std::vector<std::string> names;
   for (const StateRange& range : ranges)
@@ -441,7 +443,8 @@ double rounding_of(const models::AssembledLaw& law, const std::vector<StateRange
 ProvenDrift prove_drift(const models::AssembledLaw& law, const Table& table,
                         const std::vector<StateRange>& ranges, WorstCase found, double allowed_MPa,
                         std::size_t most_boxes) {
-  // As close as 2 % where that settles whether the table is allowed, else to 10 %.
+  // A bound within 2 % of the drift found is enough where that settles whether the drift is
+  // allowed; elsewhere 10 % is.
   const double goal = std::max(
       1e-3 * allowed_MPa, std::clamp(allowed_MPa, 1.02 * found.drift_MPa, 1.1 * found.drift_MPa));
   ProvenDrift out{std::move(found), bound_drift(law, table, ranges, {goal, most_boxes})};

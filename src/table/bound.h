@@ -1,4 +1,5 @@
-// A guaranteed upper bound of how far a table is from its law, anywhere in its box of states.
+// Guaranteed upper bound of the difference between a table and its law, anywhere in the table's box
+// of states.
 #pragma once
 
 #include <optional>
@@ -10,22 +11,26 @@ namespace frictab::table {
 
 struct DriftBound {
   std::optional<double> MPa; // no state in the ranges drifts further; absent: not available
-  std::string why_not;       // where absent
-  std::size_t boxes = 0;     // that were looked at
-  bool out_of_boxes = false; // more of them might have brought the bound down
-  double found_MPa = 0;      // largest drift in the middle of a box ...
-  std::vector<double> state; // ... and where, in the order of the ranges
+  std::string why_not;       // the reason where MPa is absent
+  std::size_t boxes = 0;     // number of boxes evaluated
+  bool out_of_boxes = false; // more boxes might have lowered the bound
+  double found_MPa = 0;      // largest drift at the centre of a box ...
+  std::vector<double> state; // ... and its state, in the order of the ranges
 };
 
-// In every cell the law's piece is enclosed by a polynomial and its error (expr/taylor_model.h),
-// the interpolant, a polynomial there itself, is taken off, and what is left is bounded by the sum
-// of its Chebyshev coefficients; how much of it reaches tau_R is a bound of the combination's slope
-// (expr/sensitivity.h). Boxes whose bound is above `goal_MPa` are split until it is not, or until
-// the cell has had its share of `most_boxes`: half of them is shared by all cells, what these leave
-// by those that are still above the goal (none more than a 500th of all). A count and not a time,
-// so that the same table has the same bound on every machine. Exact arithmetic of the kernel is
-// assumed; its rounding is below 1e-9 of the values. Not available where the table combines
-// differently from the law, or has more cells than `most_boxes`.
+// Branch and bound. In every cell the law's piece is enclosed by a polynomial and an error bound
+// (expr/taylor_model.h). The interpolant, itself a polynomial in the cell, is subtracted, and the
+// difference is bounded by the sum of its Chebyshev coefficients. A bound of the combination's
+// slope (expr/sensitivity.h) turns this into a bound of tau_R.
+//
+// Boxes whose bound is above `goal_MPa` are split until it is not, or until the cell has used its
+// share of `most_boxes`. Half of these boxes is shared by all cells; the rest goes to the cells
+// that are still above the goal, at most a 500th of all to each. The limit is a count and not a
+// time, so that the same table has the same bound on every machine.
+//
+// The bound assumes exact arithmetic of the kernel; its rounding is below 1e-9 of the values. It is
+// not available where the table is combined differently from the law, or where it has more cells
+// than `most_boxes`.
 struct BoundOptions {
   double goal_MPa = 0;
   std::size_t most_boxes = usual_proof_boxes;
@@ -33,8 +38,9 @@ struct BoundOptions {
 DriftBound bound_drift(const models::AssembledLaw& law, const Table& table,
                        const std::vector<StateRange>& ranges, const BoundOptions& options);
 
-// What the search found and what is proven above it. Each helps the other: the bound stops where it
-// is close enough to what was found, and its largest middle is one more start for the search.
+// The largest drift found by search and the proven bound above it. Each helps the other: the bound
+// need not be closer than a few per cent to the drift found, and the worst box centre is one more
+// start for the search.
 struct ProvenDrift {
   WorstCase worst;
   DriftBound bound;
@@ -43,7 +49,7 @@ ProvenDrift prove_drift(const models::AssembledLaw& law, const Table& table,
                         const std::vector<StateRange>& ranges, WorstCase found, double allowed_MPa,
                         std::size_t most_boxes = usual_proof_boxes);
 
-// Three significant digits, never below the value: how a bound is shown.
+// Rounds to three significant digits, never below the value: the form in which a bound is shown.
 double rounded_up(double value);
 
 } // namespace frictab::table

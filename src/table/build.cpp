@@ -1,4 +1,4 @@
-// Makes the grid: nodes per axis from the measured error along that axis, then checks the whole.
+// Chooses the nodes of each axis from the measured error along it, then checks the whole table.
 #include "table/build.h"
 
 #include <algorithm>
@@ -85,7 +85,7 @@ void check_memory(const std::vector<TableAxis>& axes, const TableOptions& option
                   options.tolerance_from.empty() ? "" : " (" + options.tolerance_from + ")"));
 }
 
-// Values at all nodes.
+// Samples the piece at all nodes.
 std::vector<double> sample(const Pieces& pieces, const std::vector<StateRange>& ranges,
                            const std::vector<TableAxis>& axes) {
   std::vector<double> values(count_nodes(axes));
@@ -106,10 +106,7 @@ Table sampled_table(const models::AssembledLaw& law, const Pieces& pieces,
   return table;
 }
 
-// The search for the fewest nodes. Errors of the axes add up; each axis gets the same target, which
-// needs the fewest nodes where errors fall with a power of the spacing. How far the whole table is
-// from its law is measured, and corrects the target; its worst states become lines along which the
-// axes are measured; then axes give up cells one by one.
+// Searches for the fewest nodes; build.h describes how.
 class Builder {
 public:
   Builder(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
@@ -149,8 +146,9 @@ public:
 
 private:
   static constexpr std::size_t box_samples = 20000;
-  static constexpr std::size_t most_trim_nodes = 4'000'000; // sampled while trimming
-  static constexpr double most_linear_nodes = 20'000;       // where the job leaves the choice
+  static constexpr std::size_t most_trim_nodes = 4'000'000; // nodes sampled while trimming
+  // above it cubic, if the job leaves the choice
+  static constexpr double most_linear_nodes = 20'000;
 
   Table finished() {
     best_.table.record.tolerance_MPa = tolerance_;
@@ -166,7 +164,7 @@ private:
     double drift = HUGE_VAL;
   };
 
-  // The error that each axis may have at first.
+  // Shares the limit equally among the axes that err at all.
   double first_target(AxisErrors& errors) const {
     std::size_t active = 0;
     for (const AxisPlan& plan : plans_)
@@ -193,8 +191,8 @@ private:
     return axes;
   }
 
-  // Samples the whole table and looks for the worst state; not further than to a known state where
-  // the table is already past `enough`.
+  // Samples the whole table and searches for the worst state. Stops early where a state that is
+  // already known is worse than `enough`.
   Trial attempt(const Counts& cells, double enough) {
     progress_.tick();
     Trial trial;
@@ -247,7 +245,7 @@ private:
     }
   }
 
-  // The axis with the fewest cells first: there one cell less saves most.
+  // Gives up cells, first on the axis with the fewest: one cell less saves most there.
   void trim() {
     Counts step;
     for (std::size_t a = 0; a < plans_.size(); ++a)
@@ -272,7 +270,8 @@ private:
     if (best_.table.nodes() < before) remember(best_);
   }
 
-  // The closest table of the asked size, of both interpolations where the job leaves the choice.
+  // Returns the closest table within the budget; tries both interpolations if the job leaves the
+  // choice.
   Table closest() {
     Trial closest;
     const std::vector<AxisPlan> plans = plans_;
@@ -302,8 +301,8 @@ private:
             8 * (nodes + numbers) <= static_cast<double>(*options_.max_bytes));
   }
 
-  // As refine(), but the target is the smallest whose cells are within the budget; then single
-  // cells are added for as long as they help and fit.
+  // Works like refine(), but with the smallest target whose cells are within the budget; then adds
+  // single cells for as long as they help and fit.
   void fill_budget() {
     AxisErrors errors(pieces_, ranges_, log_value_, interpolation_ == Interpolation::cubic);
     Counts least;
@@ -362,7 +361,7 @@ private:
     return fits;
   }
 
-  // One more cell on the axis where that helps most; false where none fits or helps.
+  // Adds one cell to the axis where it helps most; false where none fits or helps.
   bool add_cell() {
     const double before = best_.drift;
     Trial next;
@@ -382,15 +381,15 @@ private:
   const models::AssembledLaw& law_;
   const std::vector<StateRange>& ranges_;
   const TableOptions& options_;
-  const Progress progress_; // of the grids tried, of which nobody knows how many it takes
+  const Progress progress_; // counts the grids tried; their number is not known beforehand
   const double tolerance_;
-  const double limit_; // below the tolerance: what is found is not quite the largest there is
+  const double limit_; // below the tolerance: the search may miss the very worst state
   Pieces pieces_;
   LawFunction tau_R_;
   std::vector<AxisPlan> plans_;
   bool log_value_ = false;
   Interpolation interpolation_ = Interpolation::linear;
-  Probe box_;   // the same for every trial
+  Probe box_;   // the same states for every trial
   Probe peaks_; // worst states of all trials
   Trial best_;
   std::string trail_;

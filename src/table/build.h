@@ -16,29 +16,44 @@ struct StateRange {
   double low = 0;
   double high = 0;
   std::string why; // "job file", "Table 1 and training data", "training data", ...
-  std::optional<std::pair<double, double>> data = {}; // what the training data reach, where known
-  // What holds below, where the job does not say it, and why not what usually does.
+  std::optional<std::pair<double, double>> data = {}; // range of the training data, if known
+  // The answer below `low` where the job does not give one, and the reason why it is not the usual
+  // one (usual_below in table/outside.h).
   std::optional<Outside> below = {};
   std::string why_held = {};
 };
 
-// Ranges of all inputs of the model, canonical order: the job's; else, where options.range is
-// table1, Table 1 joined with the training data where they cover at least half of it; else the
-// training data's own (a single value is widened by 1 %). Flow stress: half the smallest to twice
-// the largest. Where the law is known too badly a tenth below the end at which it would go on
-// (calibrate/stress_error.h), it is held there. Throws InputError for a job range in which the
-// quantity has no meaning.
+// Ranges of all inputs of the model, in canonical order. A range from the job comes first.
+// Otherwise it is the range of the training data (a single value is widened by 1 %); with
+// options.range = "table1" it is joined with Table 1 where the data cover at least half of that.
+// Flow stress: half the smallest to twice the largest value. Where the law usually continues below
+// the range, but its standard error a tenth of the low end is too large (calibrate/stress_error.h),
+// the state is clamped there. Throws InputError for a job range in which the quantity has no
+// meaning.
 std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data::Dataset& training,
                                      const TableOptions& options);
 
-// The table of one model: axes only where its smooth piece depends on them, nodes per axis so that
-// the drift over the ranges stays below options.tolerance_MPa (or the job's own nodes). Throws
+// Builds the table of one model. It has an axis only for inputs of the smooth piece. Throws
 // InputError where the grid does not fit into memory.
+//
+// How the grid is found: interpolation errors of the axes add up, so that the tolerance is shared
+// out. If errors fall with a power of the spacing, equal targets need the fewest nodes; so every
+// axis first gets the same target for its error in tau_R, which is measured in the middle of its
+// cells along lines through the box of states (table/grid.h). Along each axis nodes are made dense
+// where the error is large, and the fewest cells that meet the target are taken. Then the whole
+// table is sampled and its largest drift from the law is searched for, at cell centres, at Halton
+// points and by local ascent. The ratio of drift to tolerance corrects the target for the next
+// round, and the worst states become further lines along which the axes are measured. The search
+// ends after 12 rounds, when the drift is between 85 % and 100 % of the limit (0.96 of the
+// tolerance, because the search may miss the very worst state), when the grid no longer changes, or
+// when the target is known to 5 %. Last, each axis gives up cells for as long as the drift stays
+// within the limit. Node counts that the job gives are left as they are. With table.nodes or
+// table.max_bytes the same search finds the grid of smallest drift within the budget.
 Table build_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                   const TableOptions& options);
 
-// Ranges that a table carries in its attributes; for a foreign table its axes' own and, for other
-// inputs, those of `data` where it has the column. Throws InputError where there is neither.
+// Ranges that a table carries in its attributes. For a foreign table: those of its axes and, for
+// other inputs, those of `data` if it has the column. Throws InputError where neither is available.
 std::vector<StateRange> table_ranges(const Table& table, const data::Dataset* data,
                                      const std::string& file);
 

@@ -173,9 +173,9 @@ Deviation::Deviation(const expr::Monomials& monomials, std::size_t support)
 
 namespace {
 
-// Range of sum_k c[k] T_k(x), k >= 1, |x| <= 1. Between m + 1 points that are even in the angle, a
-// polynomial of degree n exceeds them by a factor of 1/cos(n pi / (2 m)) at most (Ehlich and Zeller
-// 1964).
+// Bounds the range of sum_k c[k] T_k(x), k >= 1, |x| <= 1. A polynomial of degree n exceeds its
+// largest value at m + 1 points, evenly spaced in the angle, by a factor of at most 1/cos(n pi / (2
+// m)) (Ehlich and Zeller 1964).
 expr::Bounds range_of(std::span<const double> c) {
   double sum = 0;
   for (const double x : c)
@@ -209,7 +209,7 @@ Deviation::Result Deviation::operator()(std::span<const double> c,
   Result out{{0, 0}, std::vector<double>(variables_, 0.0)};
   double mixed = 0, rounding = 0;
   const auto add = [&](double x, std::uint32_t bits, std::size_t variable, std::size_t degree) {
-    if (bits & (bits - 1)) { // several variables
+    if (bits & (bits - 1)) { // more than one variable
       mixed += std::abs(x);
       for (std::size_t v = 0; v < variables_; ++v)
         if (bits >> v & 1) out.mixed[v] += std::abs(x);
@@ -219,7 +219,7 @@ Deviation::Result Deviation::operator()(std::span<const double> c,
       out.range.low += x;
     }
   };
-  const auto single = [](std::uint32_t bits) { // its number
+  const auto single = [](std::uint32_t bits) { // number of the variable
     std::size_t v = 0;
     while (bits > 1)
       bits >>= 1, ++v;
@@ -247,7 +247,7 @@ Deviation::Result Deviation::operator()(std::span<const double> c,
     out.range.low += one.low;
     out.range.high += one.high;
   }
-  if (variables_ > 0) mixed += 1e-13 * rounding; // of the coefficients on both sides
+  if (variables_ > 0) mixed += 1e-13 * rounding; // rounding of the coefficients of both polynomials
   out.range.low -= mixed;
   out.range.high += mixed;
   return out;

@@ -1,4 +1,5 @@
-// What a table's interpolant and a polynomial over the same box differ by, in Chebyshev form.
+// The difference between a table's interpolant and a polynomial over the same box, in Chebyshev
+// form.
 #pragma once
 
 #include <span>
@@ -9,22 +10,23 @@
 
 namespace frictab::table {
 
-// Part of one cell along one axis: weights from low to high, within 0 .. 1.
+// Part of one cell along one axis: interpolation weights from low to high, within 0 .. 1.
 struct CellPart {
   std::size_t cell = 0;
   double low = 0;
   double high = 1;
 };
 
-// Coefficients of an interpolant, and per axis what they are multiplied with.
+// Coefficients of an interpolant, and per axis the basis functions that multiply them.
 class CellPolynomials {
 public:
   explicit CellPolynomials(const Table& table);
 
-  // Coefficients that act in a cell, per axis: 2, or 4 for a cubic spline.
+  // Number of coefficients per axis that act in a cell: 2, or 4 for a cubic spline.
   std::size_t support() const { return support_; }
 
-  // Chebyshev coefficients of the interpolant over a box, row-major, support() per axis.
+  // Computes the Chebyshev coefficients of the interpolant over a box, row-major, support() per
+  // axis.
   void over(std::span<const CellPart> box, std::vector<double>& tensor) const;
 
 private:
@@ -39,12 +41,12 @@ private:
   std::vector<double> coefficients_;
 };
 
-// The same polynomial in another basis or over a part of its box; coefficients by monomial.
+// Rewrites a polynomial in another basis or over a part of its box; coefficients by monomial.
 class Rewriting {
 public:
   explicit Rewriting(const expr::Monomials& monomials);
   void to_chebyshev(std::span<double> c) const;
-  // Over the lower or the upper half of a variable.
+  // Rewrites it over the lower or the upper half of a variable.
   void halve(std::size_t variable, bool upper, std::span<double> c) const;
 
 private:
@@ -65,14 +67,14 @@ public:
 
   struct Result {
     expr::Bounds range;
-    std::vector<double> mixed; // per variable: what terms of several variables with it add
+    std::vector<double> mixed; // per variable: contribution of the terms that mix it with others
   };
-  // c: Chebyshev coefficients by monomial; tensor: of the interpolant (overwritten).
+  // c: Chebyshev coefficients by monomial; tensor: those of the interpolant (overwritten).
   Result operator()(std::span<const double> c, std::vector<double>& tensor) const;
 
 private:
   std::size_t variables_, degree_, support_;
-  std::vector<std::size_t> tensor_index_; // of a monomial in the tensor, or npos
+  std::vector<std::size_t> tensor_index_; // place of a monomial in the tensor, or npos
   std::vector<std::uint32_t> used_;       // per tensor entry: bits of the variables it depends on
   std::vector<std::uint32_t> used_by_;    // the same per monomial
   std::vector<expr::Monomials::Exponents> exponents_;

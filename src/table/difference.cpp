@@ -1,4 +1,4 @@
-// Compares two tables at their nodes, in the middle of their cells, and on points that fill the
+// Compares two tables at their nodes, at the centres of their cells, and at points that fill the
 // common range.
 #include "table/difference.h"
 
@@ -20,7 +20,7 @@ namespace frictab::table {
 
 namespace {
 
-constexpr std::size_t most_states = 200000; // of each kind
+constexpr std::size_t most_states = 200000; // limit for each kind
 
 std::vector<std::string> inputs_of(const Table& a, const Table& b) {
   std::vector<std::string> names = a.inputs();
@@ -55,8 +55,8 @@ StateRange common_range(const Table& a, const Table& b, const std::string& name)
   return range;
 }
 
-// Per input an axis with the nodes of both tables within the common range; ends alone where it is
-// an axis of neither, or held.
+// Returns one axis per input, with the nodes of both tables within the common range; only its ends
+// if the input is fixed or not an axis of either.
 std::vector<TableAxis> joint_axes(const Table& a, const Table& b,
                                   const std::vector<StateRange>& ranges) {
   std::vector<TableAxis> axes;
@@ -76,7 +76,8 @@ std::vector<TableAxis> joint_axes(const Table& a, const Table& b,
   return axes;
 }
 
-// All nodes of the grid, or every so-many-th by a stride that shares no factor with the axes.
+// Returns all nodes of the grid, or every n-th; n shares no factor with the axes, so that each axis
+// is covered.
 States node_points(const std::vector<TableAxis>& axes) {
   double count = 1;
   for (const TableAxis& axis : axes)
@@ -97,7 +98,7 @@ States node_points(const std::vector<TableAxis>& axes) {
   return points;
 }
 
-// Middles of cells, along axes that have any.
+// Centres of cells, along the axes that have cells.
 States middle_points(const std::vector<TableAxis>& axes) {
   std::vector<TableAxis> middles = axes;
   for (TableAxis& axis : middles) {

@@ -1,4 +1,4 @@
-// Takes a law's own formula into a table.
+// Stores a law's own formula in a table.
 #include "table/direct.h"
 
 namespace frictab::table {
@@ -25,7 +25,7 @@ Table direct_form(const models::AssembledLaw& law, const Table& table) {
     axis.kinks.clear();
   }
   add_extension(direct, law);
-  // These are the table's own.
+  // These figures describe the gridded table.
   direct.record.worst_case_MPa.reset();
   direct.record.proven_drift_MPa.reset();
   for (auto& [name, input] : direct.record.inputs)

@@ -1,5 +1,5 @@
-// The law itself beside its table: what is asked beyond a side with Outside::law, and the direct
-// form that an exporter may be handed instead of the table.
+// The law's own formula stored with its table: evaluated beyond a side with Outside::law, and as
+// the direct form that an exporter may get instead of the table.
 #pragma once
 
 #include "models/assembled_law.h"
@@ -7,13 +7,14 @@
 
 namespace frictab::table {
 
-// Gives a table the constants that this expression of its law needs.
+// Adds the constants of the law that this expression needs to the table.
 void add_constants(Table& table, const models::AssembledLaw& law, const expr::Expr& expression);
 
-// Gives a table of this law its extension and the constants that it needs.
+// Adds the law's extension and the constants that it needs to the table.
 void add_extension(Table& table, const models::AssembledLaw& law);
 
-// The same axes, ranges, sides and attributes without any value: tau_R by the law's own formula.
+// Returns a table with the same axes, ranges, sides and attributes and without values: tau_R by the
+// law's own formula.
 Table direct_form(const models::AssembledLaw& law, const Table& table);
 
 } // namespace frictab::table

@@ -1,4 +1,4 @@
-// The nearest row of a test, by a k-d tree.
+// Finds the nearest row of a test, by a k-d tree.
 #include "table/distance.h"
 
 #include <algorithm>
@@ -17,10 +17,10 @@ namespace frictab::table {
 
 namespace {
 
-constexpr double same_place = 0.01; // of the span: rows of one test that count once
+constexpr double same_place = 0.01; // share of the span within which rows of one test count once
 constexpr std::size_t share_points = 4096;
 
-// Of one axis: (u - low)/span, u its coordinate.
+// Scale of one axis: (u - low)/span, u its coordinate.
 struct Scale {
   bool log = false;
   double low = 0, span = 1;
@@ -43,7 +43,7 @@ Scale scale_of(const TableAxis& axis, std::span<const double> values) {
   return scale;
 }
 
-// What nanoflann asks of points.
+// Interface that nanoflann requires of a point set.
 struct Points {
   std::size_t dims = 0;
   std::vector<double> at; // dims numbers each
@@ -83,7 +83,7 @@ struct TestRows::Data {
   std::vector<TableAxis> axes;
   std::vector<Scale> scales;
   Points points;
-  std::unique_ptr<Tree> tree; // none: no points
+  std::unique_ptr<Tree> tree; // null without points
 
   double nearest(const std::vector<double>& u) const {
     unsigned index = 0;

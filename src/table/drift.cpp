@@ -18,8 +18,8 @@ LawFunction::LawFunction(const models::AssembledLaw& law, std::vector<std::strin
 
 namespace {
 
-// Middles between the nodes of the axis of this name, as far as they lie in the range; its ends and
-// middle where none does.
+// Middles between the nodes of the axis of this name that lie in the range; the range's ends and
+// middle if there are none.
 std::vector<double> middles(const StateRange& range, const std::vector<TableAxis>& axes) {
   std::vector<double> x;
   for (const TableAxis& axis : axes) {
@@ -41,7 +41,7 @@ States box_points(const std::vector<StateRange>& ranges, std::size_t samples) {
   States points(ranges.size());
   const std::size_t dims = ranges.size();
   std::vector<double> unit(dims);
-  for (std::size_t i = 0; i < samples; ++i) { // even fill; every second in log coordinates
+  for (std::size_t i = 0; i < samples; ++i) { // even fill; every second point in log coordinates
     halton(i, unit);
     for (std::size_t d = 0; d < dims; ++d) {
       const double low = ranges[d].low, high = ranges[d].high;
@@ -65,7 +65,7 @@ States cell_points(const std::vector<StateRange>& ranges, const std::vector<Tabl
     grid.push_back(middles(range, axes));
     cells *= grid.back().size();
   }
-  // Every so-many-th, by a stride that shares no factor with the counts of the axes.
+  // Takes every n-th cell, where n shares no factor with the counts of the axes.
   std::size_t stride = cells / wanted + 1;
   while (stride > 1 && std::any_of(grid.begin(), grid.end(),
                                    [&](const auto& g) { return g.size() % stride == 0; }))
@@ -91,7 +91,7 @@ States probe_points(const std::vector<StateRange>& ranges, const std::vector<Tab
 
 namespace {
 
-// Both undefined is agreement; one undefined is the worst there is.
+// Two undefined values agree; a single one is the largest difference possible.
 double difference(double a, double b) {
   if (std::isnan(a) && std::isnan(b)) return 0;
   const double d = std::abs(a - b);
@@ -149,7 +149,7 @@ double objective(unsigned n, const double* x, double*, void* data) {
   return difference(ascent.table({x, n}), ascent.law({x, n}));
 }
 
-// From one state upwards.
+// Ascends from one state.
 WorstCase ascend(const LawFunction& law, const TableFunction& table,
                  const std::vector<StateRange>& ranges, std::vector<double> x, double drift) {
   std::vector<double> lower, upper;

@@ -1,4 +1,4 @@
-// How far a table is from its law over a box of states.
+// Largest difference between a table and its law over a box of states.
 #pragma once
 
 #include <functional>
@@ -29,36 +29,37 @@ using States = std::vector<std::vector<double>>;
 // Points that fill a box of states: `samples` Halton points, and all corners.
 States box_points(const std::vector<StateRange>& ranges, std::size_t samples);
 
-// Centres of a table's cells, with the other states at ends and middle: all, or about `wanted`
-// spread evenly where there are more.
+// Centres of a table's cells, with the other states at their ends and middle: all of them, or about
+// `wanted`, evenly spread, where there are more.
 States cell_points(const std::vector<StateRange>& ranges, const std::vector<TableAxis>& axes,
                    std::size_t wanted);
 
-// Both.
+// Both box_points and cell_points.
 States probe_points(const std::vector<StateRange>& ranges, const std::vector<TableAxis>& axes,
                     std::size_t samples);
 
-// States with the law's and the table's answer (MPa).
+// States with the values of law and table (MPa).
 struct Probe {
   States states;
   std::vector<double> law;
   std::vector<double> table;
   std::vector<unsigned> outside; // bits of table/outside.h, all_ends
 };
-Probe with_law(const LawFunction& law, States states);     // no table yet
-double compare(Probe& probed, const TableFunction& table); // fills it in; the largest |table - law|
+Probe with_law(const LawFunction& law, States states); // leaves the table's values empty
+// fills them in; returns the largest |table - law|
+double compare(Probe& probed, const TableFunction& table);
 void append(Probe& to, const Probe& from);
 std::vector<double> state_of(const Probe& probed, std::size_t i);
 
 struct WorstCase {
   double drift_MPa = 0;
   std::vector<double> state; // in the order of the ranges
-  std::size_t points = 0;    // evaluated, ascent included
-  States peaks;              // where the ascents ended
+  std::size_t points = 0;    // number of evaluations, ascent included
+  States peaks;              // end points of the ascents
 };
 
-// The largest |table - law| found: all probed states, then local ascent (NLopt SBPLX) from the
-// `starts` worst. Found, not proven: the true maximum may be larger.
+// Searches for the largest |table - law|: all probed states, then local ascent (NLopt SBPLX) from
+// the `starts` worst. The result is found, not proven: the true maximum may be larger.
 WorstCase worst_case(const LawFunction& law, const TableFunction& table,
                      const std::vector<StateRange>& ranges, const Probe& probed,
                      std::size_t starts = 64);

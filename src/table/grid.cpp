@@ -1,4 +1,4 @@
-// Measures a law along its axes and spreads nodes by what it finds.
+// Measures a law along its axes and places nodes by the errors found.
 #include "table/grid.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace frictab::table {
 
 namespace {
 
-constexpr std::size_t most_nodes = 4097; // of an axis
+constexpr std::size_t most_nodes = 4097; // limit per axis
 constexpr std::size_t box_lines = 64;
 
 double to_u(const TableAxis& axis, double x) {
@@ -23,7 +23,7 @@ double to_x(const TableAxis& axis, double u) {
   return axis.log ? std::exp(u) : u;
 }
 
-// Ordinate at x of the straight pieces through (from, to), both ascending.
+// Interpolates linearly at x between the points (from, to), both ascending.
 double straight(const std::vector<double>& from, const std::vector<double>& to, double x) {
   const auto above = std::upper_bound(from.begin() + 1, from.end() - 1, x);
   const auto i = static_cast<std::size_t>(above - from.begin());
@@ -50,7 +50,7 @@ Pieces::Pieces(const models::AssembledLaw& law, const std::vector<StateRange>& r
     : names(names_of(ranges)), value(law.piece, names, law.parameters),
       combine(law.combine, with_value(ranges), law.parameters), parameters(law.model.parameters) {}
 
-// Cells are shared out over the segments between fixed nodes by their measure.
+// Cells are distributed over the segments between fixed nodes in proportion to their measure.
 TableAxis axis_with(const AxisPlan& plan, std::size_t cells) {
   TableAxis axis = plan.axis;
   axis.nodes.clear();
@@ -93,8 +93,8 @@ void AxisErrors::add(const std::vector<double>& state) {
     lines_[k].push_back(state[k]);
 }
 
-// What the table would hold in the middle of each cell, from values at the nodes; one column per
-// line, nodes one after the other.
+// Returns the interpolated value in the middle of each cell, from values at the nodes; one column
+// per line, nodes one after the other.
 std::vector<double> AxisErrors::between(const TableAxis& axis, std::vector<double> nodes) const {
   const std::size_t lines = lines_.front().size(), cells = axis.nodes.size() - 1;
   if (log_value_)
@@ -165,7 +165,7 @@ std::size_t AxisErrors::cells_for(const AxisPlan& plan, double target) const {
     const double error = largest(plan, cells);
     (error <= target ? passes : fails) = cells;
     if (passes <= std::max(fails + 1, plan.cells)) return passes;
-    // By the power law that the last error promises, in steps that do not crawl.
+    // Predicts by the power law of the error; the bounds keep the steps from becoming tiny.
     const double guess =
         static_cast<double>(cells) * std::pow(std::min(error / target, 1e6), 1 / order);
     const std::size_t quarter = (passes - fails) / 4;
@@ -181,7 +181,8 @@ void AxisErrors::distribute_nodes(AxisPlan& plan, double target) const {
   constexpr std::size_t resolution = 48;
   const double order = cubic_ ? 4 : 2;
   AxisPlan graded = plan;
-  for (int pass = 0; pass < 4; ++pass) { // the nodes of one pass resolve what the next one sees
+  // each pass resolves the error better with the nodes of the last
+  for (int pass = 0; pass < 4; ++pass) {
     const TableAxis axis = axis_with(graded, resolution);
     const std::vector<double> u = axis.coordinates();
     std::vector<double> errors = by_cell(graded, axis);

@@ -1,4 +1,4 @@
-// Nodes of one axis, and the error that interpolation along it leaves.
+// Nodes of one axis, and the error of interpolation along it.
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace frictab::table {
 
-// Names of the ranges, and the same behind "value": the columns of the two programs below.
+// Names of the ranges, and the same preceded by "value": the columns of the two programs of Pieces.
 std::vector<std::string> names_of(const std::vector<StateRange>& ranges);
 std::vector<std::string> with_value(const std::vector<StateRange>& ranges);
 
@@ -23,44 +23,44 @@ struct Pieces {
   std::vector<double> parameters;
 };
 
-// An axis whose number of nodes is still open.
+// An axis whose number of nodes is not yet fixed.
 struct AxisPlan {
   TableAxis axis;
-  std::size_t input = 0;     // of the ranges
-  std::vector<double> fixed; // nodes there must be: ends and kinks, canonical, ascending
-  std::size_t cells = 1;     // between the ends, at least
-  bool by_user = false;      // the job says how many
-  bool even = false;         // the job asks for even spacing
-  // Where the nodes are dense: cells share out the measure, which ascends from 0 to 1 over the
-  // positions (coordinates of the axis). Empty: evenly spaced in the coordinate.
+  std::size_t input = 0;     // index among the ranges
+  std::vector<double> fixed; // required nodes: ends and kinks, canonical unit, ascending
+  std::size_t cells = 1;     // least number of cells between the ends
+  bool by_user = false;      // the job gives the number of nodes
+  bool even = false;         // the job requires even spacing
+  // Node density: each cell gets the same share of `measure`, which ascends from 0 to 1 over
+  // `position` (coordinates of the axis). Empty: evenly spaced in the coordinate.
   std::vector<double> position, measure;
 };
 
-// The axis with `cells` cells (or some more: every fixed node stays one).
+// Returns the axis with `cells` cells, or some more: every fixed node is kept.
 TableAxis axis_with(const AxisPlan& plan, std::size_t cells);
 
 // Measures interpolation along one axis at a time, on lines through the box of states.
 class AxisErrors {
 public:
-  // Lines fill the box; those through ends and through the inside alternate, since errors of
-  // monotone laws are largest at the ends.
+  // Spreads lines over the box. Every third line runs along its edges and the others through the
+  // inside, since errors of monotone laws are largest at the ends.
   AxisErrors(const Pieces& pieces, const std::vector<StateRange>& ranges, bool log_value,
              bool cubic);
 
-  // One more line per axis, through this state.
+  // Adds one line per axis, through this state.
   void add(const std::vector<double>& state);
 
   // Largest error of tau_R in MPa in the middle of each cell.
   std::vector<double> by_cell(const AxisPlan& plan, const TableAxis& axis) const;
   double largest(const AxisPlan& plan, std::size_t cells) const;
 
-  // Fewest cells with which the error along the axis stays below `target`, taking it that more
-  // cells err less.
+  // Fewest cells for which the error along the axis stays below `target`, assuming that the error
+  // falls with the number of cells.
   std::size_t cells_for(const AxisPlan& plan, double target) const;
 
-  // Dense where the error of even spacing is large, so that all cells err alike (de Boor's
-  // equidistribution, with measured errors); empty where that saves less than a fifth of the nodes:
-  // even nodes are found without search.
+  // Makes nodes dense where the error of even spacing is large, so that all cells err alike (de
+  // Boor's equidistribution, with measured errors). Keeps even spacing where that saves less than a
+  // fifth of the nodes: even nodes are found without search.
   void distribute_nodes(AxisPlan& plan, double target) const;
 
 private:

@@ -1,4 +1,4 @@
-// Reads a table's own words: axes, formula, drift, and how it lies in its file.
+// Describes a table file by its own attributes: axes, formula, drift, storage layout.
 #include "table/info.h"
 
 #include <cmath>
@@ -20,7 +20,7 @@ namespace frictab::table {
 
 namespace {
 
-// Even in the coordinate to 1e-9 of a step, as the kernel sees it.
+// "even" is to 1e-9 of a step in the coordinate, as for the kernel.
 std::string spacing_of(const TableAxis& axis) {
   return axis.per_step() > 0 ? "even" : "graded";
 }
@@ -35,7 +35,7 @@ std::string storage_text(const io::Hdf5Layout& layout) {
   return text;
 }
 
-// A file may hold NaN where it knows no number.
+// Treats NaN as absent: a file may use it for a number that is not known.
 std::optional<double> stated(std::optional<double> number) {
   return number && std::isnan(*number) ? std::nullopt : number;
 }

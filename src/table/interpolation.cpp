@@ -1,4 +1,4 @@
-// Names of the interpolations, as jobs, files and recipes have them.
+// Names of the interpolations in jobs, files and recipes.
 #include "table/interpolation.h"
 
 #include <algorithm>
@@ -9,7 +9,8 @@ namespace frictab::table {
 namespace {
 
 constexpr std::array<const char*, 3> interpolation_names = {"linear", "cubic",
-                                                            "none"}; // as Interpolation
+                                                            // in the order of Interpolation
+                                                            "none"};
 
 } // namespace
 

@@ -1,4 +1,4 @@
-// How a table goes from its nodes to a state between them.
+// Rule by which a table computes values between its nodes.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@ namespace frictab::table {
 enum class Interpolation {
   linear, // in the axes' coordinates (table/frictab_kernel.h)
   cubic,  // the spline of table/spline.h
-  none    // no nodes: the direct form; in no job and no file
+  none    // no nodes: the direct form; never in a job or a file
 };
-// Those with nodes, as jobs and files have them.
+// Interpolations that have nodes, as jobs and files name them.
 inline constexpr Interpolation grid_interpolations[] = {Interpolation::linear,
                                                         Interpolation::cubic};
 

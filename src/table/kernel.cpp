@@ -2,7 +2,7 @@
 #include "table/kernel.h"
 
 #include "table/frictab_gradient.h"
-// Stands behind it.
+// Needs the header above before it.
 #include "table/frictab_cubic_gradient.h"
 
 namespace frictab::table {

@@ -3,19 +3,20 @@
 #pragma once
 
 #include "table/frictab_kernel.h"
-// Stands behind it.
+// Needs frictab_kernel.h before it.
 #include "table/frictab_cubic.h"
 
 namespace frictab::table {
 
-// The value at u, one coordinate per axis. values: as ft_values, of a spline as for ft_cubic_N. Bit
-// d of *outside is set where axis d was clamped (outside may be null). Zero axes: the first value.
+// Returns the value at u, one coordinate per axis. values: as for ft_values; of a spline, as for
+// ft_cubic_N. Bit d of *outside is set where axis d was clamped (outside may be null). Zero axes:
+// the first value.
 double interpolate(int axes, const ft_axis* axis, const double* values, const double* u,
                    unsigned* outside);
 double interpolate(int axes, const ft_spline_axis* axis, const double* values, const double* u,
                    unsigned* outside);
 
-// The same value, and its derivative by each coordinate.
+// Returns the same value and computes its derivative by each coordinate.
 double interpolate(int axes, const ft_axis* axis, const double* values, const double* u,
                    double* by_u, unsigned* outside);
 double interpolate(int axes, const ft_spline_axis* axis, const double* values, const double* u,

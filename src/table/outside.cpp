@@ -19,7 +19,7 @@ constexpr double no_end = std::numeric_limits<double>::infinity();
 const std::pair<Outside, const char*> outside_words[] = {
     {Outside::clamp, "clamp"}, {Outside::error, "error"}, {Outside::law, "law"}};
 
-// The axis as the extension sees it: a second symbol beside the true state.
+// Name of the clamped axis in the extension: a second symbol in addition to the true state.
 std::string held_name(const std::string& axis) {
   return "held " + axis;
 }
@@ -59,7 +59,7 @@ AxisEnds::AxisEnds(const std::string& held_input, std::size_t number_of_input,
 
 namespace {
 
-// minimum(maximum(x, low), high), in any order of the operands: what holds x, or nothing.
+// minimum(maximum(x, low), high), in any order of the operands; nullopt for other expressions.
 struct Hold {
   std::string name;
   double low, high;
@@ -79,7 +79,7 @@ std::optional<Hold> hold_of(const Expr& e) {
   return Hold{lower->first.name(), lower->second, upper->second};
 }
 
-// The narrowest range at which the formula holds each of its inputs.
+// Returns the narrowest range to which the formula clamps each of its inputs.
 std::map<std::string, std::pair<double, double>> held_ranges(const Expr& formula) {
   std::map<std::string, std::pair<double, double>> ranges;
   expr::for_each_part(formula, [&](const Expr& part) {
@@ -134,7 +134,7 @@ bool OutsideRule::needed(const Table& table) {
 }
 
 OutsideRule::OutsideRule(const Table& table) : direct_(table.is_direct()), ends_(axis_ends(table)) {
-  if (!table.extension) return; // refuses at most
+  if (!table.extension) return; // such a table can only refuse
   std::vector<std::string> row = table.inputs(), scalars;
   std::map<std::string, Expr> held;
   for (const AxisEnds& axis : ends_) {

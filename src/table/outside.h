@@ -1,4 +1,4 @@
-// What lies beyond the ends of a table's axes: who is asked there, and what a run counts.
+// Answers beyond the ends of a table's axes, and the counting of such states.
 #pragma once
 
 #include <memory>
@@ -13,40 +13,43 @@
 
 namespace frictab::table {
 
-// What holds beyond the low end of an axis where the job says nothing: the law below every
-// contact normal stress that was tested, because a clamped tau_R stays where the contact has no
-// pressure left, and most contact points of a forming process begin there. Elsewhere, and beyond
-// the high end of every axis: clamp.
+// Default answer beyond the low end of an axis. Below all tested contact normal stresses it is the
+// law: a clamped tau_R would stay constant where the contact pressure vanishes, and most contact
+// points of a forming process begin there. For other axes, and beyond the high end of every axis:
+// clamp.
 Outside usual_below(std::string_view axis);
 
-// What holds below the contact normal stresses that were tested; the law where they are no axis.
+// Answer below the tested contact normal stresses; the law if they are not an axis.
 Outside below_pressures(const Table& table);
 
-// A solver in single precision misses an end by rounding: what lies beyond it by no more than this
-// part of the end's own value is not refused.
+// Tolerance of an end, as a part of its own value. A solver in single precision misses an end by
+// rounding; a state beyond it by no more than this is not refused.
 inline constexpr double end_rounding = 1e-6;
 
-// The range of one axis, or of an input that is held, with what holds on either side of it.
+// The range of one axis, or of an input that the law itself clamps, with the answers on either
+// side.
 struct AxisEnds {
   explicit AxisEnds(const TableAxis& axis, std::size_t number_of_input = 0);
   AxisEnds(const std::string& held_input, std::size_t number_of_input,
            std::pair<double, double> range);
 
   std::string name;
-  std::size_t input; // of Table::inputs()
+  std::size_t input; // index in Table::inputs()
   double low, high;
   Outside below, above;
-  bool held = false; // no axis: the law holds this input at the same ends
-  // Beyond these a query is refused: by more than end_rounding. Infinite where the side does not.
+  bool held = false; // not an axis: the law clamps this input to the same ends
+  // Queries are refused beyond these, further out than end_rounding; infinite for a side that does
+  // not refuse.
   double refused_below, refused_above;
 
   bool leaves(double x) const { return x < low || x > high; }
   bool refuses(double x) const { return x < refused_below || x > refused_above; }
-  // Beyond a side on which the law's own formula is asked.
+  // Whether x is beyond a side on which the law's own formula answers.
   bool extends(double x) const {
     return (x < low && below == Outside::law) || (x > high && above == Outside::law);
   }
-  // Where the formula is asked: at the end instead of beyond it on every other side.
+  // The value at which the formula is evaluated: x itself beyond such a side, clamped to the end on
+  // every other.
   double asked_at(double x) const {
     if (x < low && below != Outside::law) return low;
     return x > high && above != Outside::law ? high : x;
@@ -55,22 +58,23 @@ struct AxisEnds {
 
 std::vector<AxisEnds> axis_ends(const Table& table);
 
-// Inputs that are no axis and were tested over a range only: those that `combine` holds at its ends
-// (traced effects), and numbers of levels. Beyond it the formula answers as the law does.
+// Inputs that are not axes and were tested over a limited range: those that `combine` clamps to its
+// ends (traced effects), and numbers of levels. Beyond the range the formula answers as the law
+// does.
 std::vector<AxisEnds> held_input_ends(const Table& table);
 
-// Both, in this order: bit i of `outside` is the i-th of them.
+// Both axis_ends and held_input_ends, in this order: bit i of `outside` is the i-th of them.
 std::vector<AxisEnds> all_ends(const Table& table);
 
 // Answers where interpolation does not: beyond a side with `error` (NaN) or `law`, and everywhere
-// for the direct form. Axes that are not beyond a side with `law` are held at their ends, so that
-// all forms of a table agree.
+// for the direct form. All other axes are clamped to their ends, so that all forms of a table
+// agree.
 class OutsideRule {
 public:
-  static bool needed(const Table& table); // a side that does not clamp, or no values at all
+  static bool needed(const Table& table); // some side does not clamp, or there are no values at all
   explicit OutsideRule(const Table& table);
 
-  // As TableFunction's; nothing where the table itself is to be asked.
+  // Same contract as TableFunction; nullopt where the table itself answers.
   std::optional<double> tau(std::span<const double> state, unsigned* outside) const;
   std::optional<double> gradient(std::span<const double> state, std::span<double> derivative,
                                  unsigned* outside) const;
@@ -81,7 +85,7 @@ private:
 
   bool direct_;
   std::vector<AxisEnds> ends_;
-  std::unique_ptr<expr::Program> law_; // row: inputs, then the axes as held
+  std::unique_ptr<expr::Program> law_; // row: inputs, then the clamped axes
   std::vector<double> constants_;
 };
 

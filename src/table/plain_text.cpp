@@ -1,4 +1,4 @@
-// The plain-text formats that hold the table as it is.
+// Plain-text formats that store the table as it is.
 #include "table/plain_text.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t rows_at_once = 4096;
 
-// The values, a block at a time.
+// Passes the values to `body`, a block at a time.
 template <class Body> void for_values(const Table& table, const Body& body) {
   std::vector<double> block;
   for (std::size_t first = 0; first < table.nodes(); first += rows_at_once) {
@@ -34,7 +34,7 @@ template <class Body> void for_values(const Table& table, const Body& body) {
   }
 }
 
-// One line per node: axes, the tabulated quantity; tau_R as well where every state is known.
+// Writes one line per node: axes, the tabulated quantity, and tau_R if every state is known.
 void write_csv(const PlainRequest& request, std::ostream& out) {
   const Table& table = request.table;
   const auto inputs = table.inputs();
@@ -76,7 +76,7 @@ void write_csv(const PlainRequest& request, std::ostream& out) {
   });
 }
 
-// Axes, then all values row-major: a line per run of the last axis.
+// Writes the axes, then all values row-major, one line per run of the last axis.
 void write_txt(const PlainRequest& request, std::ostream& out) {
   const Table& table = request.table;
   out << "# " << table.model << ": " << models::quantity_name(table.quantity) << " on a grid, "

@@ -1,5 +1,5 @@
-// Tables as plain text, for codes and people that read those. One format = one file that registers
-// itself; those of FE codes are beside their targets in exporters/.
+// Tables as plain text, for codes and people that read such files. One format = one file that
+// registers itself; formats of FE codes are in exporters/, next to their targets.
 #pragma once
 
 #include <functional>
@@ -19,12 +19,12 @@ struct PlainFormat {
   std::string name;
   int order = 0;
   std::string title;
-  std::string source; // where the format comes from: "ours", "verified: ...", "recalled: ..."
-  // Throws InputError where a state is missing or the format cannot hold the table.
+  std::string source; // origin of the format: "ours", "verified: ...", "recalled: ..."
+  // Throws InputError where a state is missing or the format cannot represent the table.
   std::function<void(const PlainRequest&, std::ostream&)> write = {};
 };
 
-// Throws InputError that names the nearest one where there is none of this name.
+// Returns the format of this name. Throws InputError that names the nearest one if there is none.
 const PlainFormat& plain_format(const std::string& name);
 
 } // namespace frictab::table

@@ -1,4 +1,4 @@
-// Over which states a table holds.
+// Determines the states that a table covers.
 #include <algorithm>
 #include <cmath>
 
@@ -50,7 +50,8 @@ void join_table_1(StateRange& range, const data::Quantity& quantity) {
 StateRange default_range(const data::Quantity& quantity, const Span& span,
                          const TableOptions& options) {
   StateRange range = data_range(quantity.name, span);
-  if (quantity.name == "sigma_f_MPa") { // an FE run hardens and softens beyond the tribometer
+  // stress in an FE run exceeds that of the tribometer, to both sides
+  if (quantity.name == "sigma_f_MPa") {
     range.low *= 0.5;
     range.high *= 2;
     range.why = "half to twice the training data";
@@ -61,7 +62,7 @@ StateRange default_range(const data::Quantity& quantity, const Span& span,
   return range;
 }
 
-// What an effect brought in: where it was learned, and no further.
+// Range of an input that an effect added: as far as it was learned, and no further.
 StateRange further_range(const models::Law& law, const std::string& name, const Span& span) {
   StateRange range = data_range(name, span);
   if (const auto levels = law.levels.find(name); levels != law.levels.end()) {
@@ -84,7 +85,8 @@ StateRange asked_range(const data::Quantity& quantity, const AxisOptions& axis, 
   return {quantity.name, low, high, "job file", data_range(quantity.name, span).data};
 }
 
-// What a state that is no axis does beyond its range nothing in a table or routine can say.
+// Rejects `outside` for a state that is not an axis: beyond its range the formula takes it as it
+// is.
 void check_outside(const models::AssembledLaw& law, const std::string& name,
                    const AxisOptions& axis) {
   const auto other = std::find_if(axis.outside.begin(), axis.outside.end(),
@@ -100,18 +102,18 @@ void check_outside(const models::AssembledLaw& law, const std::string& name,
                   name));
 }
 
-// How far below the tests contact points of a forming process still bear: a tenth of the pressure,
-// and so about a tenth of the friction.
+// How far below the tests a contact pressure still matters in a forming process: at a tenth of it,
+// friction is about a tenth as well.
 constexpr double far_below = 0.1;
 
 std::string percent(double share) {
   return fmt::format("{:.2g} %", 100 * share);
 }
 
-// Whether a table may go on by the law below the low end of an axis, where it usually does: its own
-// standard error has to be small there. Not asked where the law holds the state itself, or where
-// the job says what holds. A shear stress that is held would stay where nothing presses, which is
-// further off than any law.
+// Decides whether a table may continue by the law below the low end of an axis, where it usually
+// does: the law's own standard error has to be small there. Skipped if the law clamps the state
+// itself, or if the job gives the answer. A tabulated shear stress is skipped as well: clamped, it
+// would not vanish with the pressure, which is worse than the error of any law.
 void judge_end(StateRange& range, std::size_t input, const models::AssembledLaw& law,
                const calibrate::InputColumns& columns) {
   if (usual_below(range.name) != Outside::law || law.model.law->held.count(range.name) ||

@@ -10,7 +10,8 @@ namespace {
 
 template <class T> struct Names {
   std::vector<std::pair<std::string, std::optional<T> TableRecord::*>> of_table;
-  std::vector<std::pair<std::string, std::optional<T> InputRecord::*>> of_input; // + its name
+  // prefix; the input's name follows
+  std::vector<std::pair<std::string, std::optional<T> InputRecord::*>> of_input;
   std::map<std::string, T> TableAttributes::*all;
 };
 

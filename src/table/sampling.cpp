@@ -30,7 +30,7 @@ bool fits_into_memory(std::size_t nodes) {
 
 namespace {
 
-// The coordinate of one axis at consecutive nodes of the grid; `stride` nodes share one.
+// Fills in the coordinate of one axis at consecutive nodes of the grid; `stride` nodes share one.
 void fill_states(const std::vector<double>& nodes, std::size_t stride, std::size_t first,
                  std::vector<double>& states) {
   std::size_t node = first / stride % nodes.size(), same = stride - first % stride;
@@ -51,7 +51,7 @@ void sample_nodes(const Pieces& pieces, const std::vector<StateRange>& ranges,
   std::vector<const double*> columns;
   for (const StateRange& range : ranges) {
     states.emplace_back(values.size(), range.low);
-    std::size_t stride = 1; // nodes behind the axis of this state
+    std::size_t stride = 1; // nodes per step of this axis
     for (std::size_t a = axes.size(); a-- > 0;) {
       if (axes[a].name == range.name) fill_states(axes[a].nodes, stride, first, states.back());
       stride *= axes[a].nodes.size();
@@ -71,7 +71,7 @@ std::string numbered(const std::vector<std::string>& levels) {
   return join(texts, ", ");
 }
 
-// An input that is no canonical state says what it is.
+// Adds unit and meaning for an input that is not a canonical state.
 void describe_further_input(InputRecord& input, const models::Law& law, const std::string& name) {
   const data::Meaning meaning = data::meaning_of(name);
   if (meaning.state) return;

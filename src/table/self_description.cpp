@@ -1,4 +1,4 @@
-// Texts from what the table is; nothing here is read back.
+// Composes texts that describe the table; nothing here is read back.
 #include "table/self_description.h"
 
 #include <vector>

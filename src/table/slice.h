@@ -1,4 +1,4 @@
-// tau_R along one or two states of a table, the others held.
+// tau_R along one or two states of a table, with the others fixed.
 #pragma once
 
 #include "table/states.h"
@@ -8,20 +8,21 @@ namespace frictab::table {
 struct Slice {
   std::string model;
   std::vector<std::string> inputs;         // of the table
-  std::vector<std::string> along;          // one or two of them
+  std::vector<std::string> along;          // one or two of the inputs
   std::vector<std::string> units;          // of `along`
-  HeldStates held;                         // the others
-  std::vector<std::vector<double>> values; // per state of `along`; the second one is inner
+  HeldStates held;                         // the other inputs
+  std::vector<std::vector<double>> values; // per state of `along`; the second one varies faster
   std::vector<std::vector<double>> states; // per input: one value per row
   std::vector<double> tau_MPa;             // per row
 };
 
-// `points` per state of `along`, evenly in its coordinate from end to end of its range. Throws
-// InputError for unknown, missing or contradicting states, and for axes held beyond their ends.
+// Evaluates `points` values per state of `along`, evenly spaced in its coordinate from end to end
+// of its range. Throws InputError for unknown, missing or contradicting states, and for axes fixed
+// beyond their ends.
 Slice slice(const Table& table, const HeldStates& held, const std::vector<std::string>& along,
             std::size_t points);
 
-// Inputs in the table's order, then tau_R_MPa; numbers read back to the same bits.
+// Writes the inputs in the table's order, then tau_R_MPa; numbers read back to the same bits.
 std::string slice_csv(const Slice& slice);
 
 } // namespace frictab::table

@@ -9,9 +9,9 @@ namespace frictab::table {
 
 namespace {
 
-using Cubic = std::array<double, 4>; // by powers of the cell's weight t
+using Cubic = std::array<double, 4>; // coefficients of the powers of the cell's weight t
 
-// p (a + b t)
+// Multiplies p by (a + b t).
 Cubic times(const Cubic& p, double a, double b) {
   return {p[0] * a, p[1] * a + p[0] * b, p[2] * a + p[1] * b, p[3] * a + p[2] * b};
 }
@@ -20,15 +20,15 @@ Cubic sum(const Cubic& p, const Cubic& q) {
   return {p[0] + q[0], p[1] + q[1], p[2] + q[2], p[3] + q[3]};
 }
 
-// The degree + 1 B-splines that live between knots[span + degree] and the next one, as polynomials
-// on the cell x = low + width t (Cox - de Boor).
+// Returns the degree + 1 B-splines that are not zero between knots[span + degree] and the next
+// knot, as polynomials on the cell x = low + width t (Cox - de Boor).
 std::array<Cubic, 4> cell_polynomials(const std::vector<double>& knots, std::size_t span,
                                       std::size_t degree, double low, double width) {
   std::array<Cubic, 4> basis{};
   basis[0] = {1, 0, 0, 0};
   for (std::size_t q = 1; q <= degree; ++q)
     for (std::size_t j = q + 1;
-         j-- > 0;) { // from the last: each is made of itself and the one before
+         j-- > 0;) { // from the last: each uses its own old value and the one before
       const std::size_t k = span + degree - q + j; // knot where spline j of degree q begins
       Cubic next{};
       if (j > 0) {
@@ -60,7 +60,8 @@ void add_segment(SplineAxis& axis, std::size_t begin, std::size_t end) {
         nodes <= 4 ? 0 : std::min(cell - std::min<std::size_t>(cell, 1), last_span);
     const double low = u[begin + cell];
     const auto basis = cell_polynomials(knots, span, degree, low, u[begin + cell + 1] - low);
-    // A short piece at the end of a longer axis: the window of coefficients must not pass the end.
+    // The window of coefficients of a short segment at the end of a longer axis must not pass the
+    // end.
     const std::size_t first = std::min(begin + span, u.size() - support);
     const std::size_t shift = begin + span - first;
     axis.first.push_back(static_cast<int>(first));
@@ -72,9 +73,9 @@ void add_segment(SplineAxis& axis, std::size_t begin, std::size_t end) {
   }
 }
 
-constexpr std::size_t reach = 3; // of the band, to each side
+constexpr std::size_t reach = 3; // half width of the band
 
-// Row i, column i + j - reach at [i][j]: spline j of those around at node i.
+// Band matrix: [i][j] is the value at node i of spline i + j - reach.
 std::vector<std::array<double, 2 * reach + 1>> collocation(const SplineAxis& axis) {
   const std::size_t n = axis.u.size();
   std::vector<std::array<double, 2 * reach + 1>> band(n);

@@ -39,7 +39,7 @@ std::vector<std::string> Table::inputs() const {
   std::vector<std::string> names;
   for (const data::Quantity& known : data::quantities())
     if (used.count(known.name)) names.push_back(known.name);
-  for (const std::string& name : used) // axes that are not canonical (a traced effect's column)
+  for (const std::string& name : used) // inputs that are not canonical (a traced effect's column)
     if (!data::find_quantity(name) && name != "value" && !constants.count(name))
       names.push_back(name);
   return names;
@@ -93,20 +93,21 @@ struct TableFunction::Data {
     bool log;
   };
   std::vector<std::string> inputs;
-  std::size_t n_axes = 0; // of the table, also where the direct form has no `axes`
+  // axes of the table; the direct form counts them too and leaves `axes` empty
+  std::size_t n_axes = 0;
   std::vector<Axis> axes;
   std::vector<AxisSearch> searches;
   std::vector<ft_axis> linear;
   std::vector<SplineAxis> splines;
   std::vector<ft_spline_axis> cubic;
   bool is_cubic = false;
-  std::vector<double> value; // at the nodes, or coefficients
+  std::vector<double> value; // values at the nodes, or coefficients
   bool log_value = false;
-  std::unique_ptr<OutsideRule> rule;  // where clamping is not all there is to it
+  std::unique_ptr<OutsideRule> rule;  // null if every side clamps
   std::unique_ptr<Program> of_inputs; // row: inputs; the value is a scalar, so nothing is copied
   std::unique_ptr<Program> of_all;    // row: value, then inputs
 
-  std::vector<AxisEnds> held; // inputs that are no axis
+  std::vector<AxisEnds> held; // inputs that are not axes
 
   void add_axes(const Table& table);
   unsigned held_bits(const double* state) const {
@@ -115,7 +116,7 @@ struct TableFunction::Data {
       if (held[i].leaves(state[held[i].input])) bits |= 1u << (n_axes + i);
     return bits;
   }
-  // tau_R, and the bits of axes.
+  // Returns tau_R and sets the bits of axes.
   double tau(std::span<const double> state, unsigned* outside) const;
   double gradient(std::span<const double> state, std::span<double> derivative,
                   unsigned* outside) const;
@@ -126,7 +127,7 @@ struct TableFunction::Data {
       u[a] = axes[a].log ? ft_log(x) : x;
     }
   }
-  // The tabulated piece, or its logarithm; with its derivatives where by_u is given.
+  // Returns the tabulated piece or its logarithm, and its derivatives if by_u is given.
   double raw(const double* u, double* by_u, unsigned* outside) const;
   void pieces(std::span<const double* const> columns, std::size_t first, std::size_t count,
               double* value, unsigned* outside) const;
@@ -150,7 +151,8 @@ void TableFunction::Data::add_axes(const Table& table) {
     if (is_cubic) splines.push_back(spline_axis(axis));
   }
   long stride = static_cast<long>(table.nodes());
-  for (std::size_t a = 0; a < searches.size(); ++a) { // pointers only when nothing moves any more
+  // pointers only now, when no vector is moved any more
+  for (std::size_t a = 0; a < searches.size(); ++a) {
     stride /= static_cast<long>(searches[a].u.size());
     linear.push_back(searches[a].axis(stride));
     if (is_cubic)
@@ -231,8 +233,9 @@ double TableFunction::gradient(std::span<const double> state, std::span<double> 
   return tau;
 }
 
-// Of rows first .. first + count - 1 (at most a block). Logarithms, lookups and exponentials in
-// loops of their own: the processor works on several rows at once where it need not wait for one.
+// Computes pieces for the rows first .. first + count - 1 (at most a block). Logarithms, lookups
+// and exponentials have loops of their own, so that the processor works on several rows at once
+// instead of waiting for one.
 void TableFunction::Data::pieces(std::span<const double* const> columns, std::size_t first,
                                  std::size_t count, double* out, unsigned* outside) const {
   double u[Program::block][FT_MAX_AXES];
@@ -277,7 +280,7 @@ void TableFunction::evaluate(std::size_t rows, std::span<const double* const> co
     for (const double* column : columns)
       row.push_back(column + first);
     data_->of_all->evaluate(count, row, {}, tau.data() + first);
-    for (std::size_t i = 0; data_->rule && i < count; ++i) // where not the table answers
+    for (std::size_t i = 0; data_->rule && i < count; ++i) // rows that the table does not answer
       if (bits[i] != 0)
         if (const auto answer = data_->rule->tau(read_state(first + i), nullptr))
           tau[first + i] = *answer;

@@ -1,5 +1,5 @@
-// A friction law on a dense grid. Self-contained: axes, values, how to combine them to tau_R. What
-// reads a table needs no law.
+// A friction law on a dense grid. It is self-contained (axes, values, the formula that combines
+// them to tau_R), so that code which reads a table needs no law.
 #pragma once
 
 #include <map>
@@ -18,9 +18,10 @@
 
 namespace frictab::table {
 
-// What a query beyond one end of an axis gets (table/outside.h).
+// Answer to a query beyond one end of an axis (table/outside.h).
 enum class Outside {
-  clamp, // the tabulated piece at that end; the formula behind it takes the state as it is
+  // the tabulated piece at that end; `combine` takes the state itself, unclamped
+  clamp,
   error, // NaN; a solver's routine stops the analysis
   law    // the law's own formula, Table::extension
 };
@@ -28,16 +29,17 @@ const char* outside_name(Outside outside); // "clamp", "error", "law"
 std::optional<Outside> find_outside(std::string_view name);
 
 struct TableAxis {
-  std::string name;               // canonical
-  std::string unit;               // canonical
-  std::string long_name;          // meaning
-  bool log = false;               // interpolate in ln x
-  std::vector<double> nodes;      // ascending, canonical unit, >= 2
-  std::vector<double> kinks = {}; // inner nodes at which a cubic spline may bend; else it is C2
-  Outside below = Outside::clamp; // queries under the first node
-  Outside above = Outside::clamp; // and over the last
-  // Least and largest in the data that the law was calibrated on; absent: not known. The nodes may
-  // reach further (table/beyond_data.h).
+  std::string name;          // canonical
+  std::string unit;          // canonical
+  std::string long_name;     // meaning, in words
+  bool log = false;          // interpolate in ln x
+  std::vector<double> nodes; // ascending, canonical unit, >= 2
+  // inner nodes at which a cubic spline may bend; it is C2 elsewhere
+  std::vector<double> kinks = {};
+  Outside below = Outside::clamp; // answer to queries below the first node
+  Outside above = Outside::clamp; // and above the last
+  // Smallest and largest value in the data on which the law was calibrated; absent if not known.
+  // The nodes may extend further (table/beyond_data.h).
   std::optional<std::pair<double, double>> data = {};
 
   std::vector<double> coordinates() const; // x, or ln x
@@ -45,7 +47,7 @@ struct TableAxis {
   per_step() const; // 1/step where the coordinates are evenly spaced (1e-9 of a step), else 0
 };
 
-// Drift as it is written into a table and into verify.json. All in MPa.
+// Drift as stored in a table and in verify.json. All in MPa.
 struct Drift {
   double max_abs = 0;
   double mean_abs = 0;
@@ -56,36 +58,38 @@ struct Drift {
 struct Table {
   std::string model;           // law name
   std::vector<TableAxis> axes; // none: the value is one constant
-  std::vector<double> value;   // row-major, last axis fastest. Empty: the direct form, whose axes
-                               // say only over which range it holds
-  // Per node, how far it is from the nearest test (table/distance.h); empty: not known, or read
-  // from a file, where it is for others to read.
+  // row-major, last axis fastest. Empty: the direct form, whose axes only give the range it covers
+  std::vector<double> value;
+  // Distance of each node from the nearest test (table/distance.h); empty when unknown; not loaded
+  // from files.
   std::vector<double> distance;
   models::PieceQuantity quantity = models::PieceQuantity::mu;
-  bool log_value = false; // interpolate in ln value; every value is then > 0
+  bool log_value = false; // interpolate in ln value; all values are then > 0
   Interpolation interpolation = Interpolation::linear;
-  expr::Expr combine; // tau_R_MPa of "value", state names and constants
+  expr::Expr combine; // tau_R_MPa from "value", state names and constants
   std::optional<expr::Expr>
-      extension; // the law's own "value" (never its logarithm) of axes and constants
-  std::map<std::string, double> constants; // of combine and extension
+      extension; // the law's own "value" (never its logarithm) from axes and constants
+  std::map<std::string, double> constants; // used in combine and extension
   TableRecord record;
-  bool drift_is_claimed = false; // the record was read from a file that nothing here vouches for
+  // the record was read from a file, so that nothing here vouches for its drift
+  bool drift_is_claimed = false;
 
-  // States the table needs, canonical order: axes and the states of combine.
+  // States the table needs, in canonical order: axes and the states of combine.
   std::vector<std::string> inputs() const;
-  // Of an input: its axis', else the record's; nullopt where neither is there.
+  // Range of an input: its axis' if it is one, else the record's; nullopt if there is neither.
   std::optional<std::pair<double, double>> range(const std::string& name) const;
-  // Of the experiments; 0.5 is the law itself.
+  // Quantile of the experiments that the table represents; 0.5 is the law itself.
   double quantile() const { return record.quantile.value_or(0.5); }
   bool is_direct() const { return interpolation == Interpolation::none; }
-  double coordinate(double value_at_a_node) const; // it, or its ln: what is interpolated
-  std::vector<double> value_coordinates() const;   // of all values
-  std::vector<std::size_t> shape() const;          // nodes per axis
-  std::size_t nodes() const;                       // their product; 0 in the direct form
-  std::size_t bytes() const;                       // values, nodes and constants as doubles
+  // the value or its ln: the number that is interpolated
+  double coordinate(double value_at_a_node) const;
+  std::vector<double> value_coordinates() const; // of all values
+  std::vector<std::size_t> shape() const;        // nodes per axis
+  std::size_t nodes() const;                     // product of shape(); 0 in the direct form
+  std::size_t bytes() const;                     // size of values, nodes and constants as doubles
 };
 
-// States that a table may need, axes included.
+// Limit on the states that a table may need, axes included.
 inline constexpr std::size_t most_inputs = 24;
 
 // Evaluates a table by the kernel that the generated sources contain.
@@ -99,16 +103,16 @@ public:
 
   const std::vector<std::string>& inputs() const;
 
-  // tau_R in MPa for one state, in the order of inputs(). Bit d of *outside: the state lies beyond
-  // the d-th of all_ends (table/outside.h): the axes, then inputs that are held.
+  // Returns tau_R in MPa for one state, in the order of inputs(). Bit d of *outside: the state lies
+  // beyond the d-th of all_ends (table/outside.h): the axes, then inputs that the law clamps.
   double operator()(std::span<const double> state, unsigned* outside = nullptr) const;
 
-  // The same value, and its derivatives by each state (MPa per canonical unit) in one pass. At a
-  // node or kink one of the two one-sided derivatives; 0 by an axis that was clamped.
+  // Returns the same value, and its derivatives by each state (MPa per canonical unit) in one pass.
+  // At a node or kink it is one of the two one-sided derivatives; 0 for an axis that was clamped.
   double gradient(std::span<const double> state, std::span<double> derivative,
                   unsigned* outside = nullptr) const;
 
-  // For all rows; columns in the order of inputs(); outside may be empty. Parallel.
+  // Evaluates all rows; columns in the order of inputs(); outside may be empty. Parallel.
   void evaluate(std::size_t rows, std::span<const double* const> columns, std::span<double> tau,
                 std::span<unsigned> outside = {}) const;
 

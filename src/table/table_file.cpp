@@ -31,13 +31,14 @@ std::string numbers_text(const std::vector<double>& numbers) {
   return join(texts, " ");
 }
 
-// HDF5 keeps less than 64 KiB in one attribute; a network's formula is longer. It goes on in
+// HDF5 keeps less than 64 KiB in one attribute; a network's formula is longer. It continues in
 // extension_2, extension_3, ...
 constexpr std::size_t attribute_characters = 60000;
 
-// What `value` holds where its transform is log.
-constexpr const char* schema = "frictab/table/2";               // values, as their units say
-constexpr const char* schema_of_logarithms = "frictab/table/1"; // their logarithms: of 0.1
+// The schema distinguishes the contents of `value` where its transform is log.
+constexpr const char* schema = "frictab/table/2"; // values, in the unit that the file names
+// their logarithms, as in release 0.1
+constexpr const char* schema_of_logarithms = "frictab/table/1";
 
 std::string part_name(std::size_t part) {
   return part == 0 ? "extension" : fmt::format("extension_{}", part + 1);
@@ -63,7 +64,7 @@ void write_data_range(io::Hdf5Writer& out, const TableAxis& axis) { // absent: n
   out.attribute(axis.name, "share_beyond_data", share_beyond_data(axis));
 }
 
-// In which readers of netCDF may interpolate as they are used to.
+// Writes the logarithm as a coordinate in which netCDF tools may interpolate as usual.
 void write_logarithm(io::Hdf5Writer& out, const TableAxis& axis) {
   const std::string name = logarithm_name(axis);
   if (name.empty()) return;
@@ -97,7 +98,8 @@ void write_coordinates(io::Hdf5Writer& out, const Table& table) {
     write_logarithm(out, axis);
     if (const std::string name = logarithm_name(axis); !name.empty()) logarithms.push_back(name);
   }
-  if (!logarithms.empty()) out.attribute("value", "coordinates", join(logarithms, " ")); // of CF
+  // CF convention
+  if (!logarithms.empty()) out.attribute("value", "coordinates", join(logarithms, " "));
 }
 
 void write_distance(io::Hdf5Writer& out, const Table& table, const io::Hdf5Storage& storage) {
@@ -132,7 +134,7 @@ void write_attributes(io::Hdf5Writer& out, const Table& table) {
   out.attribute("value", "constants", join(names, " "));
   out.attribute("/", "schema", std::string(schema));
   TableAttributes attributes = root_attributes(table);
-  attributes.texts.merge(root_description(table)); // a title that someone gave stays
+  attributes.texts.merge(root_description(table)); // keeps a title that someone gave
   for (const auto& [name, text] : attributes.texts)
     out.attribute("/", name, text);
   for (const auto& [name, value] : attributes.numbers)
@@ -225,7 +227,8 @@ private:
       else if (const auto number = in_.number_attribute("/", name))
         take_attribute(table_.record, name, *number);
     }
-    for (const auto& [name, text] : root_description(table_)) // written anew from what it says
+    // not kept: derived again from the table when it is written
+    for (const auto& [name, text] : root_description(table_))
       if (const auto found = table_.record.others.texts.find(name);
           found != table_.record.others.texts.end() && found->second == text)
         table_.record.others.texts.erase(found);
@@ -324,7 +327,7 @@ private:
             "its unit is " + quantity->unit);
   }
 
-  // Only a cubic spline is concerned: a linear table bends at every node.
+  // Only a cubic spline uses kinks: a linear table bends at every node.
   void read_kinks(TableAxis& axis) {
     if (table_.interpolation != Interpolation::cubic) return;
     std::istringstream words(in_.text_attribute(axis.name, "kinks").value_or(""));
@@ -356,13 +359,14 @@ private:
                        [&](const TableAxis& axis) { return axis.name == name; });
   }
 
-  // A canonical state, or one that an effect brought in: the table says over which range.
+  // Whether the name is a canonical state, or an input of an effect: the table then gives its
+  // range.
   bool is_input(const std::string& name) const {
     return data::meaning_of(name).state || (in_.number_attribute("/", "range_low_" + name) &&
                                             in_.number_attribute("/", "range_high_" + name));
   }
 
-  // What generated sources would compute with.
+  // Checks the numbers with which generated sources would compute.
   void check_numbers() {
     for (const auto& [name, number] : table_.constants)
       if (!std::isfinite(number)) fault(fmt::format("the constant '{}' is {}", name, number));
@@ -427,7 +431,7 @@ private:
   io::Hdf5Reader in_;
   FaultList faults_;
   Table table_;
-  bool holds_logarithms_ = false; // instead of values
+  bool holds_logarithms_ = false; // instead of the values themselves
   std::vector<std::size_t> shape_;
 };
 

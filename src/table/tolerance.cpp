@@ -1,4 +1,4 @@
-// Tolerances that are not given, and where they come from.
+// Chooses tolerances that the job does not give, and gives the reason.
 #include "table/tolerance.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How far a table may drift from its law where the job leaves it to frictab.
+// The drift that a table may have from its law if the job leaves the choice to frictab.
 #pragma once
 
 #include <string>
@@ -9,15 +9,17 @@
 
 namespace frictab::table {
 
-// Largest tolerance that is chosen, MPa: no forming simulation sees less.
+// Largest tolerance that is chosen, MPa: a smaller difference is invisible in a forming simulation.
 inline constexpr double usual_tolerance_MPa = 0.5;
-// Of a law's error: drift that adds a twentieth to a mean absolute error is not seen in it.
+// Tolerance as a share of the law's error: drift that adds a twentieth to the mean absolute error
+// goes unnoticed in it.
 inline constexpr double share_of_error = 1.0 / 20;
-// Of the mean measured stress: no rig measures friction as well, and a law that does so without
-// error was fitted to numbers made by a formula.
+// Least error as a share of the mean measured stress: rigs are less accurate than this, and a law
+// with a smaller error was fitted to numbers made by a formula.
 inline constexpr double share_of_stress = 1e-4;
-// Of the mean stress of a law that no test has judged: laws err by some 10 % of it (the laws of the
-// bundled campaign by 6 to 11 %), of which a twentieth is half of this.
+// Tolerance as a share of the law's own mean stress, for a law without validation: laws err by some
+// 10 % of that stress (those of the bundled campaign by 6 to 11 %), and a twentieth of 10 % is half
+// of this.
 inline constexpr double share_of_own_stress = 0.01;
 
 struct Tolerance {
@@ -25,15 +27,15 @@ struct Tolerance {
   std::string from; // in words; empty where the job gives the number
 };
 
-// What a law errs by, as far as it says anything: mean absolute error, but not below
+// The part of a law's error that is meaningful: the mean absolute error, but not below
 // share_of_stress of the mean measured stress.
 double least_error(double error_MPa, double mean_stress_MPa);
 
-// The smaller of 0.5 MPa and a twentieth of the law's error (least_error); `tests` says on which
-// tests that is ("unseen tests"). An error that is not known leaves 0.5 MPa.
+// Returns the smaller of 0.5 MPa and a twentieth of the law's error (least_error); `tests` names
+// the tests of that error ("unseen tests"). If the error is not known, 0.5 MPa.
 Tolerance auto_tolerance(double error_MPa, double mean_stress_MPa, const std::string& tests);
 
-// Of a law with constants from elsewhere, by its own mean stress over the ranges.
+// Tolerance of a law with constants from elsewhere, by its own mean stress over the ranges.
 Tolerance auto_tolerance(const models::AssembledLaw& law, const std::vector<StateRange>& ranges);
 
 } // namespace frictab::table
