@@ -147,7 +147,7 @@ public:
 private:
   static constexpr std::size_t box_samples = 20000;
   static constexpr std::size_t most_trim_nodes = 4'000'000; // nodes sampled while trimming
-  // above it cubic, if the job leaves the choice
+  // cubic above it, if the job leaves the choice
   static constexpr double most_linear_nodes = 20'000;
 
   Table finished() {

@@ -36,8 +36,7 @@ public:
 
   bool empty() const; // no row counts
 
-  // Distance from a state, in the order of the axes, to the nearest row; infinite if there is no
-  // row.
+  // Distance from a state, in the order of the axes, to the nearest row; infinite without rows.
   double distance(std::span<const double> state) const;
 
   // Share of the box of the axes, evenly filled in their coordinates (4,096 Halton points), that is

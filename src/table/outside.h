@@ -71,7 +71,7 @@ std::vector<AxisEnds> all_ends(const Table& table);
 // agree.
 class OutsideRule {
 public:
-  static bool needed(const Table& table); // some side does not clamp, or there are no values at all
+  static bool needed(const Table& table); // some side does not clamp, or the table has no values
   explicit OutsideRule(const Table& table);
 
   // Same contract as TableFunction; nullopt where the table itself answers.
