@@ -1,4 +1,4 @@
-// Checks across keys of a job: what is missing and what contradicts itself.
+// Checks across keys of a job: missing keys and contradictions.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -112,7 +112,7 @@ void check_column(JobReader& reader, const std::string& section, const std::stri
   check_formula(reader, source, path);
 }
 
-// a times b, b times a: each is told once, at the first of its columns.
+// Finds a times b, b times a; each circle is reported once, at the first of its columns.
 template <class Rules>
 void check_circle(JobReader& reader, const std::string& section, const Rules& rules,
                   const std::string& first) {
@@ -122,9 +122,9 @@ void check_circle(JobReader& reader, const std::string& section, const Rules& ru
     if (found == rules.columns.end() || found->second.times.empty()) return;
     at = found->second.times;
     path += " times " + at;
-    if (at < first) return; // told there, or no circle
+    if (at < first) return; // reported there, or not a circle
     if (at != first) continue;
-    if (steps > 0) // else it names itself
+    if (steps > 0) // else it names itself, which is reported elsewhere
       reader.fault(reader.place_of(section + ".columns." + first + ".times"),
                    "the columns are multiplied in a circle: " + path,
                    "one of them is measured itself: leave its `times` out");
@@ -153,7 +153,7 @@ void check_rule(JobReader& reader, const std::string& path, data::FileRule& rule
     if (data::find_quantity(name))
       reader.fault(reader.place_of(path + ".labels." + name), name + " is a quantity, no label",
                    "give it in `constants`");
-  for (const auto& [name, value] : rule.constants) // any name may stand there: is it a typo?
+  for (const auto& [name, value] : rule.constants) // any name is possible there: is it a typo?
     if (const std::string near = nearest_name(name, schema::quantity_names());
         !near.empty() && near != name)
       reader.fault(
@@ -225,7 +225,7 @@ void check_axes(JobReader& reader) {
   }
 }
 
-// "all" stands alone; a law asked for by a later stage is among those calibrated.
+// Checks that "all" is the only entry, and that a law of a later stage is among those calibrated.
 void check_models(JobReader& reader, const std::string& path,
                   const std::vector<std::string>& models) {
   if (models.size() > 1 && std::count(models.begin(), models.end(), "all"))
@@ -258,14 +258,14 @@ void remember_inputs(JobReader& reader) {
 
 } // namespace
 
-// What is no quantity is there for a law that needs it.
+// A constant that is not a quantity is allowed only for a law of the job that needs it.
 void check_constants(JobReader& reader) {
   const models::Conventions conventions{.shear_limit = false};
   for (const auto& constant : reader.job.data.constants) {
     const std::string& name = constant.first;
     const auto& laws = reader.job.models.laws.own();
     const bool needed = std::any_of(laws.begin(), laws.end(), [&](const auto& law) {
-      if (!law->build) return false; // its own faults are told
+      if (!law->build) return false; // its own faults are reported
       const std::vector<std::string> inputs = models::inputs(*law, conventions);
       return std::count(inputs.begin(), inputs.end(), name) > 0;
     });

@@ -1,4 +1,4 @@
-// Guesses as lines of TOML with the reason behind each.
+// Writes guesses as lines of TOML, each with its reason.
 #include "job/guessed_job.h"
 
 #include <algorithm>
@@ -19,12 +19,12 @@ namespace {
 using data::GuessedColumn;
 using data::GuessedFile;
 
-// A line of TOML with its comment at a common column.
+// Writes a line of TOML with its comment at a common column.
 std::string line(const std::string& text, const std::string& comment) {
   return comment.empty() ? text + "\n" : fmt::format("{:<44} # {}\n", text, comment);
 }
 
-// Of what a user calls things: on one line.
+// Puts a text of the user on one line.
 std::string shown(const std::string& text) {
   std::string out;
   for (const char c : text)
@@ -51,7 +51,7 @@ std::string dialect_lines(const GuessedFile& file) {
   return out;
 }
 
-// The name in the file, without its unit where that is enough to find it.
+// The name in the file, without its unit where that is enough to find the column.
 std::string source_of(const GuessedColumn& column, const GuessedFile& file) {
   const std::string bare = io::read_header_name(column.name).name;
   const auto alike =
@@ -61,14 +61,14 @@ std::string source_of(const GuessedColumn& column, const GuessedFile& file) {
   return toml_quoted(alike > 1 ? column.name : bare);
 }
 
-// A quantity of which neither the file nor its name says the unit.
+// Whether the quantity has a unit that neither the file nor the canonical name gives.
 bool lacks_unit(const GuessedColumn& column) {
   const data::Quantity* quantity = data::find_quantity(column.canonical);
   return quantity && quantity->unit != "1" && !column.coefficient && column.unit.empty() &&
          column.name != column.canonical;
 }
 
-// By the end of its name; empty where it says none.
+// Unit at the end of the column's name; empty if there is none.
 std::string unit_in_name(const GuessedColumn& column) {
   return lacks_unit(column)
              ? data::unit_in_name(column.name, data::find_quantity(column.canonical)->unit)
@@ -92,8 +92,8 @@ std::string column_line(const GuessedColumn& column, const GuessedFile& file) {
   return line(fmt::format("{} = {}", column.canonical, value), comment);
 }
 
-// Columns that need no line: they have the canonical name, which says the unit unless the file
-// says another.
+// Whether a column needs no line: it has the canonical name, and the file does not give another
+// unit.
 bool says_itself(const GuessedColumn& column) {
   return column.name == column.canonical;
 }
@@ -115,7 +115,7 @@ std::string columns_lines(const GuessedFile& file) {
   return out;
 }
 
-// How most of the files are read.
+// The file whose settings most files share.
 const GuessedFile& most_common(const std::vector<GuessedFile>& files) {
   const auto alike = [&](const GuessedFile& file) {
     return std::count_if(files.begin(), files.end(),
@@ -220,7 +220,7 @@ private:
           "# tau_R_MPa = { column = \"COLUMN\", times = \"sigma_n_MPa\" }\n");
   }
 
-  // One section, so that every line of it can be made to count.
+  // Writes a single section, so that any of its lines can be uncommented.
   void add_constants() {
     std::string lines;
     if (!has("sigma_n_MPa")) lines += "# sigma_n_MPa = 500.0\n";
@@ -242,7 +242,7 @@ private:
     out_.text += "# Give the groups names that say what they are; one without a meaning may go.\n";
   }
 
-  // What is read in another way than the first file, and what the names say.
+  // Adds rules for files that are read differently from most_, and for values in file names.
   void add_rules() {
     for (const GuessedFile& file : files_) {
       if (file.is_read_as(most_)) continue;
@@ -257,7 +257,7 @@ private:
     add_names();
   }
 
-  // Where [data] says what this file is without.
+  // Restores defaults for this file where [data] sets something else for the others.
   std::string plain_lines(const GuessedFile& file) const {
     std::string out;
     if (file.decimal == '.' && most_.decimal != '.') out += "decimal = \".\"\n";

@@ -1,5 +1,5 @@
-// A job file made from what was found in a lab's files: every guess a line that can be read and
-// mended, every open point a question.
+// A job file composed from what was found in a lab's files: each guess is a line that can be read
+// and corrected, each open point a question.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace frictab::job {
 
 struct GuessedJob {
   std::string text;                   // TOML
-  std::vector<std::string> questions; // what has to be answered before it runs
+  std::vector<std::string> questions; // points to settle before the job runs
 };
 
-// `training`: names, globs or folders that stand for the files, as data.training.
+// `training`: names, globs or folders of the files, as in data.training.
 GuessedJob guessed_job(const std::vector<data::GuessedFile>& files, const data::GuessedNames& names,
                        const std::vector<std::string>& training);
 

@@ -18,7 +18,7 @@ namespace frictab::job {
 
 struct Job {
   std::string file; // as given by the user
-  std::string said; // what else the command line said: " -o loose --set data.holdout=0.2"
+  std::string said; // further command-line options: " -o loose --set data.holdout=0.2"
   data::DataOptions data;
   calibrate::ModelOptions models;
   calibrate::CalibrationOptions calibration;
@@ -27,17 +27,17 @@ struct Job {
   verify::VerifyOptions verify;
   trace::TraceOptions trace;
   std::string directory = "out"; // relative to the job file, already joined with its directory
-  bool replaces_others = false;  // --force: files in it that frictab did not write, too
-  // What file and overrides say below each section head, as text without places and order: by it a
-  // stage knows results that another job has made. Without table.model, which also picks among
-  // tables that are there.
+  bool replaces_others = false;  // --force: also files in it that frictab did not write
+  // Values of file and overrides by section head, as text without places and order; by it a stage
+  // recognizes results of a different job. Without table.model, which also selects among tables
+  // that exist already.
   std::map<std::string, std::string> sections;
 
-  // What to give another command, as advice repeats it: "job.toml -o loose".
+  // Arguments for another command, as advice repeats them: "job.toml -o loose".
   std::string arguments() const { return shell_word(file) + said; }
 };
 
-// Reads and checks a job file; `set` holds "key=value" overrides (TOML values, dotted keys). Throws
+// Reads and checks a job file; `set` lists "key=value" overrides (TOML values, dotted keys). Throws
 // InputError with every fault of the file: syntax, unknown keys (naming the nearest known one),
 // wrong types, values out of bounds, unknown laws, targets and quantities.
 Job read_job(const std::string& file, const std::vector<std::string>& set = {});

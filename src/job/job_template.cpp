@@ -1,4 +1,4 @@
-// A job file that explains itself, written from the schema.
+// Writes a job file that explains itself, from the schema.
 #include <algorithm>
 #include <sstream>
 
@@ -10,7 +10,7 @@ namespace frictab::job {
 
 namespace {
 
-// Prose as comment lines of readable length.
+// Adds prose as comment lines of readable length.
 void add_prose(std::string& out, const std::string& text) {
   constexpr std::size_t width = 88;
   std::istringstream words(text);
@@ -25,7 +25,7 @@ void add_prose(std::string& out, const std::string& text) {
   out += line + "\n";
 }
 
-// Lines without a blank after '#' are keys to be uncommented.
+// Adds keys to be uncommented: their '#' is not followed by a blank.
 void add_commented(std::string& out, const std::string& lines) {
   std::istringstream in(lines);
   for (std::string line; std::getline(in, line);)
@@ -45,7 +45,7 @@ void add_key(std::string& out, const KeyRule& rule) {
                      normal.empty() ? rule.example : normal);
 }
 
-// What may stand below a name of the user's, as prose.
+// Lists the keys below a name that the user chooses, as prose.
 void add_named_keys(std::string& out, const std::string& section) {
   for (const KeyRule& rule : key_rules()) {
     if (rule.path == section + ".*") add_prose(out, rule.meaning);
@@ -55,7 +55,7 @@ void add_named_keys(std::string& out, const std::string& section) {
   }
 }
 
-// Beside keys of fixed names a section of the user's own: [models.my_law].
+// Adds a section that the user names, in addition to keys of fixed names: [models.my_law].
 void add_own_section(std::string& out, const SectionRule& section) {
   const SectionRule* each = find_section(section.path + ".*");
   if (!section.others || !each) return;

@@ -1,4 +1,4 @@
-// One definition per section and key: "data.columns.*" is that of all columns.
+// Writes one definition per section and key: all columns share "data.columns.*".
 #include "job/json_schema.h"
 
 #include <cmath>
@@ -36,7 +36,8 @@ Json number_of(const char* type, const ValueBounds& bounds) {
   return json;
 }
 
-// Where a job may have names of its own, an editor offers the known ones and takes any.
+// Schema of a text. Where a job may have names of its own, an editor offers the known ones and
+// accepts any.
 Json text_of(const Allowed& allowed) {
   const Json any = {{"type", "string"}};
   if (!allowed.names) return any;
@@ -88,7 +89,7 @@ Json definition_of(const KeyRule& rule) {
   return json;
 }
 
-// Of fixed names in a section: last parts and what they are.
+// Adds the fixed names in a section, each with a reference to its definition.
 void add_fixed(Json& properties, const std::string& section) {
   for (const SectionRule& rule : section_rules())
     if (parent_of(rule.path) == section && last_part(rule.path) != "*")
@@ -98,7 +99,7 @@ void add_fixed(Json& properties, const std::string& section) {
       properties[last_part(rule.path)] = reference(rule.path);
 }
 
-// A pattern of names that are none of these.
+// Pattern that matches any other name.
 std::string other_names(const Json& properties) {
   std::string known;
   for (const auto& [name, of] : properties.items())

@@ -5,8 +5,8 @@
 
 namespace frictab::job {
 
-// Draft 7, which editors of TOML read. What fits it need not be a job that runs: it knows keys,
-// types, bounds and names, not how they go together.
+// Returns the schema in draft 7, which editors of TOML read. A file that fits it need not be a job
+// that runs: the schema has keys, types, bounds and names, but no rules across keys.
 std::string json_schema();
 
 } // namespace frictab::job

@@ -1,5 +1,5 @@
 // Builds rows of the schema from an accessor: `T& at(Job&, name)` both stores and shows the value,
-// so a default is written once, in job.h.
+// so that a default is written once, in job.h.
 #pragma once
 
 #include <optional>
@@ -92,7 +92,7 @@ template <> struct Kind<data::AutoNumber> {
   static std::string show(const data::AutoNumber& v);
 };
 
-// Enums are words of a job file; which words stands where their keys do.
+// Enums are words of a job file; the words are listed next to the keys that use them.
 template <class T>
 requires std::is_enum_v<T>
 struct Kind<T> {
@@ -101,7 +101,7 @@ struct Kind<T> {
   static std::string show(T v);
 };
 
-// A key of a fixed path.
+// Builds the rule of a key with a fixed path.
 template <class T>
 KeyRule key(std::string path, T& (*at)(Job&), std::string meaning, std::string absent = "",
             std::string example = "") {
@@ -121,10 +121,10 @@ KeyRule key(std::string path, T& (*at)(Job&), std::string meaning, std::string a
   return rule;
 }
 
-// "auto" or a number, which is absent where it is auto.
+// Builds the rule of a key that takes "auto" or a number; "auto" is stored as absent.
 KeyRule or_auto(std::string path, std::optional<double>& (*at)(Job&), std::string meaning);
 
-// A key below a name of the user's.
+// Builds the rule of a key below a name that the user chooses.
 template <class T>
 KeyRule named(std::string path, T& (*at)(Job&, const std::string&), std::string meaning,
               std::string absent, std::string example) {
@@ -172,16 +172,18 @@ std::vector<std::string> option_names();
 std::vector<std::string> constant_names();
 std::vector<std::string> laws_or_all();
 std::vector<std::string> laws_best_or_all();
-std::vector<std::string> laws_to_tabulate(); // and recommended
+std::vector<std::string> laws_to_tabulate(); // laws_best_or_all and "recommended"
 std::vector<std::string> target_names();
 std::vector<std::string> targets_or_all();
 
-data::DropRule& drop_rule(Job& job, const std::string& name); // added where absent
-data::FileRule& file_rule(Job& job, const std::string& name); // "2.columns...": the second; as well
-models::LawText& law_text(Job& job, const std::string& name); // "my_law...": added where absent
+data::DropRule& drop_rule(Job& job, const std::string& name); // adds it where absent
+// "2.columns...": the second rule; adds it where absent
+data::FileRule& file_rule(Job& job, const std::string& name);
+// "my_law...": adds it where absent
+models::LawText& law_text(Job& job, const std::string& name);
 models::ParameterText& parameter_text(Job& job, const std::string& name); // "my_law.mu"
 std::vector<KeyRule> data_keys();
-std::vector<KeyRule> law_keys(); // of [models.NAME]
+std::vector<KeyRule> law_keys(); // keys of [models.NAME]
 std::vector<KeyRule> stage_keys();
 
 } // namespace frictab::job::schema

@@ -1,4 +1,4 @@
-// The keys of [data]: where rows come from and how a rig's file is read.
+// The keys of [data]: the source of rows, and the format of a rig's file.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@ Problem constant_problem(const std::string& name, const KeyValue& value) {
           quantity->meaning};
 }
 
-// Blocks are counted.
+// Requires a whole number where blocks are counted.
 Problem blocks_problem(const std::string&, const KeyValue& value) {
   const auto* number = std::get_if<double>(&value);
   if (!number || *number == std::floor(*number)) return {};
@@ -28,12 +28,13 @@ Problem blocks_problem(const std::string&, const KeyValue& value) {
           "blocks per experiment; 0: rows are held"};
 }
 
-// "1.sigma_n_MPa" of the first [[data.files]]; "sigma_n_MPa" of all files.
+// Returns "sigma_n_MPa" for "1.sigma_n_MPa" of the first [[data.files]], and for "sigma_n_MPa" of
+// all files.
 std::string name_of_column(const std::string& name) {
   return name.substr(name.rfind('.') + 1);
 }
 
-// A column's source, of all files or of those of a rule.
+// A column's source, for all files or for those of a rule.
 data::ColumnSource& of_all(Job& job, const std::string& name) {
   return job.data.columns[name];
 }
@@ -114,13 +115,13 @@ std::vector<std::string> decimals() {
 std::vector<std::string> groupings() {
   return {".", ",", "'", " "};
 }
-std::vector<std::string> missing_words() { // as data::Missing
+std::vector<std::string> missing_words() { // in the order of data::Missing
   return {"error", "drop"};
 }
-std::vector<std::string> row_words() { // as data::UsedRows
+std::vector<std::string> row_words() { // in the order of data::UsedRows
   return {"sliding", "all"};
 }
-std::vector<std::string> zero_words() { // as data::ForceZero
+std::vector<std::string> zero_words() { // in the order of data::ForceZero
   return {"auto", "remove", "keep"};
 }
 
@@ -262,7 +263,7 @@ std::vector<KeyRule> mapping_keys() {
 
 using RuleOf = data::FileRule& (*)(Job&, const std::string&);
 
-// What is special about some files: of a rule, or of data.join.
+// Keys that apply to some files only: those of a rule, or of data.join.
 template <RuleOf rule> std::vector<KeyRule> rule_keys(const std::string& section) {
   const std::string as_all = "as for all files";
   return {
@@ -459,7 +460,8 @@ std::vector<std::string> state_names() {
   return names;
 }
 
-std::vector<std::string> constant_names() { // what was measured, and time, cannot be one value
+// measured quantities and time cannot be constant
+std::vector<std::string> constant_names() {
   std::vector<std::string> names;
   for (const data::Quantity& quantity : data::quantities())
     if (quantity.name != "time_s" && quantity.name != "tau_R_MPa" && quantity.name != "F_R_N")

@@ -7,7 +7,7 @@ namespace frictab::job::schema {
 
 namespace {
 
-// "my_law" of "my_law.mu".
+// Returns "my_law" for "my_law.mu".
 std::string first_name(const std::string& name) {
   return name.substr(0, name.find('.'));
 }

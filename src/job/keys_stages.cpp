@@ -1,4 +1,4 @@
-// The keys of every section but [data], in the order of the stages.
+// The keys of every section except [data], in the order of the stages.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -120,7 +120,7 @@ Problem outside_problem(const std::string&, const KeyValue& value) {
           "for example outside = [\"clamp\", \"law\"]"};
 }
 
-// The source that one state alone can have; empty for the others. The target says more.
+// Source that only this state can have; empty for other states. Each target checks further.
 std::string_view own_source(std::string_view state) {
   if (state == "psi") return "area_ratio";
   if (state == "v_rel_mm_s") return "smoothed:NUMBER";

@@ -1,4 +1,4 @@
-// Takes columns by their headers, and looks at every number.
+// Finds columns by their headers, and checks every number.
 #include "job/law_columns.h"
 
 #include <algorithm>
@@ -84,7 +84,8 @@ private:
     out_.positions.push_back(in_unit(column, name, quantity ? quantity->unit : ""));
   }
 
-  // The numbers in `unit`; what is no number is a fault. Without a unit, as they stand.
+  // Converts the cells to `unit`, or leaves them unconverted if it is empty; a cell that is not a
+  // number is a fault.
   std::vector<double> in_unit(const CsvColumn& column, const io::HeaderName& name,
                               const std::string& unit) {
     for (const CsvColumn::Text& cell : column.texts)

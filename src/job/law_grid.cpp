@@ -1,4 +1,4 @@
-// Sorts the rows of a law that is a table into its grid.
+// Sorts the rows of a tabulated law into its grid.
 #include "job/law_grid.h"
 
 #include <algorithm>
@@ -71,7 +71,7 @@ private:
                     "write the same number in all rows of a node");
   }
 
-  // "12 x 5 = 60".
+  // Returns "12 x 5 = 60".
   std::string sizes() const {
     std::vector<std::string> counts;
     double product = 1;

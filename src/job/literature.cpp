@@ -1,4 +1,4 @@
-// The texts in the program, as laws.
+// Makes laws from the texts in the program.
 #include "job/literature.h"
 
 #include <sstream>
@@ -27,7 +27,7 @@ const models::Laws& literature() {
       read_laws(reader, parse_toml(codegen::embedded_template(path), file));
     }
     make_laws(reader);
-    if (!reader.faults.empty()) // of the program, not of its user
+    if (!reader.faults.empty()) // a fault of the program, not of its user
       throw std::logic_error(InputError(reader.faults).what());
     return reader.job.models.laws;
   }();

@@ -1,6 +1,6 @@
 // Laws of the literature that come with the program as texts: templates/laws/*.toml, each table a
-// law as a job's [models.NAME] has it. A job has them by name (models.use); what is calibrated
-// unasked stays the registry, for of many laws the best is best by luck.
+// law in the form of a job's [models.NAME]. A job gets one by naming it (models.use). By default
+// only the registry is calibrated, because the best of many candidates looks too good by chance.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace frictab::job {
 
-// Behind the registry's, in order of their names.
+// Returns the laws in order of their names; they follow those of the registry.
 const models::Laws& literature();
 
-// The law as a job may have it, to be changed: [models.NAME] and what stands below. Empty where
-// `name` is no law of the literature.
+// Returns the law as lines of a job, to be changed there: [models.NAME] and its keys. Empty where
+// `name` is not a law of the literature.
 std::string literature_text(const std::string& name);
 
 } // namespace frictab::job

@@ -1,4 +1,4 @@
-// Laws of a job's own: what their keys say together, and their formulas.
+// Laws of a job's own: checks across their keys, and their formulas.
 #include <algorithm>
 #include <filesystem>
 
@@ -23,7 +23,7 @@ void place_formulas(const JobReader& reader, models::LawText& text) {
     formula.place = reader.place_of(path + ".where." + name);
 }
 
-// A law's name becomes part of file names, and stands where names of the registry stand.
+// Checks the name: it becomes part of file names, and shares lists with names of the registry.
 bool check_name(JobReader& reader, const models::LawText& text) {
   const std::string& name = text.name;
   const bool plain = name.size() <= 60 && std::all_of(name.begin(), name.end(), [](char c) {
@@ -74,13 +74,14 @@ bool check_table_keys(JobReader& reader, const models::LawText& text) {
   return reader.faults.size() == before;
 }
 
-// What the file holds is part of what the job says: results are kept as long as both stay.
+// Adds the law of a table file. Its contents count as part of the job, so that results are kept
+// only while both are unchanged.
 void add_table(JobReader& reader, const models::LawText& text, FaultList& faults) {
   const Place place = reader.place_of("models." + text.name + ".table");
   const auto base = std::filesystem::path(reader.job.file).parent_path();
   const auto table = read_law_table(text, (base / text.table).string(), place, faults);
   models::Law law;
-  law.name = text.name; // other faults of a job shall not say that the law is not there
+  law.name = text.name; // keeps other checks from reporting that the law does not exist
   if (table) {
     law = models::law_of_table(*table);
     const models::Formula formula = law.build({});

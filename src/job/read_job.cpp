@@ -1,4 +1,4 @@
-// Reads a job file: TOML, then every key by the schema, then what keys say together.
+// Reads a job file: TOML, then every key by the schema, then the checks across keys.
 #include <algorithm>
 #include <filesystem>
 #include <tuple>
@@ -22,7 +22,7 @@ std::string below(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
-// The keys and sections of fixed names in a section.
+// Keys and sections of fixed names in a section.
 std::vector<std::string> fixed_children(const std::string& rule_path) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& path) {
@@ -37,7 +37,7 @@ std::vector<std::string> fixed_children(const std::string& rule_path) {
   return names;
 }
 
-// A key that belongs elsewhere: "table.tolerance_MPa" for tolerance_MPa in [data].
+// Finds the section of a misplaced key: "table.tolerance_MPa" for tolerance_MPa in [data].
 std::string home_of(const std::string& key) {
   for (const KeyRule& rule : key_rules())
     if (rule.path.find('*') == rule.path.npos && last_part(rule.path) == key) return rule.path;
@@ -87,8 +87,8 @@ bool known_name(JobReader& reader, const SectionRule& section, const std::string
   return false;
 }
 
-// Whether an entry of this section is found by a name of the user's and not by its own.
-// Beside keys of fixed names it is one of the known names, or a table where others may be.
+// Whether an entry of this section has a name that the user chooses. In a section that also has
+// fixed names, such an entry is one of the known names, or a table where other names are allowed.
 bool is_by_name(const SectionRule* section, const std::string& rule_path, const TomlNode& entry) {
   if (!section || !section->children) return false;
   const std::vector<std::string> fixed = fixed_children(rule_path), names = section->children();
@@ -100,7 +100,7 @@ bool is_by_name(const SectionRule* section, const std::string& rule_path, const 
 void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path,
           const std::string& path, const std::string& name);
 
-// [[data.files]]: each of its tables.
+// Walks each table of [[data.files]].
 void walk_list(JobReader& reader, const TomlNode& list, const std::string& rule_path,
                const std::string& path) {
   const auto is_table = [](const TomlNode& item) { return item.type == TomlNode::Type::table; };
@@ -157,19 +157,19 @@ void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path
 
 constexpr std::uint64_t largest_law_file = 1 << 20;
 
-// A law has a formula or a table's name as well.
+// A law also has a formula or a table's name.
 bool holds_only_tables(const TomlNode& node) {
   return std::all_of(node.items.begin(), node.items.end(),
                      [](const TomlNode& item) { return item.type == TomlNode::Type::table; });
 }
 
-// The files of models.files, each a table of laws.
+// Reads the files of models.files, each a table of laws.
 std::vector<TomlNode> read_law_files(JobReader& reader, TomlNode& root) {
   std::vector<TomlNode> files;
   TomlNode* const models = root.find("models");
   TomlNode* const named = models ? models->find("files") : nullptr;
   if (!named) return files;
-  JobReader only; // faults of the key itself are told with the others
+  JobReader only; // faults of the key itself are reported with the others
   only.job.file = reader.job.file;
   read_value(only, *find_key("models.files"), "models.files", "", *named);
   const std::string base = std::filesystem::path(reader.job.file).parent_path().string();
@@ -190,13 +190,13 @@ std::vector<TomlNode> read_law_files(JobReader& reader, TomlNode& root) {
   return files;
 }
 
-// Keys elsewhere may name these laws before they are read.
+// Registers the names of laws, to which keys elsewhere may refer before the laws are read.
 void note_laws(JobReader& reader, const TomlNode& tables) {
   for (const TomlNode& entry : tables.items)
     if (entry.type == TomlNode::Type::table) reader.own_laws.push_back(entry.key);
 }
 
-// Laws of the literature are there where models.use names them; beside "all" too.
+// Adds laws of the literature that models.use names, also together with "all".
 void add_literature(JobReader& reader) {
   models::Laws& laws = reader.job.models.laws;
   std::vector<std::string>& use = reader.job.models.use;

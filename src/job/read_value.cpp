@@ -1,4 +1,4 @@
-// One value of a job file: type, bounds and allowed names, with a message that names the key.
+// Reads one value of a job file: type, bounds and allowed names, with a message that names the key.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -61,10 +61,10 @@ struct ValueReader {
     return std::nullopt;
   }
 
-  // The text as the schema spells it.
+  // Returns the text in the schema's spelling.
   std::optional<std::string> text(const TomlNode& node) const {
     if (node.type != Type::text) return refuse(node);
-    if (node.text.find('\0') != node.text.npos) { // a path would end there, unseen
+    if (node.text.find('\0') != node.text.npos) { // the system would cut the path off there
       reader.fault(node.place, path + " holds a NUL character (\\u0000)", "leave it out");
       return std::nullopt;
     }
@@ -103,7 +103,7 @@ struct ValueReader {
     return std::nullopt;
   }
 
-  // "a,b" of a command line, as a job has it: ["a", "b"].
+  // Converts "a,b" of a command line to the form of a job: ["a", "b"].
   static std::string as_list(const std::string& text) {
     std::istringstream names(text);
     std::string list;
@@ -133,7 +133,8 @@ struct ValueReader {
       return std::nullopt;
     }
     if (node.type != Type::array) return refuse(node);
-    // An empty list says something only where nothing to keep, ignore or write is a wish.
+    // An empty list is allowed only for keys where "none" is a choice: to keep, ignore or write
+    // nothing.
     if (node.items.empty() && path != "data.bystanders" && path != "data.allow_implausible" &&
         path != "trace.ignore" && path != "export.targets") {
       reader.fault(node.place, path + " is an empty list",
@@ -143,7 +144,7 @@ struct ValueReader {
     }
     bool good = true;
     std::set<std::string> seen;
-    // A few fixed words say something by their position in the list, not by being there.
+    // Lists of a few fixed words may repeat them: their position in the list has a meaning.
     const bool may_repeat = rule.allowed.names && rule.allowed.noun.empty();
     for (const TomlNode& item : node.items) {
       const auto one = text(item);

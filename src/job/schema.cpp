@@ -1,4 +1,4 @@
-// The sections of the job file, look-up, and what a key's value must be, in words.
+// Sections of the job file, look-up, and the description of a key's possible values.
 #include "job/schema.h"
 
 #include <algorithm>

@@ -20,7 +20,7 @@ enum class KeyType {
   whole,
   number,
   automatic, // "auto" or a number
-  numbers,   // a number or a list of different ones
+  numbers,   // a number or a list of distinct numbers
   range,     // [from, to]
   flag
 };
@@ -28,7 +28,7 @@ enum class KeyType {
 using KeyValue = std::variant<std::string, std::vector<std::string>, std::uint64_t, double,
                               std::vector<double>, std::pair<double, double>, bool>;
 
-// Of a number.
+// Bounds of a number.
 struct ValueBounds {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
@@ -36,50 +36,51 @@ struct ValueBounds {
   bool open_upper = false;
 };
 
-// The names a text may be.
+// The names that a text may have.
 struct Allowed {
   std::string noun; // "friction law"; empty: a few fixed words
   std::vector<std::string> (*names)() = nullptr;
   bool any_case = false;
-  bool traced = false; // and its traced_name: the law with effects found in the data
-  bool laws = false;   // and the laws of the job's own
+  bool traced = false; // also its traced_name: the law with effects found in the data
+  bool laws = false;   // also the laws of the job's own
 };
 
 struct Problem {
-  std::string what; // "": nothing
+  std::string what; // "": no problem
   std::string hint;
 };
 
-// One key. `name` below is what the '*' of the path stand for, with dots between them.
+// The rule of one key. `name` below: the names at the '*' of the path, with dots between them.
 struct KeyRule {
   std::string path; // "data.skip_rows", "data.columns.*.unit"
   KeyType type = KeyType::text;
   std::string meaning;
-  std::string absent;  // what holds where the key is left out and there is no plain default
-  std::string example; // TOML value, where there is no plain default
+  std::string absent;  // meaning of an absent key that has no plain default
+  std::string example; // TOML value, for a key without a plain default
   ValueBounds bounds;
   Allowed allowed;
   std::function<void(Job&, const std::string& name, KeyValue)> store;
   std::function<std::string(const Job&)> show; // the job's value as TOML, "" where not set
-  // What is wrong with a value that passed all of the above; `what` continues "path ...".
+  // Finds a problem of a value that passed all checks above; `what` continues "path ...".
   Problem (*problem)(const std::string& name, const KeyValue&) = nullptr;
 };
 
-// A table of keys. Where its children are names of the user's ('*'), they are among `children`;
-// beside them there may be keys of fixed names.
+// The rule of a table of keys. If its children have names that the user chooses ('*'), `children`
+// lists the possible ones; the table may have keys of fixed names as well.
 struct SectionRule {
   std::string path;
   std::string meaning;
-  std::string example; // TOML lines for `init`, where the keys below are named by the user
+  std::string example; // TOML lines for `init`, where the user names the keys below
   std::vector<std::string> (*children)() = nullptr;
-  Place* (*place)(Job&, const std::string& name) = nullptr; // where the job remembers the place
-  std::string child = "quantity";                           // what a name of the user's stands for
-  bool others = false;    // names that are not among `children` are taken too, and checked later
-  bool list = false;      // [[path]]: its tables have the numbers from 1 as names
-  std::string plain = {}; // the key of a child that a value instead of a table is
+  Place* (*place)(Job&, const std::string& name) = nullptr; // where the job stores the place
+  std::string child = "quantity";                           // the kind of thing that the user names
+  bool others = false; // accepts names that are not among `children`; they are checked later
+  bool list = false;   // [[path]]: its tables are named by their number, from 1
+  // the key of a child to which a plain value, given instead of a table, belongs
+  std::string plain = {};
 };
 
-// "unit" of "data.columns.*.unit".
+// Returns "unit" for "data.columns.*.unit".
 inline std::string last_part(const std::string& path) {
   return path.substr(path.rfind('.') + 1);
 }
@@ -89,13 +90,13 @@ const std::vector<SectionRule>& section_rules();
 const KeyRule* find_key(const std::string& path);
 const SectionRule* find_section(const std::string& path);
 
-// "a whole number >= 0": what a value of this key must be.
+// Describes the values of this key: "a whole number >= 0".
 std::string expected(const KeyRule& rule);
 
 // The default as TOML, or "" where there is none.
 std::string default_text(const KeyRule& rule);
 
-// A documented job file: every key, those with a default commented out.
+// Writes a documented job file with every key; those with a default are commented out.
 std::string job_template();
 
 } // namespace frictab::job

@@ -1,4 +1,4 @@
-// A law that is a table: from columns, or from a table in frictab's own layout.
+// Reads a tabulated law: from columns, or from a table in frictab's own layout.
 #include "job/table_law.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 using models::LawTable;
 using models::LawTableAxis;
 
-constexpr std::uintmax_t largest_file = 16 << 20; // of what can have so few rows
+constexpr std::uintmax_t largest_file = 16 << 20; // bytes; the rows are few
 
 std::optional<LawTable> of_frictab_table(const models::LawText& text, const std::string& path,
                                          const Place& place, FaultList& faults) {

@@ -1,4 +1,4 @@
-// TOML through toml++: the only file that knows that library.
+// Reads TOML through toml++; no other file includes that library.
 #include "job/toml_tree.h"
 
 #include <algorithm>
@@ -104,8 +104,8 @@ std::optional<TomlNode> try_parse(const std::string& text, const std::string& fi
   }
 }
 
-// The value's text stands for itself where TOML cannot read it and it does not look as if it were
-// meant as TOML.
+// Whether the value may be taken as a text although it is not valid TOML: it does not look as if it
+// were meant as TOML.
 bool is_bare_word(std::string_view value) {
   return !value.empty() && std::string_view("[{\"'").find(value.front()) == std::string_view::npos;
 }
