@@ -1,4 +1,4 @@
-// The list through the reader of data files.
+// Reads the list with the reader of data files.
 #include "study/campaign_list.h"
 
 #include <algorithm>

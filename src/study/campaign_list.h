@@ -1,4 +1,4 @@
-// campaigns = "list.csv": one campaign per row.
+// The file of campaigns = "list.csv": one campaign per row.
 #pragma once
 
 #include <string>
@@ -19,9 +19,9 @@ struct WrittenCampaign {
   Place place;
 };
 
-// Columns `name` and `files`; where there are such, `validation` and `set`; every other column is a
-// factor. Several files or overrides of a cell have ; between them. All cells are texts: batch 007
-// stays 007. Throws InputError with every fault; `file` is how messages call it.
+// Reads columns `name` and `files`, and `validation` and `set` if present; every other column is a
+// factor. Several files or overrides in a cell are separated by ;. All cells are texts: batch 007
+// stays 007. Throws InputError with every fault; messages call the list `file`.
 std::vector<WrittenCampaign> read_campaign_list(const std::string& file);
 std::vector<WrittenCampaign> parse_campaign_list(std::string_view text, const std::string& file);
 

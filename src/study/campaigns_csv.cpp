@@ -1,4 +1,4 @@
-// Rows of campaigns.csv.
+// Writes the rows of campaigns.csv.
 #include "study/campaigns_csv.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace frictab::study {
 
 namespace {
 
-// In front of and behind the factors.
+// Columns before and after the factors.
 constexpr std::array front = {"campaign", "key", "state", "synthetic"};
 constexpr std::array back = {
     "experiments", "rows",         "judged_by",  "law",        "rank",         "mae_MPa",

@@ -1,4 +1,4 @@
-// Campaigns as small multiples, all on one axis.
+// Draws campaigns as small multiples, all on one axis.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::size_t most_laws = 6;
 
-// Constants of the literature may be many times worse: they leave the plot.
+// Constants of the literature may be many times worse; points that far right are left out of the
+// plot.
 svg::Axis shared_axis(const Tally& tally) {
   double high = 0;
   for (const Shown& one : tally.shown)

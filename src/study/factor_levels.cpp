@@ -1,4 +1,4 @@
-// Levels of factors.
+// Collects the levels of factors.
 #include "study/factor_levels.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Campaigns by the levels of a factor.
+// Campaigns grouped by the levels of a factor.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace frictab::study {
 
-inline constexpr std::size_t most_levels = 12; // that a page shows
+inline constexpr std::size_t most_levels = 12; // limit of levels on a page
 
 struct FactorLevels {
   std::string name;
   std::vector<std::string> levels;   // sorted
-  std::vector<std::size_t> level_of; // per campaign; levels.size(): not said
+  std::vector<std::size_t> level_of; // per campaign; levels.size(): not given
 };
 
-// Factors of two to most_levels levels. Of others, what to say of them goes to `notes`.
+// Returns the factors of two to most_levels levels; adds a note for each of the others.
 std::vector<FactorLevels> factors_of(const Study& study, std::vector<std::string>& notes);
 
 } // namespace frictab::study

@@ -1,4 +1,4 @@
-// Keys of campaigns.
+// Computes the keys of campaigns.
 #include "study/keys.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t piece_bytes = std::size_t{16} << 20;
 
-// Piece by piece, so that a large file needs no memory.
+// Hashes piece by piece, so that a large file needs no memory.
 std::string hash_of_file(const std::string& base, const std::string& file) {
   std::ifstream in(fs::path(base) / file, std::ios::binary);
   if (!in) throw no_such_file(file);
@@ -33,7 +33,7 @@ std::string hash_of_file(const std::string& base, const std::string& file) {
   return hashes;
 }
 
-// Rules may look at a file's folders: then these count.
+// Whether rules match a file's folders; then these are part of the key.
 bool looks_at_folders(const data::DataOptions& options) {
   return std::any_of(options.files.begin(), options.files.end(), [](const data::FileRule& rule) {
     return (rule.match + rule.from_name).find('/') != std::string::npos;

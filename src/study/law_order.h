@@ -1,4 +1,4 @@
-// Laws of a study by how often they do well.
+// Laws of a study ordered by success.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace frictab::study {
 
-// First those that are most often best or not told from the best, then by name.
+// First come those that are most often the best or indistinguishable from it; ties by name.
 inline std::vector<std::pair<std::string, const LawTally*>> laws_by_success(const Tally& tally) {
   std::vector<std::pair<std::string, const LawTally*>> laws;
   for (const auto& [name, law] : tally.laws)

@@ -10,13 +10,13 @@
 
 namespace frictab::study {
 
-// Parameters over campaigns and over the levels of each factor, and the campaigns that do not
-// belong to the others. `notes`: of factors that are not among them.
+// Adds parameters over campaigns and over the levels of each factor, and outlying campaigns.
+// `notes`: on factors that are not among `factors`.
 void add_parameters(codegen::TemplateValues& page, const Plan& plan, const Tally& tally,
                     const std::vector<FactorLevels>& factors,
                     const std::vector<std::string>& notes);
 
-// The first campaigns that have a result.
+// Adds the first campaigns that have a result.
 void add_campaigns(codegen::TemplateValues& page, const Plan& plan, const Tally& tally);
 
 } // namespace frictab::study

@@ -1,4 +1,4 @@
-// Random-effects summaries of every parameter.
+// Writes random-effects summaries of every parameter.
 #include <algorithm>
 #include <cmath>
 
@@ -34,7 +34,7 @@ Level level_of(std::string name, std::vector<Estimate> estimates) {
   return level;
 }
 
-// Those whose level is known, with it as their group.
+// Returns the estimates whose level is known, with it as their group.
 std::vector<Estimate> grouped(const std::vector<Estimate>& all, const FactorLevels& factor) {
   std::vector<Estimate> out;
   for (Estimate one : all) {
@@ -60,7 +60,8 @@ std::vector<Level> levels_with(const std::vector<Estimate>& all,
   return levels;
 }
 
-// "lubricant 84 %"; empty where there is no variance to explain, or too little to know it.
+// Share of the variance between campaigns that a factor explains: "lubricant 84 %". Empty without
+// variance to explain, or if it is not known.
 std::string share_text(const std::vector<Estimate>& all, const FactorLevels& factor) {
   std::vector<Estimate> known = grouped(all, factor);
   const double within = between_variance(known);

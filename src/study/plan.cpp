@@ -1,4 +1,4 @@
-// Keys of all campaigns, and which of them have results.
+// Computes the keys of all campaigns and finds their results.
 #include "study/plan.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// In the order of the campaigns.
+// Lists groups of identical campaigns, in the order of the campaigns.
 std::vector<std::string> same_campaigns(const Plan& plan) {
   std::vector<std::size_t> order(plan.keys.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -76,7 +76,7 @@ const char* state_name(State state) {
 }
 
 Found::Found(const std::string& directory) {
-  std::error_code none; // no directory: nothing is there
+  std::error_code none; // no directory, no results
   for (const auto& entry : fs::directory_iterator(fs::path(directory) / results_folder, none)) {
     const std::string name = entry.path().filename().string();
     if (const auto key = read_key(name)) {
@@ -170,7 +170,7 @@ std::string plan_json(const Plan& plan, const Found& found) {
 
 namespace {
 
-// Of the first that failed.
+// Returns the first failures.
 std::vector<Failure> failures_of(const Plan& plan, const Found& found) {
   std::vector<Failure> failures;
   for (std::size_t i = 0; i < plan.keys.size() && failures.size() < most_listed; ++i)

@@ -1,4 +1,4 @@
-// What a study consists of, campaign by campaign, and what is there of it.
+// The campaigns of a study and the state of their results.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,32 @@ namespace frictab::study {
 struct Plan {
   Study study;
   std::vector<std::uint64_t> keys; // per campaign
-  std::vector<std::string> notes;  // campaigns that are the same
+  std::vector<std::string> notes;  // groups of identical campaigns
 };
 
-// Reads the data's bytes. Throws InputError with the faults of all campaigns.
+// Computes all keys, for which it reads the data files. Throws InputError with the faults of all
+// campaigns.
 Plan plan_of(Study study);
 
-// Campaigns that a text names; more are counted.
+// Number of campaigns that a text lists; further ones are only counted.
 inline constexpr std::size_t most_listed = 10;
 
 enum class State { missing, done, failed };
 const char* state_name(State state);
 
-// Keys that the study's directory holds; read once.
+// Keys with a result in the study's directory; read once.
 struct Found {
   explicit Found(const std::string& directory);
   State state(std::uint64_t key) const;
 
   std::unordered_set<std::uint64_t> done, failed;
-  // Those with working directories, of processes that run or were ended, and how many there are.
+  // Keys with a working directory, of a process that runs or was killed, and the number of such
+  // directories.
   std::unordered_set<std::uint64_t> begun;
   std::size_t unfinished = 0;
 };
 
-// Campaigns by their state.
+// Number of campaigns by state.
 struct Counts {
   std::size_t done = 0, failed = 0, missing = 0;
 };
@@ -44,7 +46,7 @@ Counts counts_of(const Plan& plan, const Found& found);
 
 std::string plan_text(const Plan& plan, const Found& found);
 std::string plan_json(const Plan& plan, const Found& found);
-// With the messages of the first campaigns that failed.
+// Includes the messages of the first failed campaigns.
 std::string status_text(const Plan& plan, const Found& found);
 std::string status_json(const Plan& plan, const Found& found);
 

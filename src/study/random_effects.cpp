@@ -1,4 +1,4 @@
-// REML by Fisher scoring, and what follows from it.
+// REML by Fisher scoring, and the summaries based on it.
 #include "study/random_effects.h"
 
 #include <algorithm>
@@ -40,8 +40,8 @@ std::vector<Sums> sums_of(Estimates all, double variance) {
   return groups;
 }
 
-// Of the restricted log-likelihood: its derivative with respect to tau^2 over the expected
-// information, with P = W - W X (X' W X)^-1 X' W: (y'PPy - tr P) / tr PP.
+// The scoring step: derivative of the restricted log-likelihood by tau^2 over the expected
+// information, (y'PPy - tr P) / tr PP, with P = W - W X (X' W X)^-1 X' W.
 double scoring_step(Estimates all, double variance) {
   const std::vector<Sums> groups = sums_of(all, variance);
   double score = 0, information = 0;
@@ -62,7 +62,7 @@ bool has_pairs(Estimates all) {
   return std::any_of(groups.begin(), groups.end(), [](const Sums& s) { return s.count > 1; });
 }
 
-// Plain variance about the group means: where the scoring starts.
+// Plain variance about the group means, from which the scoring starts.
 double plain_variance(Estimates all) {
   double sum = 0, free = 0;
   std::vector<double> total;

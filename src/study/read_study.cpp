@@ -1,4 +1,4 @@
-// From what is written to campaigns, each with its job.
+// Makes campaigns, each with its job, of the written study.
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -39,7 +39,7 @@ std::optional<LastStage> stage_named(std::string_view name) {
 
 namespace {
 
-constexpr std::size_t largest_file = 1 << 20; // as job files
+constexpr std::size_t largest_file = 1 << 20; // same limit as for job files
 
 std::string said(const StudyOverrides& overrides) {
   std::string text;
@@ -104,7 +104,7 @@ private:
     }
   }
 
-  // Files of a campaign are named relative to the study, those of a job relative to the job.
+  // Converts files of a campaign, named relative to the study, to names relative to the job.
   std::vector<std::string> beside_job(const std::vector<std::string>& files,
                                       const ResolvedJobs& jobs) const {
     if (folder_ == jobs.folder()) return files;
@@ -164,8 +164,8 @@ private:
     }
   }
 
-  // A plan reads every file for its keys. Where other faults stop it before, files that are not
-  // there are told with them.
+  // Reports missing files together with other faults, which stop the study before plan_of reads the
+  // files for their keys.
   void tell_missing_files(const std::string& folder) {
     for (const Campaign& one : study_.campaigns) {
       const std::string about = fmt::format("campaign '{}': ", one.name);

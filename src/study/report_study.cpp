@@ -1,4 +1,4 @@
-// From results to a table and a page.
+// Makes a table and a page of the results.
 #include "study/report_study.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ public:
     try {
       if (state == State::done) return take_result(i);
       take_failure(i, read_failure(directory_, key).message);
-    } catch (const InputError& error) { // a damaged file: the other campaigns have theirs
+    } catch (const InputError& error) { // a damaged file does not affect the other campaigns
       if (state == State::done) {
         --tally_.counts.done;
         ++tally_.counts.failed;
@@ -61,7 +61,7 @@ private:
     tally_.failed.push_back({i, message});
   }
 
-  // Of campaigns that are the same one counts.
+  // Writes the rows; identical campaigns count once in the tally.
   void take_result(std::size_t i) {
     const std::uint64_t key = plan_.keys[i];
     const auto file = result_directory(directory_, key) / result_file;

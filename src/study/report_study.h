@@ -1,4 +1,4 @@
-// What a study found over all of its campaigns: campaigns.csv and report.html.
+// Results over all campaigns of a study: campaigns.csv and report.html.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace frictab::study {
 
-// Reads the results one by one and writes both files into the study's directory, whatever is
-// missing. Throws InputError for results that cannot be read, and where there are none.
+// Reads the results one by one and writes both files into the study's directory; campaigns may be
+// missing. Throws InputError for a result that cannot be read, and for a study without any.
 Tally report_study(const Plan& plan);
 
-// The page; the same tally gives the same bytes.
+// Writes the page; the same tally gives the same bytes.
 std::string study_html(const Plan& plan, const Tally& tally);
 
-// A few lines for people.
+// Writes a few lines for people.
 std::string report_text(const Plan& plan, const Tally& tally);
 std::string report_json(const Plan& plan, const Tally& tally);
 

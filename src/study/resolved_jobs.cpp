@@ -1,4 +1,4 @@
-// Jobs and what they depend on but the campaign's own data.
+// Resolves jobs, and hashes everything they depend on except the campaign's own data.
 #include "study/resolved_jobs.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using job::TomlNode;
 
 namespace {
 
-// Stands for the campaign's files while the job is checked.
+// Placeholder for the campaign's files while the job is checked.
 constexpr const char* some_data = "data.training=\"-\"";
 
 void erase_keys(TomlNode* table, const std::vector<std::string>& names) {
@@ -29,7 +29,8 @@ void erase_keys(TomlNode* table, const std::vector<std::string>& names) {
   });
 }
 
-// A campaign has its files by itself: an override of them would be passed over.
+// Rejects overrides of files: a campaign gives its own, so that such an override would have no
+// effect.
 void check_overrides(const std::vector<std::string>& set, FaultList& faults) {
   for (std::size_t i = 0; i < set.size(); ++i)
     for (const char* key : {"data.training", "data.validation", "data.oracle", "output.directory"})
@@ -39,7 +40,7 @@ void check_overrides(const std::vector<std::string>& set, FaultList& faults) {
                    "files stand in campaigns, the directory in study.toml");
 }
 
-// The job's words without where files lie: what these hold is hashed instead.
+// Returns the job's text without the paths of files, whose contents are hashed instead.
 std::string words_of(std::string_view text, const std::string& file,
                      const std::vector<std::string>& set) {
   TomlNode root = job::parse_toml(text, file);
@@ -58,7 +59,7 @@ std::string words_of(std::string_view text, const std::string& file,
   return job::canonical_text(root);
 }
 
-// Of files that all campaigns share: tests, a second clock, laws.
+// Files that all campaigns share: tests, a second clock, laws.
 std::vector<std::string> shared_files(const job::Job& job) {
   const data::DataOptions& data = job.data;
   std::vector<std::string> files;

@@ -1,4 +1,4 @@
-// The base job with overrides, each list of them once.
+// The base job with overrides, resolved once per list of overrides.
 #pragma once
 
 #include <map>
@@ -11,16 +11,16 @@ namespace frictab::study {
 
 class ResolvedJobs {
 public:
-  // Reads the job file; `set` holds for every campaign, behind its own. Throws InputError with all
-  // faults of the file.
+  // Reads the job file; `set` applies to every campaign, after its own overrides. Throws InputError
+  // with all faults of the file.
   ResolvedJobs(std::string file, std::vector<std::string> set);
 
-  // The number among jobs() of the job with these overrides. Faults are added at `place`, once for
-  // each list; then the number means nothing.
+  // Returns the index in jobs() of the job with these overrides. Faults are added at `place`, once
+  // for each list; the index is then meaningless.
   std::size_t find(const std::vector<std::string>& set, const Place& place, FaultList& faults);
 
   std::vector<ResolvedJob> take() { return std::move(jobs_); }
-  // Of the job file; what campaigns name lies relative to it.
+  // Folder of the job file; campaigns' files are relative to it.
   const std::string& folder() const { return folder_; }
 
 private:

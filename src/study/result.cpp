@@ -1,4 +1,4 @@
-// Results from a pipeline, to JSON and back.
+// Converts results from a pipeline to JSON and back.
 #include "study/result.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ double best_p_value(const calibrate::Comparisons& comparisons, const std::string
   return i < comparisons.best_p_values.size() ? comparisons.best_p_values[i] : no_value;
 }
 
-// Of a trained law the numbers stand in its formula.
+// A trained law has none: its numbers are part of its formula.
 std::vector<FittedParameter> parameters_of(const calibrate::ModelFit& fit) {
   const models::Law& law = *fit.model.law;
   std::vector<FittedParameter> parameters;

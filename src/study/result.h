@@ -1,5 +1,5 @@
-// One campaign's result as the report needs it: results/KEY/study.json. What its stages wrote lies
-// beside it.
+// One campaign's result as the report needs it: results/KEY/study.json. Outputs of its stages are
+// in the same folder.
 #pragma once
 
 #include <optional>
@@ -16,16 +16,16 @@ namespace frictab::study {
 struct FittedParameter {
   std::string name, unit;
   double value = 0;
-  double std_error = 0; // by experiment; NaN: the data do not determine it
+  double std_error = 0; // over experiments; NaN: the data do not determine the parameter
 };
 
 struct LawResult {
   std::string law;
-  bool fitted = false; // has parameters of its own that were fitted, none of the literature
-  double mae_MPa = 0, rmse_MPa = 0, bias_MPa = 0; // on tests not trained on
+  bool fitted = false; // has fitted parameters, in contrast to constants of the literature
+  double mae_MPa = 0, rmse_MPa = 0, bias_MPa = 0; // on tests that were not trained on
   calibrate::Interval mae_interval;               // 95 %, whole tests resampled
   double best_p_value = 0; // of "no law has a smaller MAE"; NaN: laws were not compared
-  std::optional<double> band_low, band_high; // factors that 5 % and 95 % of new tests lie below
+  std::optional<double> band_low, band_high; // factors below which 5 % and 95 % of new tests are
   std::vector<FittedParameter> parameters;
 };
 
@@ -34,7 +34,7 @@ struct EffectResult {
   std::string column; // "dwell_s", "dwell_s x friction_work"
   std::string form, acts_on;
   double p_value = 0;  // family-wise
-  double gain_MPa = 0; // of the MAE on unseen tests
+  double gain_MPa = 0; // decrease of the MAE on unseen tests
 };
 
 struct CampaignResult {
@@ -44,16 +44,16 @@ struct CampaignResult {
   std::vector<LawResult> laws;           // by rank, as calibrated: without traced effects
   bool traced = false;
   std::vector<EffectResult> effects;
-  std::vector<std::string> missed; // targets, in words
+  std::vector<std::string> missed; // missed targets, in words
 };
 
-// Of a calibration that was not traced yet.
+// Returns the result of a calibration, without traced effects.
 CampaignResult result_of(const calibrate::Calibration& calibration, const run::JobData& data);
 void add_effects(CampaignResult& result, const std::vector<trace::Trace>& traces);
 
-// `key` 16 hex digits.
+// `key`: 16 hex digits.
 std::string result_json(const CampaignResult& result, const std::string& key);
-// Throws InputError where the text is none of result_json.
+// Throws InputError where the text was not written by result_json.
 CampaignResult parse_result(std::string_view text, const std::string& file);
 
 } // namespace frictab::study

@@ -1,4 +1,4 @@
-// Directories that appear by rename.
+// Publishes directories by rename.
 #include "study/result_store.h"
 
 #include <cerrno>

@@ -21,13 +21,13 @@ std::filesystem::path failure_path(const std::string& directory, std::uint64_t k
 // A failed campaign.
 struct Failure {
   std::string campaign, message;
-  bool by_input = false; // a fault of its job or data, which is there again next time
+  bool by_input = false; // fault of its job or data, which a new attempt would meet again
 };
 void write_failure(const std::string& directory, std::uint64_t key, const Failure& failure);
 Failure read_failure(const std::string& directory, std::uint64_t key);
 Failure parse_failure(std::string_view text, const std::string& file);
 
-// A directory of this process, results/.KEY.XXXXXX, until it is published or goes with its
+// A directory of this process, results/.KEY.XXXXXX, until it is published or removed with its
 // contents.
 class WorkDirectory {
 public:
@@ -37,7 +37,7 @@ public:
   WorkDirectory& operator=(const WorkDirectory&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  // Becomes results/KEY by rename(2). False where another process was first: its result stays.
+  // Becomes results/KEY by rename(2). False where another process was first; its result is kept.
   bool publish();
 
 private:

@@ -1,4 +1,4 @@
-// Rows from top to bottom, each with its name above.
+// Draws rows from top to bottom, each below its name.
 #include "study/row_plot.h"
 
 namespace frictab::study {

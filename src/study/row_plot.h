@@ -1,4 +1,4 @@
-// A plot of values with intervals, a named row for each, one below the other.
+// A plot of values with intervals, one named row below the other.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@ namespace frictab::study {
 struct PlotRow {
   std::string label;
   double value = 0, low = 0, high = 0; // not finite: not drawn
-  bool ring = false;                   // instead of a disc
+  bool ring = false;                   // drawn instead of a disc
   std::vector<double> dots = {};       // single values, small
 };
 
-// `x` shared by several plots; `width` of the drawing area in pixels.
+// `x`: axis shared by several plots; `width`: of the drawing area in pixels.
 std::string row_plot(const std::vector<PlotRow>& rows, const report::svg::Axis& x, double width,
                      const std::string& title, const std::string& description);
 

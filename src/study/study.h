@@ -1,4 +1,5 @@
-// A study: many campaigns through the stages of one job. study.toml as plain values.
+// A study: many campaigns through the stages of one job. The contents of study.toml as plain
+// values.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@
 
 namespace frictab::study {
 
-// How far each campaign is taken.
+// The last stage that each campaign runs.
 enum class LastStage { calibrate, trace, run };
 const char* stage_name(LastStage stage);
 std::optional<LastStage> stage_named(std::string_view name);
@@ -23,47 +24,48 @@ inline constexpr const char* stage_words = "calibrate, trace, run";
 // The base job with one list of overrides; several campaigns share it.
 struct ResolvedJob {
   job::Job job;
-  std::string fingerprint; // 16 hex digits: all it says but where files lie, and what they hold
+  // 16 hex digits: hash of the job and its shared files, without their paths
+  std::string fingerprint;
 };
 
-// A block [[twin]]: synthetic campaigns that differ by their seed alone.
+// A block [[twin]]: synthetic campaigns that differ only by their seed.
 struct TwinBlock {
   twin::TwinOptions options; // its seed is set per campaign
-  std::string text;          // what the block says of them, keys in order
+  std::string text;          // the block's settings, keys in order
 };
 
-// Which campaign of which twin.
+// The block and the seed of a synthetic campaign.
 struct TwinSeed {
-  std::size_t block = 0; // of Study::twins
+  std::size_t block = 0; // index in Study::twins
   std::uint64_t seed = 0;
 };
 
 struct Campaign {
   std::string name;
   std::vector<std::string> training, validation; // files, relative to the job's folder
-  std::size_t job = 0;                           // of Study::jobs
+  std::size_t job = 0;                           // index in Study::jobs
   std::optional<TwinSeed> twin;                  // instead of files
-  std::vector<std::string> factors;              // per Study::factors; empty: not said
+  std::vector<std::string> factors;              // per Study::factors; empty: not given
   Place place;
 };
 
 struct Study {
   std::string file, directory;
-  std::string said; // options of the command line, as advice repeats them
+  std::string said; // command-line options, as advice repeats them
   LastStage stage = LastStage::trace;
   std::vector<ResolvedJob> jobs;
   std::vector<TwinBlock> twins;
-  std::vector<std::string> factors; // "lubricant", in the order in which they are named first
+  std::vector<std::string> factors; // "lubricant"; in the order in which campaigns first name them
   std::vector<Campaign> campaigns;
 
   bool is_synthetic() const { return !twins.empty(); }
 };
 
-// What the command line says instead of the file.
+// Settings of the command line that replace those of the file.
 struct StudyOverrides {
   std::string directory; // empty: as the file has it
   std::optional<LastStage> stage;
-  std::vector<std::string> set; // "key=value" for every campaign, behind its own
+  std::vector<std::string> set; // "key=value" for every campaign, after its own overrides
 };
 
 inline constexpr std::size_t most_campaigns = 1000000;

@@ -65,7 +65,7 @@ std::string size_sentence(const Plan& plan, const Tally& tally) {
   return text;
 }
 
-// A study called study.toml says nothing: its folder is the name then.
+// Name of the study; for the usual study.toml, which identifies nothing, its folder.
 std::string name_of(const std::string& study_file) {
   const std::filesystem::path file = std::filesystem::absolute(study_file);
   const std::string folder = file.parent_path().filename().string();

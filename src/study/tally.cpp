@@ -1,4 +1,4 @@
-// Counting campaign by campaign.
+// Counts campaign by campaign.
 #include "study/tally.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ void Tally::add_law(std::size_t campaign, const LawResult& law, bool first) {
   LawTally& tally = laws[law.law];
   ++tally.campaigns;
   tally.best += first;
-  tally.may_be_best += law.best_p_value >= 0.05; // NaN: not compared
+  tally.may_be_best += law.best_p_value >= 0.05; // false for NaN: not compared
   tally.mae_MPa.push_back(law.mae_MPa);
   if (!law.fitted) return;
   for (const FittedParameter& p : law.parameters) {
@@ -36,7 +36,8 @@ void Tally::add_law(std::size_t campaign, const LawResult& law, bool first) {
 void Tally::add_effects(std::size_t campaign, const CampaignResult& result) {
   for (const EffectResult& effect : result.effects) {
     EffectTally& tally = effects[effect.column];
-    if (!tally.campaigns.empty() && tally.campaigns.back() == campaign) continue; // of another law
+    // found with another law already
+    if (!tally.campaigns.empty() && tally.campaigns.back() == campaign) continue;
     tally.campaigns.push_back(campaign);
     tally.gain_MPa.push_back(effect.gain_MPa);
     ++tally.forms[effect.form];
@@ -48,7 +49,7 @@ void Tally::add(std::size_t campaign, CampaignResult&& result) {
   if (result.traced) traced_campaigns.push_back(campaign);
   experiments += result.experiments;
   rows += result.rows;
-  // Constants of the literature may stand before the best law, and do not compete.
+  // Constants of the literature may precede the best law; they do not compete.
   const auto competes = [](const LawResult& law) { return !std::isnan(law.best_p_value); };
   const auto best = std::find_if(result.laws.begin(), result.laws.end(), competes);
   const bool any = best != result.laws.end();

@@ -1,4 +1,4 @@
-// What a report needs of all campaigns, taken from their results one at a time.
+// Summary of all campaigns for the report, collected from their results one at a time.
 #pragma once
 
 #include <map>
@@ -11,26 +11,26 @@
 
 namespace frictab::study {
 
-// One law over the campaigns that it was judged in.
+// One law over the campaigns in which it was assessed.
 struct LawTally {
   std::size_t campaigns = 0, best = 0, may_be_best = 0;
   std::vector<double> mae_MPa; // per campaign
   struct Parameter {
     std::string name, unit;
     std::vector<Estimate> estimates; // group: not used
-    std::size_t without_error = 0;   // campaigns that do not determine it
+    std::size_t without_error = 0;   // number of campaigns that do not determine it
   };
   std::vector<Parameter> parameters; // of laws that are fitted
 };
 
 // Effects of one column.
 struct EffectTally {
-  std::vector<std::size_t> campaigns; // that it was found in
+  std::vector<std::size_t> campaigns; // campaigns in which it was found
   std::vector<double> gain_MPa;
   std::map<std::string, std::size_t> forms;
 };
 
-// A campaign of the small multiples.
+// A campaign shown among the small multiples.
 struct Shown {
   std::size_t campaign = 0;
   CampaignResult result;

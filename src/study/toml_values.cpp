@@ -1,4 +1,4 @@
-// Values of TOML nodes.
+// Converts TOML nodes to values.
 #include "study/toml_values.h"
 
 #include <algorithm>

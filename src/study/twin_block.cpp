@@ -1,4 +1,4 @@
-// The options of the synthetic tribometer as keys.
+// Options of the synthetic tribometer as keys of a study.
 #include "study/twin_block.h"
 
 #include <charconv>
@@ -34,7 +34,7 @@ bool read_seeds(const TomlNode& node, Seeds& seeds) {
          seeds.first <= seeds.last;
 }
 
-// What a text of the twin's own syntax says; its faults at the place of the text.
+// Reads a text in the twin's own syntax; its faults are at the place of the text.
 template <class Read> void read_text(const TomlNode& node, FaultList& faults, const Read& read) {
   FaultList wrong_type;
   const std::string text = text_of(node, "twin." + node.key, wrong_type);
@@ -58,7 +58,7 @@ void read_effects(const TomlNode& node, twin::TwinOptions& options, FaultList& f
   }
 }
 
-// On top of the set's own design, whichever of the two keys stands first.
+// Applies the design to the set's own, in whichever order the two keys are given.
 void read_design(const TomlNode& block, twin::TwinOptions& options, FaultList& faults) {
   for (const TomlNode& node : block.items)
     if (node.key == "design")
@@ -111,7 +111,7 @@ void add_twin_keys(Keys& keys, twin::TwinOptions& options, FaultList& faults) {
               [&](const std::string& value) { options.scatter = twin::parse_scatter(value); });
   };
   keys["effect"] = [&](const TomlNode& node) { read_effects(node, options, faults); };
-  keys["design"] = [](const TomlNode&) {}; // read_design
+  keys["design"] = [](const TomlNode&) {}; // done by read_design
 }
 
 void finish_twin(const TomlNode& block, twin::TwinOptions& options, FaultList& faults) {

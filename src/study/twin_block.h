@@ -13,13 +13,14 @@ struct Seeds {
   std::uint64_t first = 1, last = 1;
 };
 
-// 7 or "1..1000". Adds a fault where it is neither, or more than a study can have.
+// Reads 7 or "1..1000". Adds a fault for anything else, and for more campaigns than a study can
+// have.
 Seeds seeds_of(const job::TomlNode& node, FaultList& faults);
 
-// Adds the keys that say what the campaigns are like, as the options of `frictab twin` do.
+// Adds the keys that describe the campaigns, as the options of `frictab twin` do.
 void add_twin_keys(Keys& keys, twin::TwinOptions& options, FaultList& faults);
 
-// What keys say together, once they are read; faults at the block's place.
+// Checks across keys, once they are read; faults are at the block's place.
 void finish_twin(const job::TomlNode& block, twin::TwinOptions& options, FaultList& faults);
 
 } // namespace frictab::study

@@ -1,4 +1,4 @@
-// study.toml as it is written, before jobs and data are looked at.
+// study.toml as it is written, before jobs and data are read.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct WrittenTwin {
   std::string name = "twin", text;
   Seeds seeds;
   twin::TwinOptions options;
-  WrittenCampaign shared; // its set and factors hold for every seed
+  WrittenCampaign shared; // set and factors for every seed
 };
 
 struct WrittenStudy {
@@ -28,7 +28,7 @@ struct WrittenStudy {
   Place job_place, list_place;
 };
 
-// Key by key. Faults are added; throws InputError where it is no TOML.
+// Reads key by key. Faults are added; throws InputError where the text is not TOML.
 WrittenStudy read_written(std::string_view text, const std::string& file, FaultList& faults);
 
 } // namespace frictab::study
