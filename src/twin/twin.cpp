@@ -17,7 +17,7 @@ namespace frictab::twin {
 
 namespace {
 
-// What a law needs to be calibrated stays; everything else may be hidden.
+// Removes the hidden columns; tau_R_MPa, which calibration needs, and the origin cannot be hidden.
 void hide_columns(const TwinOptions& options, data::Dataset& data) {
   FaultList faults;
   std::vector<std::string> hidden = options.hide;
@@ -35,7 +35,7 @@ void hide_columns(const TwinOptions& options, data::Dataset& data) {
   faults.throw_if_any();
 }
 
-// Fits the law to the physics of the training part, and makes it the truth instead of that physics.
+// Fits the law to the physics of the training part, and replaces that physics by it as the truth.
 void take_law(const std::string& name, TwinDraft& training, TwinDraft& validation) {
   find_column(training.data, "tau_R_MPa")->values = base_tau(training);
   const auto law = std::make_shared<const LawTruth>(*job::literature().find(name), training.data);
@@ -46,7 +46,7 @@ void take_law(const std::string& name, TwinDraft& training, TwinDraft& validatio
   }
 }
 
-// What calibration of the law alone finds where effects are planted.
+// Parameters that calibration of the law alone finds where effects are planted.
 std::vector<double> recalibrated(const TwinOptions& options, const TwinDraft& training,
                                  std::size_t tests, const std::vector<PlantedEffect>& effects,
                                  double tau_scale) {

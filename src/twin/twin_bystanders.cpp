@@ -1,4 +1,4 @@
-// Bystanders of the synthetic campaign: what a log book has beside the states.
+// Makes bystanders of the synthetic campaign: the further columns of a log book.
 #include "twin/twin_bystanders.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace frictab::twin {
 
 namespace {
 
-// What each random stream is for.
+// Purpose of each random stream.
 constexpr unsigned bystander_stream = 2;
 constexpr unsigned humidity_stream = 3;
 constexpr unsigned room_stream = 5;
@@ -19,7 +19,7 @@ constexpr unsigned more_stream = 6;
 constexpr double film_mean = 8; // um
 constexpr double film_scatter = 0.15;
 
-// Room climate follows the order of tests: an AR(1) over both parts.
+// Draws the room climate by order of tests: an AR(1) over both parts.
 std::vector<double> humidity_by_order(std::uint64_t seed, std::size_t tests) {
   Random random(seed, twin_stream(2, 0, humidity_stream));
   std::vector<double> humidity(tests);
@@ -55,7 +55,7 @@ void fill_bystanders(std::uint64_t seed, std::size_t tests, TwinDraft& draft, st
   }
 }
 
-// The room warms up while the tests are made.
+// Draws the room temperature, which rises during the campaign.
 std::vector<double> room_by_order(std::uint64_t seed, std::size_t tests) {
   Random random(seed, twin_stream(2, 0, room_stream));
   std::vector<double> room(tests);
@@ -66,7 +66,7 @@ std::vector<double> room_by_order(std::uint64_t seed, std::size_t tests) {
   return room;
 }
 
-// A second reading of the film: logarithms correlated by 0.9 with those of the first.
+// Draws a second reading of the film, whose logarithm has correlation 0.9 with that of the first.
 double second_film(double film, Random& random) {
   const double first = std::log(film / film_mean) / film_scatter;
   const double second = 0.9 * first + std::sqrt(1 - 0.81) * random.normal();

@@ -17,7 +17,8 @@ namespace {
 
 constexpr unsigned profile_stream = 4;
 
-constexpr std::size_t most_rows = 50'000'000; // both files; far beyond any tribometer campaign
+// limit for both files; far beyond any tribometer campaign
+constexpr std::size_t most_rows = 50'000'000;
 
 void check_levels(const std::vector<double>& levels, const char* key, double low, double high,
                   FaultList& faults) {

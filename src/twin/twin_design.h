@@ -17,16 +17,16 @@ struct TwinDesign {
   std::vector<double> T{20, 110, 200}; // degC, tool
   std::size_t replicates = 1;
   std::size_t points = 550;    // rows per experiment
-  std::size_t validation = 30; // experiments, random inside the ranges of the levels
+  std::size_t validation = 30; // number of experiments, random within the ranges of the levels
 
   std::size_t training() const { return p.size() * psi.size() * v.size() * T.size() * replicates; }
 };
 
-// The 3^4 factorial with the set's stress levels.
+// Returns the 3^4 factorial with the set's stress levels.
 TwinDesign default_design(const TwinParameters& set);
 
-// "p=1725,1865;psi=1,20;v=5,50,500;T=20,200;replicates=2;points=550;validation=30", any subset, on
-// top of `base`. Throws InputError with every fault.
+// Parses "p=1725,1865;psi=1,20;v=5,50,500;T=20,200;replicates=2;points=550;validation=30", any
+// subset, which replaces values of `base`. Throws InputError with every fault.
 TwinDesign parse_design(std::string_view text, TwinDesign base);
 
 struct TwinExperiment {
@@ -35,18 +35,19 @@ struct TwinExperiment {
   std::size_t run_order = 0; // position in the randomised order of all tests, from 1
 };
 
-// Factorial (all combinations, replicates last) and random validation tests (stress and tool
-// temperature uniform, expansion and speed log-uniform); one random order over both.
+// Factorial tests (all combinations, replicates last) and random validation tests (stress and tool
+// temperature uniform, expansion and speed log-uniform), with one random order over both.
 struct TwinPlan {
   std::vector<TwinExperiment> training;
   std::vector<TwinExperiment> validation;
 };
 TwinPlan make_plan(const TwinDesign& design, std::uint64_t seed);
 
-// Gives every test a profile of its own, drawn by seed; replicates differ.
+// Gives every test a profile of its own, drawn by seed; replicates get different ones.
 void vary_profiles(TwinPlan& plan, std::uint64_t seed);
 
-// Key of a random stream: one per part (0 training, 1 validation, 2 campaign), experiment, purpose.
+// Returns the key of a random stream, one per part (0 training, 1 validation, 2 campaign),
+// experiment and purpose.
 std::uint64_t twin_stream(unsigned part, std::size_t experiment, unsigned purpose);
 
 } // namespace frictab::twin

@@ -1,4 +1,4 @@
-// States, bystanders and noise of the synthetic campaign.
+// Drafts states, bystanders and noise of the synthetic campaign.
 #include "twin/twin_draft.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace frictab::twin {
 
 namespace {
 
-constexpr unsigned noise_stream = 1; // 0 draws the test itself
+constexpr unsigned noise_stream = 1; // stream 0 draws the test itself
 
 void fill_states(const TwinParameters& set, TwinDraft& draft, std::size_t points) {
   static constexpr double TwinRow::*members[] = {
@@ -38,7 +38,7 @@ void fill_states(const TwinParameters& set, TwinDraft& draft, std::size_t points
   add_column(draft.data, "tau_R_MPa", rows);
 }
 
-// Student's t with 4 degrees of freedom, scaled to standard deviation 1.
+// Draws Student's t with 4 degrees of freedom, scaled to standard deviation 1.
 double heavy_tailed(Random& random) {
   double chi = 0;
   const double top = random.normal();
@@ -47,7 +47,7 @@ double heavy_tailed(Random& random) {
   return top / std::sqrt(chi / 4) / std::sqrt(2.0);
 }
 
-// One hidden factor per test (coating weight, residue on the tool), AR(1) and white noise.
+// Draws one hidden factor per test (coating weight, residue on the tool), AR(1) and white noise.
 void fill_noise(const TwinOptions& options, const TwinParameters& set, TwinDraft& draft,
                 std::size_t points) {
   draft.noise.resize(draft.plan.size() * points);
@@ -65,7 +65,7 @@ void fill_noise(const TwinOptions& options, const TwinParameters& set, TwinDraft
     for (std::size_t i = 0; i < points; ++i) {
       if (i > 0) slow = level.rho * slow + step * random.normal();
       const double white = draw();
-      // Exponentials of small numbers: 1 + noise that cannot turn negative.
+      // For small numbers the exponential is 1 + noise, but it cannot turn negative.
       draft.noise[e * points + i] =
           factor * std::exp(scale * level.slow * slow) * std::exp(scale * level.white * white);
     }

@@ -10,7 +10,7 @@
 namespace frictab::twin {
 
 struct TwinDraft {
-  data::Dataset data;                  // tau_R_MPa still 0
+  data::Dataset data;                  // tau_R_MPa is still 0
   TauPieces base;                      // without effects
   std::shared_ptr<const LawTruth> law; // empty: the twin's own physics
   std::vector<double> noise;           // measured = truth * noise
@@ -18,19 +18,19 @@ struct TwinDraft {
   unsigned part = 0;
 };
 
-// Canonical columns, bystanders and noise of all experiments of one part (0 training, 1
+// Drafts canonical columns, bystanders and noise of all experiments of one part (0 training, 1
 // validation).
 TwinDraft draft_part(const TwinOptions& options, const TwinParameters& set, const TwinPlan& plan,
                      unsigned part);
 
-// Noise-free tau per row, MPa.
+// Returns the noise-free tau per row, MPa.
 std::vector<double> tau_of(const TwinDraft& draft, const TauPieces& pieces);
 std::vector<double> base_tau(const TwinDraft& draft); // without effects
 
-// A new column of zeros, behind the others.
+// Appends a column of zeros.
 data::Column& add_column(data::Dataset& data, const char* name, std::size_t rows);
 
-// The column with this name, or nullptr.
+// Returns the column of this name, or nullptr.
 const data::Column* find_column(const data::Dataset& data, std::string_view name);
 data::Column* find_column(data::Dataset& data, std::string_view name);
 

@@ -1,4 +1,5 @@
-// Effects of the synthetic campaign: from spec to factors per row, amplitude by bisection.
+// Converts effects of the synthetic campaign from specs to factors per row; amplitudes by
+// bisection.
 #include "twin/twin_effect.h"
 
 #include <algorithm>
@@ -16,9 +17,9 @@ namespace frictab::twin {
 
 namespace {
 
-constexpr double least_factor = 0.02;   // on mu and m: friction stays friction
-constexpr double least_tau_MPa = 0.01;  // with additive effects
-constexpr double most_amplitude = 1000; // beyond it a larger amplitude changes nothing that matters
+constexpr double least_factor = 0.02;   // limit of factors on mu and m: friction does not vanish
+constexpr double least_tau_MPa = 0.01;  // limit with additive effects
+constexpr double most_amplitude = 1000; // larger amplitudes hardly change friction any more
 
 // --- factors ------------------------------------------------------------------------------------
 
@@ -32,7 +33,8 @@ Inputs resolve(const TwinOptions& options, std::size_t effect, std::size_t tests
   return rows;
 }
 
-// One text column alone may also be a hidden cause, whose values are no levels.
+// Whether the form needs level numbers. A form of one text column may also follow a hidden cause,
+// whose values are not levels.
 bool by_level_number(const effects::EffectForm& form) {
   return form.categorical && form.columns == 1;
 }
@@ -87,7 +89,7 @@ double mae(const std::vector<double>& law, const std::vector<double>& measured, 
   return sum / static_cast<double>(law.size());
 }
 
-// MAE of law * c against the measurement, c by least squares.
+// MAE of law * c against the measurement, with c by least squares.
 double mae_but_for_a_factor(const std::vector<double>& law, const std::vector<double>& measured) {
   const double c = std::inner_product(law.begin(), law.end(), measured.begin(), 0.0) /
                    std::inner_product(law.begin(), law.end(), law.begin(), 0.0);
@@ -99,7 +101,8 @@ struct NoiseFree {
   std::vector<double> tau;
 };
 
-// What recalibration leaves: of a law all its parameters, of the twin's own physics one factor.
+// Returns the MAE after recalibration: of all parameters of a law, of one factor of the twin's own
+// physics.
 double base_mae(const TwinDraft& draft, const std::vector<double>& base,
                 const std::vector<double>& measured) {
   if (!draft.law) return mae_but_for_a_factor(base, measured);
@@ -107,8 +110,9 @@ double base_mae(const TwinDraft& draft, const std::vector<double>& base,
   return mae(draft.law->tau(draft.data, draft.base, parameters), measured);
 }
 
-// The same of the truth. Noise moves its parameters little, which is one step; where effects take
-// rows to the shear limit there are other minima further off.
+// Returns the same MAE for the truth. Noise changes its parameters little, so that one step
+// suffices; further steps could reach other minima far away, where effects drive rows to the shear
+// limit.
 double floor_mae(const TwinDraft& draft, const NoiseFree& truth,
                  const std::vector<double>& measured) {
   if (!draft.law) return mae_but_for_a_factor(truth.tau, measured);
@@ -123,7 +127,7 @@ public:
       : draft_(draft), effect_(effect), rows_(std::move(rows)), scale_(tau_scale),
         levels_(level_count(effect, draft)) {}
 
-  // Empty where the amplitude would turn mu, the limit or tau negative, or nearly.
+  // Returns the truth; empty where the amplitude would make mu, the limit or tau (nearly) negative.
   NoiseFree truth(double amplitude) const {
     std::vector<double> parameters = effect_.parameters;
     parameters[0] = amplitude;
@@ -147,7 +151,7 @@ private:
   std::size_t levels_;
 };
 
-// Share by which the law without the effect errs more than the law with it on the training part;
+// Relative excess of the training MAE of the law without the effect over that of the law with it;
 // NaN where either part forbids the amplitude.
 class Strength {
 public:
@@ -174,8 +178,9 @@ private:
   bool has_validation_;
 };
 
-// Amplitude of the given sign that reaches the strength, or NaN; `largest` = strongest that keeps
-// friction positive. Doubling finds the bracket; its upper end reaches the target or is forbidden.
+// Solves for the amplitude of the given sign that reaches the strength, or returns NaN; `largest`:
+// the largest strength that keeps friction positive. Doubling finds the bracket; its upper end
+// reaches the target or is forbidden.
 double solve(const Strength& strength, double target, double sign, double& largest) {
   const auto enough = [&](double amplitude) {
     const double reached = strength(sign * amplitude);

@@ -1,4 +1,4 @@
-// Reads the --effect option.
+// Parses the --effect option.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -102,7 +102,7 @@ void check_whole(const EffectSpec& spec, const effects::EffectForm* form, FaultL
                                        takes ? "needs" : "takes no", i + 2));
 }
 
-// The form decides which further keys are known, so it is found before the keys are checked.
+// The form decides which other keys are known, so it is found before the keys are checked.
 const effects::EffectForm* form_named_in(std::string_view text) {
   FaultList ignored;
   const std::vector<std::string> only = {"form"};

@@ -14,7 +14,7 @@ using expr::Expr;
 
 namespace {
 
-// Stands for all effects at one site (mu, limit or added): its column is their factor.
+// Placeholder for all effects at one site (mu, limit or added); its column is their factor.
 const effects::EffectForm& planted_form() {
   static const effects::EffectForm form = [] {
     effects::EffectForm all;
@@ -34,7 +34,7 @@ effects::PlacedEffect planted_on(effects::ActsOn acts_on) {
   return effect;
 }
 
-// Columns are the law's states and the three factors, scalars the law's own parameters.
+// Compiles the law: columns are its states and the three factors, scalars are its own parameters.
 expr::Program program_of(const models::Law& law, const models::Conventions& conventions) {
   std::vector<double> start;
   for (const models::Parameter& parameter : law.parameters)
@@ -43,14 +43,14 @@ expr::Program program_of(const models::Law& law, const models::Conventions& conv
                                                       planted_on(effects::ActsOn::m),
                                                       planted_on(effects::ActsOn::tau)};
   const models::Law extended = effects::extended_law(law, conventions, start, effects, law.name);
-  std::map<std::string, Expr> neutral; // the limit that the law did not have is k
+  std::map<std::string, Expr> neutral; // the limit is k for a law that has none
   for (std::size_t p = start.size(); p < extended.parameters.size(); ++p)
     neutral.emplace(extended.parameters[p].name, extended.parameters[p].start);
   return {substitute(models::tau_formula(extended, conventions), neutral),
           models::inputs(extended, conventions), models::parameter_names(law)};
 }
 
-// Behind `columns` stands the storage of the one that is computed.
+// The columns of a program. `shifted` is the storage of the column that is computed.
 struct Rows {
   std::vector<double> shifted;
   std::vector<const double*> columns;

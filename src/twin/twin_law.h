@@ -12,28 +12,30 @@
 
 namespace frictab::twin {
 
-// What effects act on, one value per row. Of the twin's physics: stresses in MPa; of a law: factors
-// on mu and on the limit.
+// The points at which effects act, one value per row. For the twin's physics: stresses in MPa; for
+// a law: factors on mu and on the limit.
 struct TauPieces {
   std::vector<double> tau0, limit;
-  std::vector<double> shift; // MPa, added in the end
+  std::vector<double> shift; // MPa, added at the end
 };
 
-// The law as extended_law has it, with one factor per row on mu, on the limit and on what is added.
+// The law in the form of extended_law, with one factor per row on mu, on the limit and on the added
+// term.
 class LawTruth {
 public:
-  // Parameters by least squares on tau_R_MPa.
+  // Fits the parameters by least squares on tau_R_MPa.
   LawTruth(const models::Law& law, const data::Dataset& physics);
 
   const models::Law& law() const { return law_; }
   const std::vector<double>& parameters() const { return parameters_; }
-  bool has_limit() const; // whether an effect on it is another than on mu
+  bool has_limit() const; // whether an effect on the limit differs from one on mu
 
-  // MPa, one per row. The data must have the law's inputs.
+  // Returns tau in MPa, one per row. The data must have the law's inputs.
   std::vector<double> tau(const data::Dataset& data, const TauPieces& pieces,
                           std::span<const double> parameters) const;
 
-  // Parameters by least squares on `measured`, from the true ones, after at most so many steps.
+  // Fits the parameters by least squares on `measured`, from the true ones, by at most `steps`
+  // steps.
   std::vector<double> recalibrated(const data::Dataset& data, const TauPieces& pieces,
                                    std::span<const double> measured, std::size_t steps = 200) const;
 
@@ -44,7 +46,7 @@ private:
   expr::Program program_;
 };
 
-// Law names that can be a truth: those calibrated by a fit, of states alone.
+// Names of laws that can be a truth: those calibrated by a fit, of states alone.
 std::vector<std::string> truth_names();
 
 } // namespace frictab::twin

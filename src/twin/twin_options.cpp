@@ -1,4 +1,4 @@
-// Checks what was asked of the synthetic tribometer.
+// Checks the options of the synthetic tribometer.
 #include <algorithm>
 
 #include <fmt/format.h>

@@ -12,14 +12,14 @@ namespace frictab::twin {
 
 namespace {
 
-// Nearly the shear yield stress: the softest layer shears a little below the bulk.
+// Slightly below the shear yield stress: the softest layer shears at less stress than the bulk.
 constexpr double limit_share = 0.95;
 
 struct State {
   double sigma_n, psi, v, T_contact, T_tool, s, sigma_f;
 };
 
-// All influences beside pressure, as one factor on mu.
+// All influences except pressure, as one factor on mu.
 double relative_friction(const TwinParameters& set, const State& now) {
   const double lv = std::log10(now.v / 50);
   const double lp = std::log(now.psi) / std::log(20.0);

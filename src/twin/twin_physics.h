@@ -9,8 +9,8 @@
 
 namespace frictab::twin {
 
-// A parameter set of the twin. Tuned (ours) so that laws calibrated on it err about as much as the
-// published ones do on measured data; nothing here is a measured material.
+// A parameter set of the twin. Tuned (by us) so that laws calibrated on it err about as much as the
+// published ones do on measured data; it does not describe a measured material.
 struct TwinParameters {
   std::string name;
   std::string title;
@@ -25,25 +25,25 @@ struct TwinParameters {
   double s_test, s_ar;            // hidden factor per test, autocorrelated noise (standard dev.)
 };
 
-// Noise that all sets share.
+// Noise common to all sets.
 inline constexpr double twin_ar_rho = 0.97; // correlation from row to row
 inline constexpr double twin_white = 0.025; // white noise, relative standard deviation
 
 std::span<const TwinParameters> twin_sets();
-// Throws InputError naming the known sets.
+// Returns the set of this name. Throws InputError naming the known sets.
 const TwinParameters& twin_set(std::string_view name);
 
-// How the contact normal stress goes over the stroke, as a share of the test's level.
+// Contact normal stress over the stroke, as a share of the test's level.
 enum class TwinProfile { constant, ramp, decay, pulse };
 
 // One test: nominal stress in MPa, final expansion ratio, mm/s, degC.
 struct TwinTest {
   double p, psi, v, T_tool;
   TwinProfile profile = TwinProfile::constant;
-  double pulse_at = 0.5; // share of the stroke
+  double pulse_at = 0.5; // position of the pulse, as a share of the stroke
 };
 
-// Share of the level at a share x of the stroke: 1 throughout, or between 0.3 and 1.
+// Share of the level at position x (0 .. 1) of the stroke: always 1, or between 0.3 and 1.
 double profile_share(const TwinTest& test, double x);
 
 // State at one row, rounded as an instrument would record it, and the two pieces of the law:
@@ -55,13 +55,13 @@ struct TwinRow {
 
 inline constexpr double twin_stroke_mm = 20;
 
-// Row i of n of a test over a stroke of 20 mm.
+// Computes row i of n of a test over a stroke of 20 mm.
 TwinRow twin_row(const TwinParameters& set, const TwinTest& test, std::size_t i, std::size_t n);
 
-// limit * tanh(tau0 / limit), MPa.
+// Returns limit * tanh(tau0 / limit), MPa.
 double twin_tau(double tau0_MPa, double limit_MPa);
 
-// Keeps `decimals` digits behind the point.
+// Keeps `decimals` digits after the point.
 double round_to(double value, int decimals);
 
 } // namespace frictab::twin

@@ -1,4 +1,4 @@
-// What an effect of the synthetic campaign may follow: columns, histories, hidden causes.
+// Computes the causes of effects: columns, histories, hidden causes.
 #include "twin/twin_quantity.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr unsigned latent_stream = 16; // random stream of hidden causes
 
-// One value per position in the order of tests.
+// Draws one value per position in the order of tests.
 std::vector<double> latent_by_order(const std::string& kind, Random& random, std::size_t tests) {
   std::vector<double> values(tests);
   const std::size_t batch = std::max<std::size_t>(1, tests / 8);

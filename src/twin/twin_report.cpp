@@ -32,7 +32,7 @@ Json design_json(const TwinDesign& design) {
           {"validation", design.validation}};
 }
 
-// Levels between tests and of the slow noise are the set's where they are not given.
+// Writes the noise levels; levels that are not given are the set's.
 Json noise_json(const Twin& twin) {
   const TwinScatter& given = twin.options.scatter;
   const TwinNoise level = noise_of(twin.options, twin.set);

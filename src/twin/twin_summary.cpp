@@ -1,4 +1,4 @@
-// Errors of the truth, of constants of the literature and of calibrated constants on a campaign.
+// Computes errors of the truth, of constants of the literature and of calibrated constants.
 #include "twin/twin_summary.h"
 
 #include <algorithm>
@@ -40,7 +40,8 @@ TwinError error_of(const Values& tau, const std::function<double(std::size_t)>& 
   return {error.mae_MPa / n, std::sqrt(error.rmse_MPa / n)};
 }
 
-// c of tau = c x by least squares over the rows where `use` says so; `otherwise` where none does.
+// Fits c of tau = c x by least squares over the rows for which `use` is true; `otherwise` if it
+// never is.
 double slope(const Values& x, const Values& tau, const std::function<bool(std::size_t)>& use,
              double otherwise) {
   double xy = 0;
@@ -58,8 +59,8 @@ double slope(const Values& x, const Values& tau) {
       x, tau, [](std::size_t) { return true; }, 0);
 }
 
-// min(mu sigma, m k) by alternating between the rows each branch holds and the branch's own slope;
-// the best of several starts, since the sum of squares has more than one minimum.
+// Fits min(mu sigma, m k) by alternating between the rows of each branch and the branch's own
+// slope; returns the best of several starts, since the sum of squares has more than one minimum.
 std::array<double, 2> fit_orowan(const Part& part, double mu0, double m0) {
   std::array<double, 2> best{mu0, m0};
   double least = INFINITY;

@@ -1,4 +1,4 @@
-// "key=value" lists as the twin's --design and --effect options take them.
+// "key=value" lists in the form of the twin's --design and --effect options.
 #pragma once
 
 #include <span>
@@ -21,10 +21,10 @@ struct KeyValue {
 std::vector<KeyValue> read_pairs(std::string_view text, char separator, const std::string& option,
                                  std::span<const std::string> known, FaultList& faults);
 
-// Finite number; a fault and NaN otherwise.
+// Reads a finite number; adds a fault and returns NaN for anything else.
 double read_number(const KeyValue& item, FaultList& faults);
 
-// Comma separated numbers; a fault for each that is none.
+// Reads comma-separated numbers; adds a fault for each item that is not a number.
 std::vector<double> read_numbers(const KeyValue& item, FaultList& faults);
 
 } // namespace frictab::twin
