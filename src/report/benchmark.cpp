@@ -44,7 +44,7 @@ std::string row(const calibrate::ModelFit& fit, std::size_t rank, int decimals) 
                      markdown_cell(remarks));
 }
 
-// What is delivered: of laws fitted to all experiments, errors and parameters of their own.
+// Adds the delivered laws; those fitted to all experiments have errors and parameters of their own.
 void add_delivery(std::string& out, const calibrate::Calibration& calibration, int decimals) {
   std::string sentence = calibrate::delivery_sentence(calibration, decimals);
   if (sentence.empty()) return;
@@ -80,7 +80,7 @@ void add_published(std::string& out, const calibrate::Calibration& calibration) 
   }
 }
 
-// Which terms matter: those that move mu by more than their own error.
+// Adds the largest terms with their standard errors, which show the terms that matter.
 void add_polynomial(std::string& out, const calibrate::Calibration& calibration) {
   for (const calibrate::ModelFit& fit : calibration.fits) {
     if (!fit.polynomial || fit.polynomial->terms.empty()) continue;

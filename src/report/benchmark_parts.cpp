@@ -1,4 +1,4 @@
-// All errors, all pairs of laws, noise floors and conditional use as Markdown.
+// Writes all errors, all pairs of laws, noise floors and conditional use as Markdown.
 #include "report/benchmark_parts.h"
 
 #include <cmath>
@@ -42,7 +42,7 @@ void add_floors(std::string& out, const calibrate::Calibration& calibration, int
                        count_of(f.n_rows, "row"), count_of(f.n_experiments, "experiment"));
 }
 
-// Differences to all laws that are ranked before law j.
+// Returns the differences to all laws that are ranked before law j.
 std::string matrix_row(const calibrate::Comparisons& c, std::size_t j, int decimals) {
   std::string row = fmt::format("| {} {} |", j + 1, markdown_cell(c.laws[j]));
   for (const calibrate::Comparison& pair : c.pairs) {
@@ -81,7 +81,7 @@ std::string markdown_cell(const std::string& text) {
 
 namespace {
 
-// "\\> ", as Markdown has it.
+// Returns the sign with Markdown's escape: "\\> ".
 std::string sign_of(const calibrate::NoiseFloor& floor) {
   const std::string sign = calibrate::noise_floor_sign(floor);
   return sign.empty() ? "" : "\\" + sign;

@@ -1,4 +1,4 @@
-// Sections of benchmark.md beside the ranking.
+// Sections of benchmark.md other than the ranking.
 #pragma once
 
 #include <string>
@@ -7,17 +7,17 @@
 
 namespace frictab::report {
 
-// A cell must not end its column or its row, nor be read as markup.
+// Escapes text for a table cell, so that it neither ends its column or row nor is read as markup.
 std::string markdown_cell(const std::string& text);
 
-// The noise floor as a row of the ranking table (9 columns).
+// Returns the noise floor as a row of the ranking table (9 columns).
 std::string floor_row(const calibrate::Calibration& calibration, int decimals);
 
-// What the best law's error owes to its having been chosen by it.
-// The law's name, and whether it is no candidate.
+// Returns the law's name, marked if the law is not a candidate.
 std::string markdown_law(const calibrate::ModelFit& fit);
-// Which law to take, with an empty line before it; empty where none is recommended.
+// Names the recommended law, with an empty line before it; empty without a recommendation.
 std::string recommended_paragraph(const calibrate::Calibration& calibration);
+// Adds the part of the best law's error that is due to choosing the law by that same error.
 void add_choice(std::string& out, const calibrate::Choice& choice, int decimals);
 
 void add_all_errors(std::string& out, const calibrate::Calibration& calibration, int decimals);

@@ -1,4 +1,5 @@
-// Is law A better than law B: a triangular table of all pairs, and who may be the best.
+// Answers whether law A is better than law B: a triangular table of all pairs, and the laws that
+// may be the best.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +14,7 @@ namespace frictab::report {
 
 namespace {
 
-// Three classes, told apart by shade and by the cell's own sign.
+// Three classes that differ by shade and by the cell's own sign.
 const char* class_of(const calibrate::Difference& d) {
   if (d.p_value < 0.001) return "clear";
   return d.distinguishable() ? "better" : "open";
@@ -30,7 +31,7 @@ std::string cell(const calibrate::Comparison& pair, int decimals) {
                      fixed(d.value_MPa, std::max(0, decimals - 1)));
 }
 
-// Cells of law j (by rank) below every law ranked before it.
+// Returns the cells of law j (by rank), one for every law ranked before it.
 std::string cells_of(const calibrate::Comparisons& c, std::size_t j, int decimals) {
   std::string text;
   for (const calibrate::Comparison& pair : c.pairs)

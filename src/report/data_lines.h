@@ -1,4 +1,4 @@
-// What was read and how, for the pages that show it.
+// Lines on the input data, for the pages that show them.
 #pragma once
 
 #include "calibrate/judgement.h"
@@ -7,7 +7,7 @@
 
 namespace frictab::report {
 
-// The list "data": files, tests, rows, what was left out, derived, implausible.
+// Fills in the list "data": files, tests, rows, and what was left out, derived or implausible.
 void add_data_lines(codegen::TemplateValues& page, const data::Dataset& training,
                     const data::Dataset& validation, calibrate::JudgedBy judged_by);
 

@@ -1,4 +1,4 @@
-// Small multiples of all tests, and their table.
+// Writes small multiples of all tests, and their table.
 #include "report/data_page.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ namespace {
 using codegen::TemplateValues;
 using data::Dataset;
 
-// What the strokes run over: the first of these that the data have.
+// Column over which strokes are drawn: the first of these that the data have.
 const data::Quantity* abscissa(const Dataset& data) {
   for (const char* name : {"s_mm", "time_s"})
     if (data.has(name)) return data::find_quantity(name);
@@ -39,7 +39,8 @@ struct Curve {
   std::vector<double> x, y;
 };
 
-// Of one test; of long ones the lowest and highest value of 150 pieces, so that spikes are seen.
+// Returns the curve of one test; a long test is reduced to the lowest and highest value of 150
+// pieces, so that spikes are seen.
 Curve curve_of(const Dataset& data, std::size_t e, const data::Quantity* over) {
   const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
   const auto tau = data.values("tau_R_MPa").subspan(first, rows);
@@ -65,7 +66,8 @@ Curve curve_of(const Dataset& data, std::size_t e, const data::Quantity* over) {
   return curve;
 }
 
-// Rows of a test that are not fitted, by their names; each piece of neighbouring rows is a line.
+// Rows of a test that are not fitted, found by the test's name; each piece of neighbouring rows is
+// a line.
 class RowsAside {
 public:
   explicit RowsAside(const Dataset& data) : aside_(data.aside.get()) {
@@ -173,7 +175,7 @@ void add_tests(TemplateValues& values, const Dataset& data, const char* use) {
   }
 }
 
-// What each column is to friction.
+// Lists each column's role for friction.
 void add_columns(TemplateValues& values, const Dataset& data) {
   for (const data::Column& column : data.columns)
     values.lists["columns"].push_back({{{"name", svg::escape(column.name)},

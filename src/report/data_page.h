@@ -15,12 +15,12 @@ struct DataPage {
   calibrate::JudgedBy judged_by;
   const data::Dataset& training;
   const data::Dataset& validation;
-  std::vector<std::string> faults; // what is implausible in most rows
+  std::vector<std::string> faults; // faults of most rows that make the data implausible
 };
 
-// Small plots of tau_R over the sliding distance (else time, else the row), one per test, on the
-// same axes, so that a spoilt test is seen; spans and means of each; what was converted, computed,
-// joined and left out.
+// Writes small plots of tau_R over the sliding distance (else time, else the row), one per test, on
+// the same axes, so that a spoilt test is seen; spans and means of each test; and what was
+// converted, computed, joined and left out.
 std::string data_html(const DataPage& page);
 
 } // namespace frictab::report

@@ -1,4 +1,4 @@
-// What the laws were calibrated on: files, rows, what was left out, ranges.
+// Writes on which data the laws were calibrated: files, rows, what was left out, ranges.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,7 +19,7 @@ namespace frictab::report {
 
 namespace {
 
-// Escaped lines, one below the other.
+// Returns escaped lines, one below the other.
 std::string lines(const std::vector<std::string>& list) {
   std::string text;
   for (const std::string& line : list)
@@ -84,7 +84,7 @@ void add_data_lines(codegen::TemplateValues& page, const data::Dataset& t, const
   if (t.condensed)
     add("Held as means over blocks of rows", thousands(t.rows()),
         of_validation(thousands(v.rows())));
-  // Tests that were held out are read, and their rows counted, with those to train.
+  // Held-out tests are read, and their rows counted, together with the training tests.
   const bool together = judged_by == calibrate::JudgedBy::held_out;
   const auto add_counted = [&](const char* what, const std::vector<std::string>& training,
                                const std::vector<std::string>& validation) {

@@ -1,4 +1,4 @@
-// All errors with their intervals, the noise floor beside them, and conditional use.
+// Writes all errors with their intervals, the noise floor next to them, and conditional use.
 #include <cmath>
 #include <limits>
 

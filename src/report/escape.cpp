@@ -1,4 +1,4 @@
-// Text of users made safe for HTML, XML and SVG.
+// Makes text of users safe for HTML, XML and SVG.
 #include "report/svg.h"
 
 #include "core/text.h"
@@ -7,7 +7,7 @@ namespace frictab::report::svg {
 
 namespace {
 
-// U+FFFE and U+FFFF are no characters of XML, nor are controls.
+// XML excludes U+FFFE, U+FFFF and control characters.
 bool is_character(std::string_view one) {
   const auto first = static_cast<unsigned char>(one.front());
   if (one.size() == 3 && one.substr(0, 2) == "\xEF\xBF")

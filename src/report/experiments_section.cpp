@@ -1,4 +1,4 @@
-// The error of each test for the best laws: which test is the outlier?
+// Shows the error of each test for the best laws: which test is the outlier?
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +21,7 @@ constexpr std::size_t shown_laws = 3, named_tests = 3;
 constexpr double figure_width = 760, figure_height = 130;
 const std::string held_out_colour = "#c2410c", trained_colour = "#3f78ab";
 
-// The best laws; constants of the literature would squeeze all others.
+// Selects the best laws; constants of the literature would squeeze all others.
 std::vector<std::size_t> laws_to_show(const ReportInput& input) {
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < input.by_experiment.size() && shown.size() < shown_laws; ++i)
@@ -30,7 +30,7 @@ std::vector<std::size_t> laws_to_show(const ReportInput& input) {
   return shown;
 }
 
-// Numbers of the tests with the largest errors, the worst first.
+// Indices of the tests with the largest errors, the worst first.
 std::vector<std::size_t> worst_of(const std::vector<ExperimentError>& tests) {
   std::vector<std::size_t> order;
   for (std::size_t e = 0; e < tests.size(); ++e)
@@ -69,7 +69,7 @@ svg::Axis axis_of_errors(const ReportInput& input, const std::vector<std::size_t
   return svg::nice_axis(0, 1.1 * most, 4, "MAE / MPa"); // room for names
 }
 
-// Names one above the other would not be read.
+// Names that would cover each other are left out.
 void add_names(svg::Plot& plot, const std::vector<ExperimentError>& tests,
                const std::vector<std::size_t>& worst) {
   const double apart = 0.15 * static_cast<double>(tests.size());

@@ -1,4 +1,5 @@
-// Law::formula of a user's law is what was written: it reads back.
+// Writes formulas as MathML; Law::formula of a user's law is the text as it was written, which can
+// be parsed.
 #include "report/formula.h"
 
 #include <array>
@@ -16,7 +17,7 @@ namespace frictab::report {
 
 namespace {
 
-// Letters of formulas that people write as words.
+// Returns the letter for its name in formulas.
 std::string letter(const std::string& word) {
   static constexpr std::array<const char*, 12> greek = {"alpha", "beta",  "gamma",  "delta",
                                                         "eta",   "theta", "lambda", "mu",
@@ -26,7 +27,7 @@ std::string letter(const std::string& word) {
   return "<mi>" + svg::escape(word) + "</mi>";
 }
 
-// sigma_n_MPa is sigma with the index N, mu0 is mu with the index 0, k_MPa is k.
+// Writes sigma_n_MPa as sigma with the index N, mu0 as mu with the index 0, k_MPa as k.
 std::string symbol(const std::string& name) {
   const data::Quantity* quantity = data::find_quantity(name);
   const std::string shown = quantity ? quantity->symbol : name == "k_MPa" ? "k" : name;

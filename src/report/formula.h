@@ -1,4 +1,4 @@
-// A law's formula on a page.
+// A law's formula as HTML.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace frictab::report {
 
-// Of a user's own law as MathML, one line for the formula and one for each of its parts; of others
-// the text that they describe themselves with. Safe for HTML.
+// Writes a user's own law as MathML, one line for the formula and one for each of its parts; for
+// other laws their own text. Safe for HTML.
 std::string formula_html(const models::Law& law);
 
 } // namespace frictab::report

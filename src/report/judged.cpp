@@ -1,4 +1,4 @@
-// The four ways of judging.
+// Wordings for the four ways of validation.
 #include "report/judged.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// The two plots of a law, on axes shared by all laws.
+// Draws the two plots of a law, on axes shared by all laws.
 #include "report/law_plots.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ std::span<const double> measured_of(const ReportInput& input) {
                                            : std::span<const double>{};
 }
 
-// What an axis has to hold.
+// Range of values that an axis has to include.
 struct Extent {
   double low = 0;
   double high = 0;
@@ -44,7 +44,8 @@ struct Extent {
     low = std::min(low, quantile(sorted, share));
     high = std::max(high, quantile(sorted, 1 - share));
   }
-  // One law that runs away must not flatten all others; rows beyond are counted under its plot.
+  // Limits the range, so that one runaway law does not flatten all others; rows beyond it are
+  // counted under its plot.
   void keep_within(double most) {
     low = std::max(low, -most);
     high = std::min(high, most);
@@ -119,7 +120,7 @@ RunningBand running_band(std::span<const double> x, std::span<const double> y) {
   std::size_t first = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const bool full = i + 1 - first >= band_rows && x[order[i]] - x[order[first]] >= width;
-    // What is left over at the end joins the last group.
+    // Remaining rows that are too few for a group join the last one.
     const bool enough_left = order.size() - i > band_rows;
     if ((full && enough_left) || i + 1 == order.size()) {
       add_group(band, x, y, {order.data() + first, i + 1 - first});

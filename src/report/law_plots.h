@@ -9,7 +9,7 @@
 
 namespace frictab::report {
 
-// Axes, cells and colour classes that all laws share, so that their plots can be compared.
+// Axes, cells and colour classes common to all laws, so that their plots can be compared.
 struct PlotFrame {
   svg::Axis predicted;
   svg::Axis measured;
@@ -20,32 +20,32 @@ struct PlotFrame {
 struct LawPlots {
   std::string predicted; // SVG
   std::string residual;  // SVG
-  std::string note;      // rows that no plot shows; empty where all are shown
+  std::string note;      // number of rows that no plot shows; empty where all are shown
 };
 
-// tau_R axes hold every measured row. The residual axis holds 99 % of the rows of every law that
-// was calibrated; laws with constants of the literature, which would squeeze all others, are drawn
-// as far as it goes.
+// Chooses the axes. Those of tau_R include every measured row. The residual axis includes 99 % of
+// the rows of every calibrated law; laws with constants of the literature, which would squeeze all
+// others, are cut at its ends.
 PlotFrame plot_frame(const ReportInput& input);
 
-// Of input.calibration.fits[law].
+// Draws the plots of input.calibration.fits[law].
 LawPlots law_plots(const ReportInput& input, std::size_t law, const PlotFrame& frame);
 
-// Colours and lines of these plots, explained once.
+// Legend of colours and lines, shared by these plots.
 std::string plot_legend(const PlotFrame& frame);
 
-// Running quantiles of y over x: groups of neighbours in x, each at least 20 rows and a thirtieth
-// of the range of x. Empty below 60 rows.
+// Running quantiles of y over x: groups of neighbours in x, each of at least 20 rows and a
+// thirtieth of the range of x. Empty below 60 rows.
 struct RunningBand {
   std::vector<double> x;                 // median of the group
   std::vector<double> low, median, high; // 10 %, 50 %, 90 %
 };
 RunningBand running_band(std::span<const double> x, std::span<const double> y);
 
-// Measured minus predicted, as far as both go.
+// Measured minus predicted, up to the end of the shorter one.
 std::vector<double> residuals(std::span<const double> measured, std::span<const double> predicted);
 
-// Linear between order statistics; `sorted` is ascending and not empty.
+// Quantile, linear between order statistics; `sorted` is ascending and not empty.
 double quantile(std::span<const double> sorted, double share);
 
 } // namespace frictab::report

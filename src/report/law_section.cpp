@@ -1,4 +1,4 @@
-// The best law as lines over the contact normal stress, with the rows it was judged by.
+// Draws the best law as lines over the contact normal stress, with the validation rows.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -26,7 +26,7 @@ struct DrawnLaw {
   models::AssembledLaw law;
   expr::Program program;
   std::vector<std::vector<double>> sorted; // finite values per input
-  std::size_t sigma = 0;                   // which input is the normal stress
+  std::size_t sigma = 0;                   // index of the normal stress among the inputs
 };
 
 std::optional<DrawnLaw> drawn_law(const ReportInput& input) {
@@ -48,7 +48,8 @@ std::optional<DrawnLaw> drawn_law(const ReportInput& input) {
   return DrawnLaw{std::move(law), std::move(program), std::move(sorted), sigma};
 }
 
-// tau_R over `x`, input `other` at its quantile `share`, all others at their medians.
+// Evaluates tau_R over `x`, with input `other` at its quantile `share` and all others at their
+// medians.
 std::vector<double> tau_over(const DrawnLaw& drawn, const std::vector<double>& x, std::size_t other,
                              double share) {
   std::vector<double> row, tau;
@@ -68,7 +69,7 @@ void draw_rows(svg::Plot& plot, const ReportInput& input, const svg::Axis& x, co
   plot.density(cells, svg::count_classes(std::max<std::uint32_t>(most, 1), 4));
 }
 
-// The 5 % and 95 % factors of experiments, around the median line.
+// Draws the 5 % and 95 % factors of experiments around the median line.
 void draw_band(svg::Plot& plot, const calibrate::BandCheck& band, const std::vector<double>& x,
                const std::vector<double>& tau) {
   for (const std::optional<double>& factor : {band.low, band.high}) {
@@ -81,7 +82,7 @@ void draw_band(svg::Plot& plot, const calibrate::BandCheck& band, const std::vec
 }
 
 struct Level {
-  double share; // of the rows, which lie below
+  double share; // share of the rows below the level
   const char* colour;
   const char* dash;
   std::string value; // as text
@@ -100,8 +101,7 @@ std::vector<Level> levels_of(const DrawnLaw& drawn, const std::vector<double>& x
   return levels;
 }
 
-// Of what the caption says of its lines: "409, 432 and 454 (10, 50 and 90 % of the rows lie
-// below)".
+// Part of the caption on the lines: "409, 432 and 454 (10, 50 and 90 % of the rows lie below)".
 std::string said(const std::vector<Level>& levels) {
   if (levels.front().value == levels.back().value)
     return levels.front().value + " (10 to 90 % of the rows)";
@@ -117,8 +117,8 @@ double largest_difference(const std::vector<Level>& levels) {
   return largest;
 }
 
-// Draws the median line, and the others where they can be told from it. Returns what is to be said
-// of those that cannot.
+// Draws the median line, and the others where they are visibly different from it. Returns the
+// caption's remark on those that are not.
 std::string draw_levels(svg::Plot& plot, const std::vector<Level>& levels,
                         const std::vector<double>& x) {
   const Level &low = levels[0], &median = levels[1], &high = levels[2];

@@ -1,4 +1,4 @@
-// Numbers as people read them in tables.
+// Formats numbers for tables.
 #include "report/numbers.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 const std::string dash = "\u2013";
 
-// Decimal power of the first digit after rounding to `digits`.
+// Decimal exponent of the first digit after rounding to `digits`.
 int exponent_of(double value, int digits) {
   const std::string text = fmt::format("{:.{}e}", std::abs(value), digits - 1);
   return std::stoi(text.substr(text.find('e') + 1));

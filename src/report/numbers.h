@@ -8,20 +8,21 @@
 
 namespace frictab::report {
 
-// `digits` significant digits: 12,345 or 0.00123 or 1.2e-15; a dash where not finite.
+// Writes `digits` significant digits: 12,345 or 0.00123 or 1.2e-15; a dash where not finite.
 std::string figures(double value, int digits = 3);
 
-// The same without zeros at the end: 500, 0.5, 2,750.
+// Writes the same without zeros at the end: 500, 0.5, 2,750.
 std::string short_figures(double value, int digits = 4);
 
-// `decimals` behind the point with thousands separators and a minus sign; a dash where not finite.
+// Writes `decimals` digits after the point, with thousands separators and a minus sign; a dash
+// where not finite.
 std::string fixed(double value, int decimals);
 
-// "9.69 to 13.54"; a dash where there is none.
+// Writes "9.69 to 13.54"; a dash without an interval.
 std::string interval_text(const calibrate::Interval& interval, int decimals);
 
-// What the factors of a band mean, and its two columns: "0.848" or a dash, "28 of 30 (90 %
-// expected)".
+// Explanation of a band's factors, and the texts of its two columns: "0.848" or a dash, "28 of 30
+// (90 % expected)".
 inline constexpr const char* band_sentence =
     "Tests differ from the law by a factor that no input explains. Of new experiments, 5 % are "
     "expected below the law times the first factor and 95 % below the law times the second (order "
@@ -31,28 +32,29 @@ inline constexpr const char* band_sentence =
 std::string factor_text(const std::optional<double>& factor);
 std::string inside_text(const calibrate::BandCheck& band);
 
-// "0.023", or "< 0.001".
+// Writes "0.023", or "< 0.001".
 std::string p_text(double p_value);
 
-// How many experiments conditional use had to do without their start, or could not judge.
+// Counts the experiments that conditional use had to evaluate without their start, or could not
+// evaluate.
 std::string conditional_counts(const calibrate::Conditional& conditional);
 
 // Decimals of a column of numbers, so that it lines up: three digits of `least`, at least two
 // decimals, and none beyond the sixth digit of `largest` where that takes more than six.
 int column_decimals(double least, double largest);
-// Those of the ranking: of the best law's error and the largest.
+// Decimals of the ranking's errors, by the best law's error and the largest.
 int error_decimals(const calibrate::Calibration& calibration);
 
-// Value and standard error with as many digits as the error is known to: "0.1276", "0.0005".
+// Value and standard error with as many digits as the error justifies: "0.1276", "0.0005".
 struct ValueText {
   std::string value;
-  std::string std_error; // empty where there is none
+  std::string std_error; // empty without an error
 };
 ValueText with_error(double value, double std_error);
 
-// "1 row", "16,500 rows".
+// Writes "1 row", "16,500 rows".
 std::string count_of(std::size_t count, const std::string& noun);
-// "a, b, c and 2 others"; there is at least one.
+// Writes "a, b, c and 2 others"; needs at least one name.
 std::string list_of(const std::vector<std::string>& names);
 
 } // namespace frictab::report

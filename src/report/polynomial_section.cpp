@@ -1,4 +1,4 @@
-// The terms of a polynomial law, those that move ln mu most.
+// Lists the terms of a polynomial law that change ln mu most.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ void add_polynomial(TemplateValues& page, const ReportInput& input) {
       rows.push_back(term_row(terms[t]));
     for (const std::string& coordinate : fit.polynomial->coordinates)
       coordinates.push_back({{{"text", svg::escape(coordinate)}}, {}, {}});
-    break; // one law is called polynomial
+    break; // only one law is called polynomial
   }
   page.flags["has_polynomial"] = !rows.empty();
 }

@@ -1,11 +1,11 @@
-// What is said of the terms of a polynomial law, on the page and in benchmark.md alike.
+// Texts on the terms of a polynomial law, shared by the page and benchmark.md.
 #pragma once
 
 #include <cstddef>
 
 namespace frictab::report {
 
-inline constexpr std::size_t most_polynomial_terms = 15; // shown, the largest first
+inline constexpr std::size_t most_polynomial_terms = 15; // limit; the largest come first
 
 inline constexpr const char* polynomial_words =
     "ln mu = ln mu0 + the sum of b times its term; each z runs from -1 to 1 over the data, P2 = "

@@ -1,4 +1,4 @@
-// Figures of the paper that this program follows, to stand beside a user's own.
+// Figures of the paper, and the counterparts of a calibration.
 #include "report/published.h"
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace frictab::report {
 
-// The paper's abstract; it does not say which of its constants 51.38 belongs to.
+// The paper's abstract; it does not name the constant to which 51.38 belongs.
 std::span<const PublishedFigure> published_figures() {
   static const std::array<PublishedFigure, 4> figures = {
       {{"standard constants", "24 to 95"},

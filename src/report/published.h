@@ -1,4 +1,4 @@
-// Figures of the paper that this program follows, to stand beside a user's own.
+// Figures of the paper that this program follows, for comparison with a user's own.
 #pragma once
 
 #include <optional>
@@ -22,11 +22,11 @@ inline constexpr const char* published_warning =
     "The published figures refer to the paper's own measured data, not to yours; they show the "
     "order of magnitude.";
 
-// What this calibration has to stand beside published_figures()[index]: "24.2 to 94.8", or empty
-// where it has nothing of the kind.
+// Returns this calibration's figure for comparison with published_figures()[index]: "24.2 to 94.8",
+// or empty if it has none of that kind.
 std::string counterpart(const calibrate::Calibration& calibration, std::size_t index);
 
-// Smallest and largest validation MAE of the laws of one kind.
+// Range of the validation MAE of the laws of one kind.
 enum class LawKind { literature, constants, calibrated, network }; // constants: means of the data
 LawKind kind_of(const models::Law& law);
 std::optional<calibrate::Interval> mae_span(const calibrate::Calibration& calibration,

@@ -1,4 +1,4 @@
-// The ranking table and the plots of each law.
+// Writes the ranking table and the plots of each law.
 #include <algorithm>
 #include <cmath>
 
@@ -47,7 +47,8 @@ std::string bar_colour(const models::Law& law) {
   return law.calibrated == Calibrated::mean ? "#6595c4" : "#2f6ea6";
 }
 
-// Fixed constants may be many times worse than the rest: their bars are cut at four times the best.
+// Fixed constants may be many times worse than the rest; laws beyond four times the best do not
+// stretch the axis, and their bars are cut.
 svg::Axis bar_axis(const calibrate::Calibration& calibration) {
   const double best = calibrate::best_fit(calibration).validation.mae_MPa;
   double high = best;
@@ -102,7 +103,7 @@ std::string parameter_list(const calibrate::ModelFit& fit) {
   return text;
 }
 
-// The noise floor below the laws, on the same scale.
+// Returns the noise floor, on the same scale as the laws above it.
 TemplateValues floor_row(const calibrate::Calibration& calibration, const svg::Axis& axis) {
   const calibrate::NoiseFloor& floor = calibration.noise_floors.front();
   const int decimals = error_decimals(calibration);
@@ -157,7 +158,7 @@ const char* loss_text(calibrate::Loss loss) {
   return "Huber";
 }
 
-// How the parameters in the ranking were found.
+// Describes how the parameters in the ranking were found.
 std::string method_text(const calibrate::Calibration& calibration) {
   std::vector<std::string> methods;
   for (const calibrate::ModelFit& fit : calibration.fits)
@@ -171,7 +172,7 @@ std::string method_text(const calibrate::Calibration& calibration) {
   return text;
 }
 
-// The ranking is of the laws that were judged.
+// Describes the delivered laws; the ranking is of the validated ones.
 std::string delivery_text(const calibrate::Calibration& calibration) {
   std::string text = calibrate::delivery_sentence(calibration, error_decimals(calibration));
   if (text.empty()) return "";
@@ -196,7 +197,7 @@ void add_plots(TemplateValues& page, const ReportInput& input, std::vector<Templ
     laws[i].text["note"] = plots.note;
     laws[i].flags["has_note"] = !plots.note.empty();
     laws[i].text["open"] = i == 0 ? " open=\"open\"" : "";
-    // What constants of the literature are off by is no matter of one state.
+    // Errors of constants of the literature do not depend on a single state.
     const bool literature = kind_of(*input.calibration.fits[i].model.law) == LawKind::literature;
     laws[i].text["state_plots"] =
         has_plots && !literature ? residuals_over_states(input, i, frame) : "";

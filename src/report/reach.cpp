@@ -1,4 +1,4 @@
-// The range of a table's axis against where the data lie.
+// Draws the range of a table's axis and, within it, that of the data.
 #include <algorithm>
 #include <cmath>
 

@@ -25,7 +25,7 @@ std::string shown_unit(const std::string& unit) {
 
 namespace {
 
-// Of a file beside the page: what RFC 3986 reserves is written as %XX.
+// Links to a file next to the page; characters that RFC 3986 reserves are written as %XX.
 std::string link_to(const std::string& file) {
   std::string link = "./";
   for (const char c : shown_path(file))

@@ -1,4 +1,4 @@
-// report.html and benchmark.md: what a run found, as pages to read. Only renders values.
+// report.html and benchmark.md: the results of a run as pages to read. Only renders values.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace frictab::report {
 
-// The text of a recipe.json and where it stands, relative to the output directory.
+// The text of a recipe.json and its path, relative to the output directory.
 struct Recipe {
   std::string path;
   std::string text;
@@ -27,23 +27,24 @@ struct ReportInput {
   std::vector<std::vector<double>> predicted; // per calibration.fits entry: validation rows, MPa
   const std::vector<table::Table>& tables;
   const verify::Verification& verification;
-  std::vector<std::string> files; // written, relative to the output directory
+  std::vector<std::string> files; // files that were written, relative to the output directory
   std::vector<verify::FormComparison> forms =
       {};                                // per table, sizes only: times differ from run to run
-  std::vector<trace::Trace> traces = {}; // empty: nothing was traced
+  std::vector<trace::Trace> traces = {}; // empty if not traced
   std::vector<calibrate::ErrorsOfLaw> by_experiment = {}; // per calibration.fits entry
-  std::vector<Recipe> recipes = {};                       // of the generated sources
+  std::vector<Recipe> recipes = {};                       // recipes of the generated sources
 };
 
-// One self-contained page that opens offline: ranking, measured against predicted and residual
-// against predicted tau_R with density per law (inline SVG), parameters, tables, drift.
+// Writes one self-contained page that opens offline: ranking, measured against predicted and
+// residual against predicted tau_R with density per law (inline SVG), parameters, tables, drift.
 std::string report_html(const ReportInput& input);
 
-// The same in short as Markdown, to be pasted into a ticket: ranking, drift, traced effects,
+// Writes a short version as Markdown, to be pasted into a ticket: ranking, drift, traced effects,
 // wiring, remarks.
 std::string report_md(const ReportInput& input);
 
-// The ranking as a Markdown table, the paper's published figures beside it, marked as such.
+// Writes the ranking as a Markdown table, followed by the paper's published figures, marked as
+// such.
 std::string benchmark_md(const calibrate::Calibration& calibration);
 
 } // namespace frictab::report

@@ -1,4 +1,4 @@
-// report.md: what a ticket needs of the page.
+// report.md: the part of the page that a ticket needs.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -92,7 +92,7 @@ void add_md_traces(std::string& out, const ReportInput& input) {
   }
 }
 
-// A line of code for each command; fenced, so that nothing in it is markup.
+// Adds a line of code for each command; fenced, so that nothing in it is markup.
 void add_md_wiring(std::string& out, const std::vector<Recipe>& recipes) {
   if (!recipes.empty()) out += "\n## How to wire the routines\n";
   for (const Recipe& recipe : recipes) {

@@ -25,13 +25,14 @@ void add_data(codegen::TemplateValues& page, const ReportInput& input);
 void add_tables(codegen::TemplateValues& page, const ReportInput& input);
 void add_drift(codegen::TemplateValues& page, const ReportInput& input);
 
-// Where the data lie along an axis of a table (SVG); empty where the data do not have it.
+// Draws the range of the data along an axis of a table (SVG); a dash where the data do not have
+// that column.
 std::string reach_bar(const ReportInput& input, const table::TableAxis& axis);
 
-// An absolute path of a user's machine becomes the file's name.
+// Reduces an absolute path of a user's machine to the file's name.
 std::string shown_path(const std::string& path);
 
-// Escaped; "degC" as people write it, nothing for "1".
+// Escapes a unit; "degC" in the usual notation, empty for "1".
 std::string shown_unit(const std::string& unit);
 
 } // namespace frictab::report

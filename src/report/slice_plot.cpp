@@ -1,4 +1,4 @@
-// Lines of tau_R over a state.
+// Draws lines of tau_R over a state.
 #include "report/slice_plot.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::string held_text(const table::Slice& slice) {
   return text;
 }
 
-// Values of the inner state that get a line: all, or seven spread evenly.
+// Selects the values of the inner state that get a line: all, or seven spread evenly.
 std::vector<std::size_t> lines_of(const table::Slice& slice) {
   if (slice.along.size() == 1) return {0};
   const std::size_t count = slice.values[1].size(), most = std::min<std::size_t>(count, 7);
@@ -29,7 +29,7 @@ std::vector<std::size_t> lines_of(const table::Slice& slice) {
   return lines;
 }
 
-// One line, or several that cannot be told apart.
+// One line, or several that coincide in the plot.
 struct DrawnLine {
   std::vector<double> y;
   std::string name;
@@ -39,7 +39,7 @@ std::vector<DrawnLine> drawn_lines(const table::Slice& slice, const svg::Plot& p
   const bool two = slice.along.size() == 2;
   const std::size_t inner = two ? slice.values[1].size() : 1;
   std::vector<DrawnLine> drawn;
-  std::string first; // value of the line that is drawn
+  std::string first; // the inner state's value for that line
   for (const std::size_t line : lines_of(slice)) {
     std::vector<double> y;
     for (std::size_t i = 0; i < slice.values[0].size(); ++i)
@@ -67,7 +67,7 @@ std::string slice_svg(const table::Slice& slice) {
   const std::size_t n = lines.size();
   std::vector<svg::EndLabel> ends;
   for (std::size_t k = 0; k < n; ++k) {
-    // The darker half of the colours: the lighter one is lost on white.
+    // Uses the darker half of the colours: the lighter ones are hard to see on white.
     const std::string colour = svg::class_colour(n - 1 + k, 2 * n - 1);
     plot.line(x, lines[k].y, {colour, 2, "", false});
     if (two) ends.push_back({lines[k].y.back(), lines[k].name, colour});

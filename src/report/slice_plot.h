@@ -7,7 +7,8 @@
 
 namespace frictab::report {
 
-// One line of tau_R; for two states lines along the first one, at up to seven values of the second.
+// Draws one line of tau_R; for two states, lines along the first one at up to seven values of the
+// second.
 std::string slice_svg(const table::Slice& slice);
 
 } // namespace frictab::report

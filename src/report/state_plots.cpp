@@ -1,4 +1,4 @@
-// Small plots: a residual that follows a state is what the law lacks there.
+// Small plots: a residual that depends on a state shows what the law lacks.
 #include "report/state_plots.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::string residual_over(const std::string& law, const data::Quantity& quantity
   if (!span) return "";
   const svg::Axis axis = svg::nice_axis(span->first, span->second, 3, axis_name(quantity.name));
   svg::Axis up = frame.residual;
-  up.label = "residual / MPa"; // a longer one has no room
+  up.label = "residual / MPa"; // a longer label has no room
   svg::Plot plot(state_width, state_height, axis, up);
   plot.density(svg::bin(x, residual, axis, frame.residual, state_cells, state_rows), frame.classes);
   const double ends[] = {axis.low, axis.high}, zeros[] = {0, 0};

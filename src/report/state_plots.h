@@ -10,14 +10,14 @@
 
 namespace frictab::report {
 
-// SVG, one plot per state that the validation data have and that varies; empty where there is none.
+// Draws SVG, one plot per state that varies in the validation data; empty if none does.
 std::string residuals_over_states(const ReportInput& input, std::size_t law,
                                   const PlotFrame& frame);
 
-// What an axis over a column is called: "\u03C3_N / MPa" of a canonical quantity, else its name.
+// Label of an axis over a column: "\u03C3_N / MPa" for a canonical quantity, else its name.
 std::string axis_name(const std::string& column);
 
-// Ends of a column's finite values; nothing where it has none, or one value only.
+// Range of a column's finite values; nullopt if there are none, or only a single value.
 std::optional<std::pair<double, double>> span_of(std::span<const double> values);
 
 } // namespace frictab::report

@@ -1,4 +1,4 @@
-// Each test as it ran, measured and predicted by the best law.
+// Draws each test over its course, measured and predicted by the best law.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t stroke_points = 25; // enough for the shape of a stroke
 
-// Means of blocks of neighbouring rows.
+// Returns means over blocks of neighbouring rows.
 std::vector<double> condensed(std::span<const double> values) {
   const std::size_t width = (values.size() + stroke_points - 1) / stroke_points;
   std::vector<double> means;
@@ -32,7 +32,8 @@ std::vector<double> condensed(std::span<const double> values) {
   return means;
 }
 
-// What strokes run over: the first of these that the data have and that varies, else the row.
+// Column over which strokes are drawn: the first of these that the data have and that varies, else
+// the row.
 std::string stroke_abscissa(const data::Dataset& data) {
   for (const char* name : {"s_mm", "time_s"})
     if (data.has(name) && span_of(data.values(name))) return name;

@@ -1,4 +1,4 @@
-// Plots as SVG text.
+// Writes plots as SVG text.
 #include "report/svg.h"
 
 #include <algorithm>
@@ -16,11 +16,12 @@ namespace frictab::report::svg {
 namespace {
 
 constexpr double top = 10, bottom = 46;
-// Left of the drawing area: the axis' label and the ticks'; right of it: half of the last tick's.
+// Left of the drawing area are the labels of the axis and of the ticks; right of it, half of the
+// last tick's label.
 constexpr double least_left = 58, least_right = 14, beside_ticks = 28;
-constexpr double digit = 6.2; // width of one of a tick's label
+constexpr double digit = 6.2; // width of a digit of a tick's label
 
-// Light to dark blue-green; the lightest is still told from white, on screen and in print.
+// Light to dark blue-green; the lightest is still visible on white, on screen and in print.
 constexpr std::array<std::array<int, 3>, 5> ramp = {
     {{205, 226, 240}, {134, 188, 214}, {67, 138, 187}, {29, 84, 145}, {10, 34, 84}}};
 
@@ -38,8 +39,9 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-// Where the subscript of a symbol begins: "_" behind a Greek letter, or behind one letter at the
-// start of a label with a unit. Names of columns have marks like these too, and stay as they are.
+// Position at which the subscript of a symbol begins: "_" after a Greek letter, or after one letter
+// at the start of a label with a unit. Names of columns may contain such marks too, and are left as
+// they are.
 std::size_t subscript_mark(const std::string& label) {
   if (label.size() > 1 && label[1] == '_' && is_letter(label[0]) && label.find(" / ") != label.npos)
     return 1;
@@ -49,7 +51,7 @@ std::size_t subscript_mark(const std::string& label) {
   return mark;
 }
 
-// Escaped, with subscripts.
+// Escapes a label and sets its subscripts.
 std::string axis_label(std::string_view text) {
   const std::string label = escape(text);
   const std::size_t mark = subscript_mark(label);
@@ -75,13 +77,13 @@ double widest_tick(const Axis& axis) {
   return widest;
 }
 
-// Every how many ticks there is room for a label.
+// Number of ticks per label, so that labels have room.
 std::size_t labelled_ticks(const Axis& axis, double width) {
   const double room = width / static_cast<double>(std::max<std::size_t>(axis.ticks.size(), 2) - 1);
   return static_cast<std::size_t>(std::ceil((widest_tick(axis) + digit) / room));
 }
 
-// One path per class: runs of neighbouring cells of a row are one rectangle.
+// Returns one path per class: runs of neighbouring cells of a row are one rectangle.
 std::string runs_of_class(const Density& d, std::uint32_t from, std::uint32_t to) {
   std::string path;
   for (std::size_t row = 0; row < d.ny; ++row)
@@ -125,7 +127,7 @@ Axis nice_axis(double low, double high, int wanted, std::string label) {
   double step = 10 * power;
   for (const double factor : {5.0, 2.0, 1.0})
     if (rough <= factor * power * (1 + 1e-9)) step = factor * power;
-  // A thousandth of a step does not make another tick.
+  // A range that exceeds a tick by less than a thousandth of a step gets no further tick.
   const double first = std::floor(low / step + 1e-3);
   const double last = std::max(std::ceil(high / step - 1e-3), first + 1);
   for (double i = first; i <= last; ++i)
@@ -225,10 +227,10 @@ void Plot::line(std::span<const double> x, std::span<const double> y, const Stro
       pen_down = false;
       continue;
     }
-    // Far beyond the edge is as good as beyond it, and keeps the numbers short.
+    // Points are clamped far beyond the edge, which looks the same and keeps the numbers short.
     const double px = std::clamp(pixel_x(x[i]), -10 * width_, 10 * width_);
     const double py = std::clamp(pixel_y(y[i]), -10 * height_, 10 * height_);
-    // A tenth of a pixel is not seen; a second decimal would be a tenth of the page.
+    // A tenth of a pixel is invisible; a second decimal would add a tenth to the page.
     const auto tenth = [](double value) { return pixel(std::round(10 * value) / 10); };
     path += fmt::format("{}{} {}", pen_down ? 'L' : 'M', tenth(px), tenth(py));
     pen_down = true;
@@ -258,7 +260,7 @@ void Plot::dots(std::span<const double> x, std::span<const double> y,
 }
 
 void Plot::label(double x, double y, std::string_view text, std::string_view colour) {
-  constexpr double letter = 6; // about the width of one
+  constexpr double letter = 6; // about the width of a letter
   const bool fits = pixel_x(x) > letter * static_cast<double>(text.size());
   body_ += fmt::format("\n<text x=\"{}\" y=\"{}\" text-anchor=\"{}\" style=\"fill:{}\">{}</text>",
                        pixel(pixel_x(x) + (fits ? -3 : 3)), pixel(pixel_y(y) - 3),
@@ -275,7 +277,7 @@ void Plot::labels_beside(double x, std::vector<EndLabel> labels) {
   constexpr double line = 13, gap = 10;
   std::stable_sort(labels.begin(), labels.end(),
                    [](const EndLabel& a, const EndLabel& b) { return a.y > b.y; });
-  // Down from the top, then up again from the bottom.
+  // Moves labels down from the top, then up again from the bottom.
   std::vector<double> at;
   for (const EndLabel& label : labels)
     at.push_back(std::max(pixel_y(label.y), at.empty() ? 0 : at.back() + line));
@@ -364,7 +366,7 @@ std::string bar(const Bar& b, const Axis& axis, double width, double height) {
     text += fmt::format("<path stroke=\"#b45309\" stroke-dasharray=\"2 2\" d=\"M{} 0v{}\"/>",
                         pixel(along_bar(b.reference)), pixel(height));
   if (std::isfinite(b.low) && std::isfinite(b.high) && b.low < axis.high) {
-    // An end beyond the axis has no cap: the interval goes on.
+    // An interval whose end is beyond the axis continues there, so it has no cap.
     const bool whole = b.high <= axis.high;
     text += fmt::format("<path fill=\"none\" stroke=\"#111\" stroke-width=\"1.3\" "
                         "d=\"M{} {}v8M{} {}H{}{}\"/>",

@@ -11,11 +11,11 @@
 
 namespace frictab::report::svg {
 
-// Characters that XML gives a meaning become entities; what XML and UTF-8 do not allow becomes
+// Replaces characters with a meaning in XML by entities, and what XML and UTF-8 do not allow by
 // U+FFFD. Safe in text and in quoted attributes.
 std::string escape(std::string_view text);
 
-// A coordinate in pixels: at most two decimals, no trailing zeros, never "-0".
+// Writes a coordinate in pixels: at most two decimals, no trailing zeros, never "-0".
 std::string pixel(double value);
 
 // A linear axis. Ticks are multiples of 1, 2 or 5 times a power of ten.
@@ -23,14 +23,14 @@ struct Axis {
   double low = 0;
   double high = 1;
   std::vector<double> ticks;
-  int decimals = 0; // of the ticks' labels
-  // Letters behind "_" are a subscript to a Greek letter, "\u03C4_R / MPa", and to one letter where
+  int decimals = 0; // decimals of the ticks' labels
+  // Letters after "_" are a subscript to a Greek letter, "\u03C4_R / MPa", and to one letter where
   // a unit follows, "v_rel / (mm/s)".
   std::string label;
 };
 
-// low and high are moved outwards to ticks, about `wanted` of them. Values that are not finite, or
-// equal, give an axis around what is there.
+// Moves low and high outwards to ticks, about `wanted` of them. If one is not finite, or both are
+// equal, the axis surrounds the value that is known.
 Axis nice_axis(double low, double high, int wanted, std::string label);
 
 // Tick label with the axis' decimals and a proper minus sign.
@@ -44,7 +44,7 @@ struct Density {
   std::size_t outside = 0; // beyond the axes, or not finite
 };
 
-// x and y have the same length.
+// Counts points per cell; x and y have the same length.
 Density bin(std::span<const double> x, std::span<const double> y, const Axis& x_axis,
             const Axis& y_axis, std::size_t nx, std::size_t ny);
 
@@ -62,45 +62,47 @@ struct Stroke {
   bool halo = false; // white edge, to be seen on dark cells
 };
 
-// The name of a line, and where the line ends.
+// The name of a line, and the height at which the line ends.
 struct EndLabel {
   double y = 0;
   std::string text;
   std::string colour;
 };
 
-// One plot of given size of its drawing area in pixels; margins come on top, as wide as the ticks'
-// labels need. Where these would touch each other, only every second one is written, or fewer.
+// One plot; the size is that of its drawing area in pixels. Margins are added, as wide as the
+// ticks' labels need. Where labels would touch each other, only every second one is written, or
+// fewer.
 class Plot {
 public:
   Plot(double width, double height, Axis x, Axis y);
 
-  // Cells of `density`, coloured by class; all cells of one class are one path.
+  // Draws the cells of `density`, coloured by class; all cells of one class are one path.
   void density(const Density& density, std::span<const std::uint32_t> classes);
-  // Straight pieces from point to point, cut at the edge of the drawing area. Points that are not
-  // finite interrupt the line.
+  // Draws straight lines from point to point, cut at the edge of the drawing area. Points that are
+  // not finite interrupt the line.
   void line(std::span<const double> x, std::span<const double> y, const Stroke& stroke);
 
-  // Discs or rings of radius `size`; each shows its text under the pointer. x, y and text have the
-  // same length.
+  // Draws discs or rings of radius `size`; each shows its text under the pointer. x, y and text
+  // have the same length.
   void dots(std::span<const double> x, std::span<const double> y, std::span<const std::string> text,
             double size, std::string_view colour, bool rings = false);
 
-  // A short text that ends at a point of the drawing area, above it;
-  // one that would not fit there starts at the point.
+  // Writes a short text above a point of the drawing area, where it ends; a text that would not fit
+  // starts at the point.
   void label(double x, double y, std::string_view text, std::string_view colour);
 
-  // Whether two lines at the same x could not be told apart: nowhere a pixel from each other.
+  // Whether two lines over the same x coincide in the plot: nowhere a pixel apart.
   bool one_line(std::span<const double> a, std::span<const double> b) const;
 
-  // Names of lines that end at x, in a column beside the drawing area in the order of their ends,
-  // moved up and down until none covers another; a thin line leads from each end to its name.
+  // Writes names of lines that end at x, in a column to the right of the drawing area in the order
+  // of their ends, moved up and down until none covers another; a thin line leads from each end to
+  // its name.
   void labels_beside(double x, std::vector<EndLabel> labels);
 
-  // A figure with <title> and <desc> for those who cannot see it.
+  // Returns a figure with <title> and <desc> for readers who cannot see it.
   std::string text(std::string_view title, std::string_view description) const;
-  // The same as a file of its own: name space, looks, white ground, the caption above it in as many
-  // lines as it takes.
+  // Returns the figure as a file of its own: name space, looks, white ground, and the caption above
+  // it in as many lines as it takes.
   std::string file(std::string_view title, std::string_view caption) const;
 
 private:
@@ -112,22 +114,22 @@ private:
   Axis x_, y_;
   double left_, right_; // margins
   std::string body_;    // within the drawing area
-  std::string beside_;  // on its right
+  std::string beside_;  // to the right of it
 };
 
 // One value with its interval as a horizontal bar on 0..axis.high. Longer bars are cut, with a mark
 // at the end.
 struct Bar {
   double value = 0;
-  double low = 0; // of the interval; not finite: none
+  double low = 0; // interval; not finite: none
   double high = 0;
   double reference = 0; // thin line across; not finite: none
   std::string colour;
-  std::string description; // for those who cannot see it
+  std::string description; // for readers who cannot see it
 };
 std::string bar(const Bar& bar, const Axis& axis, double width, double height);
 
-// The scale that belongs to a column of bars.
+// Returns the scale that belongs to a column of bars.
 std::string bar_scale(const Axis& axis, double width, double height);
 
 } // namespace frictab::report::svg

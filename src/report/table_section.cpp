@@ -1,4 +1,4 @@
-// Tables and how far they, and the sources generated from them, are from their laws.
+// Writes tables and the drift from their laws, also of the sources generated from them.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -45,7 +45,7 @@ std::string summary_of(const table::Table& table) {
   return text + (far.empty() ? "" : " " + svg::escape(far) + ".");
 }
 
-// Table or the law itself: what a source holds of each.
+// Lists the sizes of a source with the table and with the law itself.
 std::string forms_of(const ReportInput& input, const table::Table& table) {
   for (const verify::FormComparison& form : input.forms)
     if (form.model == table.model && !table.axes.empty())
@@ -91,7 +91,7 @@ std::string state_text(const DriftRecord& record) {
   return text.empty() ? "\u2013" : text;
 }
 
-// Differences that are nothing but rounding do not deserve digits.
+// Differences that are mere rounding get no digits.
 std::string drift_figures(double value) {
   return value > 0 && value < 1e-9 ? "&lt; 1e-9" : figures(value);
 }
@@ -112,8 +112,8 @@ std::string outside_text(const DriftRecord& r) {
   return text;
 }
 
-// Of the table, and of routines that are further off there than anywhere in the range: else it
-// would stand in every row.
+// Describes the drift below the range for the table, and for routines whose drift is larger there
+// than anywhere in the range; for others it would repeat the table's.
 std::string below_text(const DriftRecord& r) {
   if (!r.below || (r.subject != "table" && r.below->max_abs_MPa <= r.worst_case_MPa)) return "";
   return fmt::format("sigma_n_MPa {:.4g} to {:.4g} MPa, below the range ({}): up to {} MPa off",
@@ -121,7 +121,7 @@ std::string below_text(const DriftRecord& r) {
                      figures(r.below->max_abs_MPa));
 }
 
-// What holds states says which, and what that costs; a routine, what it was not asked.
+// For native tables: the fixed states and their error. For routines: rows they could not represent.
 std::string subject_text(const DriftRecord& r) {
   std::string text = svg::escape(r.subject);
   for (const std::string& remark : {r.held ? verify::cost_text(r) : std::string(),
@@ -136,10 +136,10 @@ const char* result_of(const DriftRecord& r) {
   return r.over_by_proof ? "passed as found; over the tolerance by proof" : "passed";
 }
 
-// `table`: the record of the table that the source was made from; most sources are furthest where
-// it is.
+// `table`: the record of the table from which the source was made; most sources have their largest
+// drift at the same state.
 TemplateValues record_row(const DriftRecord& r, const DriftRecord& table) {
-  const bool any_rows = r.n_rows > r.n_outside || r.rows.max_abs > 0; // the law goes on outside
+  const bool any_rows = r.n_rows > r.n_outside || r.rows.max_abs > 0; // the law answers outside
   const auto on_rows = [&](double value) { return any_rows ? drift_figures(value) : "\u2013"; };
   TemplateValues row;
   row.flags["ran"] = r.ran;

@@ -1,4 +1,5 @@
-// What the best law lacked: verdict, errors before and after, each effect with its residuals.
+// Writes what the best law lacked: verdict, errors before and after, each effect with its
+// residuals.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -43,7 +44,7 @@ const char* class_of(Verdict verdict) {
   return verdict == Verdict::effect_added || verdict == Verdict::nothing_missing ? "pass" : "none";
 }
 
-// Rows as cells, with the quartiles of neighbours as lines.
+// Draws rows as cells.
 void draw_cloud(svg::Plot& plot, Values x, Values y, const svg::Axis& x_axis,
                 const svg::Axis& y_axis) {
   const svg::Density cells = svg::bin(x, y, x_axis, y_axis, cells_wide, cells_high);
@@ -102,7 +103,7 @@ const calibrate::ModelFit* fit_of(const ReportInput& input, const std::string& m
   return nullptr;
 }
 
-// Before, the effect, after: three plots over the effect's column.
+// Draws three plots over the effect's column: residual before, the effect, residual after.
 std::string effect_plots(const ReportInput& input, const trace::Trace& trace,
                          const trace::TracedEffect& effect) {
   std::size_t before = 0, after = 0;
@@ -173,7 +174,8 @@ std::string alternatives_of(const trace::TracedEffect& effect) {
   return text;
 }
 
-// What tests would settle it: a sentence and a table; empty where there are none.
+// Proposes tests that would decide between explanations: a sentence and a table; empty without such
+// tests.
 std::string design_of(const trace::Design& design) {
   if (design.tests.empty()) return "";
   const auto row = [](const std::vector<std::string>& cells, const char* tag) {

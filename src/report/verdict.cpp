@@ -1,4 +1,4 @@
-// The page's first lines: what came out, in plain words.
+// Writes the page's first lines: the results in plain words.
 #include <algorithm>
 #include <cmath>
 
@@ -93,7 +93,7 @@ std::string literature_sentence(const calibrate::Calibration& calibration) {
   return text + ".";
 }
 
-// Records of one kind: how many, the largest drift, and where it failed.
+// Records of one kind: numbers run and failed, and the largest drift.
 struct Group {
   std::size_t ran = 0;
   std::size_t failed = 0;
@@ -106,7 +106,7 @@ struct Group {
     }
     ++ran;
     if (!r.passed) ++failed;
-    // NaN must show, not vanish in a comparison.
+    // NaN has to show; a comparison would lose it.
     if (!(r.worst_case_MPa <= worst)) worst = r.worst_case_MPa;
   }
 };

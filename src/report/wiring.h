@@ -1,4 +1,4 @@
-// How a generated routine is wired into its solver, as its recipe.json says.
+// Wiring of a generated routine into its solver, from its recipe.json.
 #pragma once
 
 #include <string>
@@ -15,11 +15,11 @@ struct WiringLine {
 struct Wiring {
   std::string path, title, model, entry, units;
   std::vector<std::string> files, compile;
-  std::string input_deck; // empty where the solver's deck says nothing
+  std::string input_deck; // empty where the solver's deck needs no lines
   std::vector<WiringLine> arguments;
 };
 
-// Throws InputError where the text is no recipe.
+// Throws InputError where the text is not a recipe.
 Wiring wiring_of(const Recipe& recipe);
 
 } // namespace frictab::report

@@ -1,4 +1,4 @@
-// "How to wire the routine": compile command, where each state comes from, lines of the deck.
+// Writes "How to wire the routine": compile command, source of each state, lines of the deck.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
