@@ -1,4 +1,4 @@
-// Paints line by line: no colour carries over a line's end.
+// Paints line by line: no colour continues after the end of a line.
 #include "cli/colour.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ std::string painted(std::string_view text, std::string_view colour) {
   return std::string(colour) + std::string(text) + std::string(plain);
 }
 
-// The result stands at the end of its line.
+// Results, which are at the end of their line.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> results = {
     {{"OVER TOLERANCE BY PROOF", red},
      {"OVER TOLERANCE", red},
@@ -31,7 +31,7 @@ std::string line_coloured(std::string_view line) {
   for (const auto& [words, colour] : results)
     if (line.ends_with(words))
       return std::string(line.substr(0, line.size() - words.size())) + painted(words, colour);
-  // A heading ends a line and its lines are set in below it.
+  // A heading ends its line, and the lines below it are indented.
   const bool heading = !line.empty() && line.front() != ' ' && line.ends_with(':');
   return heading ? painted(line, bold) : std::string(line);
 }

@@ -1,4 +1,4 @@
-// Reads tables and recipes of several laws in one user file.
+// Combines tables of several laws in one user file, and reads the recipes of such files.
 #include "cli/combined.h"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ NamedTables named_files(const std::vector<std::string>& laws) {
   return out;
 }
 
-// What holds for all laws.
+// Returns the options that apply to all laws.
 codegen::ExportOptions export_options(const CombineOptions& options, const CommonOptions& common) {
   if (!options.job.empty()) {
     const codegen::ExportOptions said = job::read_job(options.job, common.set).exports;
@@ -65,8 +65,8 @@ codegen::ExportOptions export_options(const CombineOptions& options, const Commo
   return out;
 }
 
-// Those of the targets that have an entry for several laws; the others are told, and an error where
-// nothing is left.
+// Selects the targets that have an entry for several laws. Notes the others; throws InputError if
+// none remains.
 std::vector<const codegen::Exporter*> combining(const std::vector<std::string>& names,
                                                 const CommonOptions& common) {
   std::vector<const codegen::Exporter*> out;
@@ -93,7 +93,8 @@ std::vector<codegen::ExportRequest> requests(const NamedTables& laws,
   return out;
 }
 
-// The recipe says where the tables lie, seen from its directory: verify_combined() reads them.
+// Adds the paths of the tables, relative to the recipe's directory, from which verify_combined()
+// reads them.
 std::string with_tables(const std::string& recipe, const NamedTables& laws,
                         const fs::path& directory) {
   json out = io::parse_json(recipe, "recipe.json");
@@ -115,7 +116,7 @@ void write(io::OutputFiles& output, const codegen::Exporter& exporter, const Nam
 
 // ---- verify ----
 
-// A recipe that `export --combine` wrote, as what it was made from.
+// A recipe that `export --combine` wrote, and the inputs from which it was made.
 struct Combined {
   const codegen::Exporter* exporter = nullptr;
   codegen::SourceBundle files;

@@ -12,7 +12,7 @@ namespace frictab::cli {
 
 struct CombineOptions {
   std::vector<std::string> laws; // "PUNCH=tables/coulomb.h5"
-  std::string job;               // its [export] holds for all laws; empty: the next two
+  std::string job;               // its [export] applies to all laws; empty: the next two do
   std::vector<std::string> targets;
   std::string units;
 };
@@ -20,11 +20,11 @@ struct CombineOptions {
 // Writes DIR/<target>/ for each target.
 int export_combined(const CombineOptions& options, const CommonOptions& common);
 
-// Of all targets in the directory. Throws InputError where there is none.
+// Verifies all targets in the directory. Throws InputError where there are none.
 verify::Verification verify_combined(const std::string& directory,
                                      std::optional<double> max_drift_MPa);
 
-// A line for each law and variant.
+// Writes a line for each law and variant.
 std::string combined_drift_text(const verify::Verification& verification);
 
 } // namespace frictab::cli

@@ -16,9 +16,9 @@ class App;
 
 namespace frictab::cli {
 
-// Options every command has.
+// Options of every command.
 struct CommonOptions {
-  std::string output; // -o DIR; empty: the job's
+  std::string output; // -o DIR; empty: the job's output directory
   bool force = false;
   unsigned threads = 0; // -j N, 0 = all cores
   bool quiet = false;
@@ -30,8 +30,8 @@ struct CommonOptions {
   bool dry_run = false;
 };
 
-// Which of the common options change what a command does: its help shows these. The others are
-// taken as well, so that a script can give the same ones to every command.
+// The common options that change what a command does, and that its help therefore shows. The others
+// are accepted as well, so that a script can give the same ones to every command.
 enum Uses : unsigned {
   uses_output = 1,
   uses_force = 2,
@@ -44,40 +44,40 @@ enum Uses : unsigned {
   uses_progress = 256,
   uses_dry_run = 512,
   stage_uses = uses_output | uses_threads | uses_quiet | uses_json | uses_seed | uses_set |
-               uses_progress | uses_dry_run | uses_force, // of a command that runs stages of a job
+               uses_progress | uses_dry_run | uses_force, // for a command that runs stages of a job
 };
 
 struct Example {
   std::string command; // "frictab run job.toml"
-  std::string does;    // a few words
+  std::string does;    // a few words on its effect
 };
 
 struct Command {
-  std::string name; // "table info": the command `info` of the command `table`
+  std::string name; // "table info": the command `info` below the command `table`
   int order = 0;
   std::string title; // one line for the command list
-  // Adds the command's own options to `app` and returns what runs it: exit code 0 or 1; faults are
-  // thrown. Results go to stdout or files; notes to stderr through note() below. nullptr: only the
-  // commands below it run.
+  // Adds the command's own options to `app` and returns the function that runs it, with exit code 0
+  // or 1; faults are thrown. Results go to stdout or files; notes to stderr through note() below.
+  // nullptr: only the commands below this one can be run.
   std::function<int()> (*declare)(CLI::App& app, const CommonOptions& common) = nullptr;
-  unsigned uses = 0; // of Uses
+  unsigned uses = 0; // bits of Uses
   std::vector<Example> examples = {};
 };
 
-// For CLI::Option::check: what is wrong with the text of a number, "" where nothing is.
+// Check the text of a number for CLI::Option::check: return its fault, "" for a valid one.
 std::string positive_number(const std::string& text);
 std::string number_from_0(const std::string& text);
 
-// In a catch block: says on stderr what was thrown, and gives the exit code for it.
+// Reports the current exception on stderr, from within a catch block, and returns its exit code.
 int tell_error();
 
-// To stdout, as `printable` (core/text.h) has it: what comes from files moves no cursor.
+// Writes to stdout after `printable` (core/text.h), so that text from files cannot move the cursor.
 void show(const std::string& text);
 
-// A line to stderr, unless -q.
+// Writes a line to stderr, unless -q.
 void note(const CommonOptions& common, const std::string& line);
 
-// Puts the staged files in place. Throws InputError where the directory has other files of these
+// Moves the staged files into place. Throws InputError where the directory has other files of these
 // names and --force is not given.
 void commit(io::OutputFiles& files, const std::string& directory, const CommonOptions& common);
 

@@ -32,13 +32,14 @@ namespace frictab::cli {
 
 namespace {
 
-constexpr unsigned most_threads = 1024; // each takes memory, used or not
-constexpr std::uint64_t largest_seed = std::numeric_limits<std::int64_t>::max(); // as in a job file
+constexpr unsigned most_threads = 1024; // each thread takes memory, used or not
+// the limit of a job file
+constexpr std::uint64_t largest_seed = std::numeric_limits<std::int64_t>::max();
 
 const char* const exit_codes = "Exit codes: 0 done; 1 a target was missed (drift over tolerance); "
                                "2 usage, job file or input data wrong; 3 anything else.";
 
-// Unsigned numbers wrap around or stop at their end where the library reads them.
+// Parses an unsigned number strictly: the library wraps numbers around or limits them silently.
 template <class Number>
 Number whole_number(const char* option, const std::string& text, Number most) {
   Number value = 0;
@@ -50,7 +51,7 @@ Number whole_number(const char* option, const std::string& text, Number most) {
   return value;
 }
 
-// CLI11's own checks take nan, and name the largest number there is in all its digits.
+// CLI11's own checks accept nan, and print the largest double with all its digits.
 std::string number_above(const std::string& text, bool (*allowed)(double), const char* wanted) {
   double value = 0;
   const char* const end = text.data() + text.size();
@@ -70,7 +71,7 @@ std::string footer_of(const Command& command) {
   return text + exit_codes;
 }
 
-// An option without a group is taken, and not shown.
+// Adds the options that the command does not use without a group: they are accepted and not shown.
 void add_common(CLI::App& app, CommonOptions& common, unsigned uses) {
   const auto shown = [uses](CLI::Option* option, unsigned use) {
     if ((uses & use) == 0) option->group("");
@@ -117,17 +118,17 @@ void add_common(CLI::App& app, CommonOptions& common, unsigned uses) {
                  "Say what would run, what is kept and what would be written; write nothing");
 }
 
-// -o "$OUT" of a script whose OUT is empty: the results belong somewhere else than the job says.
+// Rejects -o "$OUT" of a script whose OUT is empty: the results would go to the job's directory.
 void check_output(const CLI::App& app, const CommonOptions& common) {
   if (app.count("--output") > 0 && common.output.empty())
     throw InputError({"-o", 0, 0}, "the output directory has an empty name",
                      "give -o DIR a name; without -o the job says where");
 }
 
-// The runner of the subcommand that was called.
+// Pairs each subcommand with the function that runs it.
 using Runners = std::vector<std::pair<CLI::App*, std::function<int()>>>;
 
-// A terminal that is called dumb shows no line in place of another.
+// Chooses the progress display; a terminal with TERM=dumb cannot replace a line.
 ProgressStyle progress_style(const CommonOptions& common) {
   const char* const terminal = std::getenv("TERM");
   const bool draws =
@@ -147,7 +148,7 @@ int run_chosen(const Runners& runners, const CommonOptions& common) {
   return 2;
 }
 
-// Names of the commands below `group` ("" = at the top).
+// Names of the commands below `group` ("" for the top).
 std::vector<std::string> commands_of(const std::string& group) {
   std::vector<std::string> names;
   const std::string before = group.empty() ? "" : group + " ";
@@ -191,12 +192,12 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, cha
   return 2;
 }
 
-// What was printed stays in a buffer until here: a full disk shows no earlier.
+// Flushes stdout and checks it: output is buffered until here, so that a full disk shows only now.
 int told_all(int exit_code) {
   std::cout.flush();
   errno = 0;
   if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return exit_code;
-  const int why = errno; // 0 where it failed before
+  const int why = errno; // 0 if an earlier write failed
   fmt::print(stderr,
              "error: what was to be printed cannot be written{}\n  hint: is the disk full, "
              "or the file or pipe behind stdout closed?\n",
@@ -239,7 +240,7 @@ int tell_error() {
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "error: out of memory\n  hint: fewer nodes, or a smaller file\n");
   } catch (const std::exception& error) {
-    if (!std::ferror(stdout)) // which told_all tells
+    if (!std::ferror(stdout)) // otherwise told_all reports the error
       fmt::print(stderr, "error: {}\n", printable(error.what()));
   }
   return 3;
@@ -274,7 +275,8 @@ int run_command_line(int argc, char** argv) {
     const std::size_t blank = command.name.find(' ');
     CLI::App* above = blank == command.name.npos
                           ? &app
-                          : app.get_subcommand(command.name.substr(0, blank)); // its order is less
+                          // added already: its order is smaller
+                          : app.get_subcommand(command.name.substr(0, blank));
     CLI::App* sub = above->add_subcommand(command.name.substr(blank + 1), command.title);
     sub->formatter(std::make_shared<HelpFormat>(28));
     sub->footer(footer_of(command));

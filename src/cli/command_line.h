@@ -1,9 +1,9 @@
-// Parses the command line, runs one command, turns faults into exit codes.
+// Parses the command line, runs one command, and turns faults into exit codes.
 #pragma once
 
 namespace frictab::cli {
 
-// 0 done, 1 a target was missed, 2 usage, job file or data wrong, 3 anything else.
+// Returns 0: done, 1: a target was missed, 2: usage, job file or data wrong, 3: anything else.
 int run_command_line(int argc, char** argv);
 
 } // namespace frictab::cli

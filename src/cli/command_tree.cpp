@@ -35,7 +35,7 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-// "TEXT:{csv,hdf5}" of CLI::IsMember, "{models,effects}", or names of what is registered.
+// Possible values: "TEXT:{csv,hdf5}" of CLI::IsMember, "{models,effects}", or registered names.
 std::vector<std::string> words_of(const CLI::App& app, const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t open = type.find('{'), close = type.find('}');
@@ -48,10 +48,10 @@ std::vector<std::string> words_of(const CLI::App& app, const CLI::Option& option
   return {};
 }
 
-// CLI11's own "TEXT" says less than the name of the option.
+// Returns the name of the value; CLI11's own "TEXT" is less clear than the option's name.
 std::string value_name(const CLI::Option& option) {
   std::string type = option.get_type_name();
-  type.resize(std::min(type.size(), type.find(':'))); // what a check says of itself
+  type.resize(std::min(type.size(), type.find(':'))); // removes the description of a check
   const bool unsaid = type.starts_with("TEXT") || type.starts_with("FLOAT") ||
                       type.starts_with("INT") || type.starts_with("UINT") || type.starts_with("{");
   if (option.get_positional()) return option.get_name(true);

@@ -1,5 +1,5 @@
-// The commands and options as plain data, read off the parser: what man pages and completion are
-// made from, so that neither can name what is not there.
+// The commands and options as plain data, read from the parser. Man pages and completion are made
+// from them, so that neither can name what does not exist.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ class App;
 namespace frictab::cli {
 
 struct OptionText {
-  std::vector<std::string> names; // "-o", "--output"; none: it is given by its place
+  std::vector<std::string> names; // "-o", "--output"; empty: a positional argument
   std::string value;              // "DIR"; empty: a flag
   std::string description;
-  std::vector<std::string> words; // what a value may be, where these are few or known by name
-  bool many = false;              // values by place: any number of them
+  std::vector<std::string> words; // possible values, where these are few or registered names
+  bool many = false;              // positional: takes any number of values
   enum class Kind { words, directory, file, other };
   Kind kind() const;
 };
@@ -25,20 +25,20 @@ struct CommandText {
   std::string name; // "frictab table slice"
   std::string title;
   std::string footer;
-  std::vector<OptionText> options; // those that help shows
-  std::vector<OptionText> places;  // values by place
+  std::vector<OptionText> options; // options that help shows
+  std::vector<OptionText> places;  // positional arguments
   std::vector<CommandText> below;
 
   std::string last_name() const { return name.substr(name.rfind(' ') + 1); }
 };
 
-// Of the root that `app` belongs to.
+// Returns the tree of the root to which `app` belongs.
 CommandText command_tree(const CLI::App& app);
 
-// What stands between separators.
+// Splits the text at the separator.
 std::vector<std::string> pieces(const std::string& text, char separator);
 
-// It and all below it, in the order of help.
+// Returns the command and all below it, in the order of help.
 std::vector<const CommandText*> all_commands(const CommandText& root);
 
 } // namespace frictab::cli

@@ -28,7 +28,7 @@ std::vector<std::string> names_below(const CommandText& command) {
   return names;
 }
 
-// What the value of an option, or one by place, is called in the scripts.
+// Name in the scripts for the kind of value that an option or argument takes.
 std::string kind_of(const OptionText& option) {
   switch (option.kind()) {
   case OptionText::Kind::words:
@@ -45,7 +45,7 @@ std::string kind_of(const OptionText& option) {
 
 // ---- bash ----
 
-// An option's value may begin behind '=', and a list goes on behind a comma.
+// An option's value may begin after '=', and a list continues after a comma.
 constexpr const char* bash_head = R"(# bash completion of frictab, made by `frictab completion bash`
 _frictab_values() { # kind [WORD ...]
   local kind=$1
@@ -116,7 +116,7 @@ std::string bash(const std::vector<const CommandText*>& commands) {
 
 // ---- zsh ----
 
-// In "[...]" of a specification of _arguments.
+// Escapes text in "[...]" of a specification of _arguments.
 std::string zsh_text(const std::string& text) {
   std::string out;
   for (const char c : first_line(text)) {

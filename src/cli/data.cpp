@@ -1,4 +1,4 @@
-// frictab data JOB: what was read, test by test, before anything is fitted to it.
+// frictab data JOB: the data test by test as they were read, before anything is fitted.
 #include <cstdio>
 #include <memory>
 
@@ -29,10 +29,10 @@ std::vector<std::string> texts_of(const FaultList& faults) {
   return out;
 }
 
-// Everything is shown and written, also where most rows are implausible: then that is the error.
+// Shows and writes everything even if most rows are implausible; the error comes after that.
 int run(const Options& options, const CommonOptions& common) {
   job::Job job = read_job(job_file(options.job), common);
-  if (!options.write.empty()) job.data.condense = {0}; // what is written are rows
+  if (!options.write.empty()) job.data.condense = {0}; // writing needs single rows
   FaultList implausible;
   const run::JobData data = run::load_job_data(job, implausible);
   io::OutputFiles files(job.directory);
@@ -46,7 +46,7 @@ int run(const Options& options, const CommonOptions& common) {
   run::StageRecord stages(job, job.directory);
   run::commit_results(job, stages, files);
   show(common.json ? run::data_json(data) : run::data_text(data));
-  std::fflush(stdout); // before the line to stderr
+  std::fflush(stdout); // stdout before the line to stderr
   note(common, fmt::format("wrote {} to {}", join(written, ", "), job.directory));
   implausible.throw_if_any();
   return 0;

@@ -1,4 +1,5 @@
-// frictab doctor: what this machine has for the job, and how to mend what is missing.
+// frictab doctor: checks this machine for libraries, compilers and targets, with advice on missing
+// ones.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -32,12 +33,12 @@ struct Finding {
   std::string topic; // "library", "compiler", "target", "machine"
   std::string name;
   bool ok = true;
-  bool needed = true; // a lack of it is a failure
+  bool needed = true; // a failure where it is missing
   std::string text;
   std::string mend;
 };
 
-// The first executable of that name on PATH, as a shell finds it; "" where there is none.
+// Returns the first executable of that name on PATH, as a shell finds it; "" without one.
 std::string on_path(const std::string& program) {
   const char* path = std::getenv("PATH");
   std::string rest = path ? path : "";
@@ -97,7 +98,7 @@ void add_compilers(std::vector<Finding>& out) {
   }
 }
 
-// The smallest table: enough for a target to say how it would be compiled.
+// Returns the smallest table with which a target can give its compile command.
 table::Table probe_table() {
   table::Table table;
   table.model = "coulomb";

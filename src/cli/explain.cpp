@@ -39,7 +39,7 @@ void print_json(const Explanation& it) {
   fmt::print("{}\n", out.dump(2));
 }
 
-// A law of the job that is named, or of job.toml in this directory.
+// Explains a law of the named job, or of job.toml in this directory.
 std::optional<Explanation> explain_own_law(const std::string& name, std::string job,
                                            const CommonOptions& common) {
   if (job.empty() && std::filesystem::exists("job.toml")) job = "job.toml";
@@ -49,7 +49,7 @@ std::optional<Explanation> explain_own_law(const std::string& name, std::string 
   return law ? std::optional(explain_law(*law)) : std::nullopt;
 }
 
-// A law of the literature as a job may have it, under a name of the user's own.
+// Prints a law of the literature in the form of a job, under a name of the user's own.
 int print_toml(const std::string& name) {
   const std::string text = job::literature_text(name);
   if (text.empty())
@@ -68,7 +68,7 @@ int run(const std::string& name, const std::string& job, bool toml, const Common
   if (name.empty()) throw InputError({}, "no NAME is given", what_has_a_name());
   if (toml) return print_toml(name);
   auto explanation = explain(name);
-  if (!explanation || !job::literature_text(name).empty()) // a job's own goes before
+  if (!explanation || !job::literature_text(name).empty()) // a job's own law takes precedence
     if (auto own = explain_own_law(name, job, common)) explanation = std::move(own);
   if (!explanation) {
     const std::string near = nearest_name(name, explainable());

@@ -1,4 +1,4 @@
-// Explanations read from the registries and the job schema: nothing is written twice.
+// Reads explanations from the registries and the job schema: nothing is written twice.
 #include "cli/explanation.h"
 
 #include <limits>
@@ -57,7 +57,7 @@ std::string remarks_of(const models::Law& law) {
     std::vector<std::string> at;
     for (const double position : positions)
       at.push_back(shortest(position));
-    constexpr std::size_t most = 8; // a table's nodes may be hundreds
+    constexpr std::size_t most = 8; // limit; a table may have hundreds of nodes
     const std::string places = at.size() <= most ? join(at, ", ")
                                                  : fmt::format("{}, {}, ... {} ({} places)", at[0],
                                                                at[1], at.back(), at.size());
@@ -84,7 +84,7 @@ Explanation about(const models::Law& law) {
                 {"tabulated", quantity_name(law.quantity)},
                 {"reference", law.reference},
                 {"remarks", remarks_of(law)}};
-  if (!models::is_registered(law)) { // the user's: what was understood
+  if (!models::is_registered(law)) { // for a user's law: the formula as it was parsed
     const models::Formula parts = law.build(usual);
     out.fields.push_back({"value", expr::to_text(parts.value)});
     out.fields.push_back({"tau_R of it", expr::to_text(parts.combine)});
@@ -159,7 +159,8 @@ Explanation about_section(const std::string& path, const std::string& title) {
   return out;
 }
 
-// What a table made elsewhere must hold: `verify --table`, `export --table` and `table` read it.
+// Layout required of a table made elsewhere: `verify --table`, `export --table` and `table` read
+// it.
 Explanation about_table_layout() {
   Explanation out{
       "table-layout",
@@ -236,7 +237,7 @@ Explanation about_table_layout() {
   return out;
 }
 
-// "table.axes.psi.nodes" is explained by "table.axes.*.nodes".
+// Returns the path of the rule: "table.axes.*.nodes" for "table.axes.psi.nodes".
 std::string rule_path(const std::string& path) {
   std::string out, rest = path;
   while (!rest.empty()) {
@@ -253,7 +254,7 @@ std::string rule_path(const std::string& path) {
   return out;
 }
 
-// "tolerance_MPa": the key that ends so, or all of them.
+// Explains the key, or all keys, with that last part: "tolerance_MPa".
 std::optional<Explanation> about_last_part(const std::string& name) {
   Explanation all{name, "job keys", "keys of the job file that end so", {}, "keys", {}};
   for (const job::KeyRule& rule : job::key_rules())

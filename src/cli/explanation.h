@@ -1,4 +1,4 @@
-// What `explain` says about a name, as plain values.
+// The explanation of a name by `explain`, as plain values.
 #pragma once
 
 #include <optional>
@@ -25,10 +25,10 @@ struct Explanation {
   std::vector<Item> items;
 };
 
-// Of a law, also of a user's own.
+// Explains a law, also a user's own.
 Explanation explain_law(const models::Law& law);
 
-// nullopt where nothing is called `name`.
+// Explains a name; nullopt if it is unknown.
 std::optional<Explanation> explain(const std::string& name);
 
 // Every name that explain() knows.

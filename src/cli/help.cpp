@@ -1,4 +1,4 @@
-// frictab help [COMMAND|TOPIC]: as `frictab COMMAND --help`, or what `explain` says of a topic.
+// frictab help [COMMAND|TOPIC]: same as `frictab COMMAND --help`; for a topic, same as `explain`.
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -21,7 +21,7 @@ int run(const CLI::App& root, const std::vector<std::string>& words) {
       return 0;
     }
   const CLI::App* at = &root;
-  std::string above; // what stands before its name
+  std::string above; // path before its name
   for (const std::string& word : words) {
     std::vector<std::string> names;
     const CLI::App* next = nullptr;
@@ -36,7 +36,8 @@ int run(const CLI::App& root, const std::vector<std::string>& words) {
     above += (above.empty() ? "" : " ") + at->get_name();
     at = next;
   }
-  // App::help() asks which subcommand was called: of the root that is this one.
+  // App::help() would print help for the subcommand that was called, which for the root is this
+  // one.
   fmt::print("{}",
              at->get_formatter()->make_help(at, (above.empty() ? "" : above + " ") + at->get_name(),
                                             CLI::AppFormatMode::Normal));

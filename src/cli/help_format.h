@@ -1,4 +1,4 @@
-// Help in 80 columns: descriptions are broken at blanks, and go on below themselves.
+// Help in 80 columns: descriptions are broken at blanks and continue in their own column.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace frictab::cli {
 
 class HelpFormat : public CLI::Formatter {
 public:
-  // `names`: columns of the names on the left.
+  // `names`: width of the names on the left.
   explicit HelpFormat(std::size_t names) { column_width(names); }
 
   std::string make_option(const CLI::Option* option, bool by_place) const override {
@@ -25,7 +25,7 @@ public:
   std::string make_subcommand(const CLI::App* command) const override {
     return line(command->get_display_name(true), command->get_description());
   }
-  // The library says "--no-progress{false}".
+  // Removes a mark of the library, "--no-progress{false}".
   std::string make_option_name(const CLI::Option* option, bool by_place) const override {
     return replace_all(CLI::Formatter::make_option_name(option, by_place), "{false}", "");
   }
@@ -45,7 +45,7 @@ private:
                                          : fmt::format("{:<{}}", text, indent);
     return text + wrapped(description, page_width, indent) + "\n";
   }
-  // What an example does stands above it where both have no room in a line.
+  // Puts an example's explanation above it where both do not fit in one line.
   static std::string footer_line(const std::string& text) {
     if (characters(text) <= page_width) return text;
     const std::size_t mark = text.find("  # ");

@@ -1,4 +1,4 @@
-// frictab init DIR: a documented job file to start from; --from FILES: one made from the files.
+// frictab init DIR: a documented job file to start from; --from FILES: one made for these files.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -53,7 +53,7 @@ int init_empty(const Options& options, const CommonOptions& common) {
   return 0;
 }
 
-// As the job file's directory sees it, which need not be there yet.
+// Path relative to the job file's directory, which need not exist yet.
 std::string relative_to(const fs::path& file, const std::string& directory) {
   return fs::relative(fs::absolute(file), fs::absolute(directory)).string();
 }
@@ -65,13 +65,13 @@ bool find_exactly(const std::vector<std::string>& globs, std::vector<std::string
     std::vector<std::string> found = data::find_files(globs, "", {});
     std::sort(found.begin(), found.end());
     return found == files;
-  } catch (const InputError&) { // none
+  } catch (const InputError&) { // no match
     return false;
   }
 }
 
-// One glob, or one for each folder, where these find the files and no others; else the files. None
-// finds what a run writes below the job file's directory.
+// Returns one glob, or one per folder, if these match the files and no others; else the files. No
+// glob matches files that a run writes below the job file's directory.
 std::vector<std::string> training_names(const std::vector<std::string>& files,
                                         const std::string& directory) {
   const std::string any = "*" + fs::path(files.front()).extension().string();
@@ -92,7 +92,7 @@ std::vector<std::string> training_names(const std::vector<std::string>& files,
   return names;
 }
 
-// A job in DIR about the files, which messages call as the user does.
+// Makes a job in DIR for the files; messages call them as the user does.
 job::GuessedJob guess_from(const std::vector<std::string>& files, const std::string& directory) {
   std::vector<data::GuessedFile> guesses;
   std::vector<std::string> names;
@@ -113,7 +113,7 @@ int init_from(const Options& options, const CommonOptions& common) {
   write_job(directory, common.force, guessed.text);
   const std::string file = (fs::path(directory) / "job.toml").lexically_normal().string();
   fmt::print("{}\n", file);
-  std::fflush(stdout); // before the lines to stderr
+  std::fflush(stdout); // stdout before the lines to stderr
   for (const std::string& question : guessed.questions)
     note(common, "to be answered in it: " + question);
   note(common, fmt::format("next: frictab data {0} (shows what is read), frictab run {0}", file));

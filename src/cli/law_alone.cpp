@@ -1,4 +1,4 @@
-// Constants become a model, a model a table, a table routines.
+// Makes a model from constants, a table from the model, and routines from the table.
 #include "cli/law_alone.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ namespace {
 
 constexpr const char* flow_stress = "sigma_f_MPa";
 
-// "mu=0.08" as name and what stands behind.
+// Splits "mu=0.08" into the name and the text after the sign.
 std::map<std::string, std::string> assignments(const std::vector<std::string>& words,
                                                const char* option, const char* example) {
   std::map<std::string, std::string> out;
@@ -105,7 +105,7 @@ table::StateRange asked_range(const std::string& name, const std::string& text) 
   return {name, low, high, "command line"};
 }
 
-// The paper's ranges, where the command says no others; a flow stress has none.
+// The given ranges, otherwise the paper's; a flow stress has no default.
 std::vector<table::StateRange> ranges_of(const models::AssembledLaw& law,
                                          const std::map<std::string, std::string>& given) {
   FaultList faults;
@@ -128,7 +128,8 @@ std::vector<table::StateRange> ranges_of(const models::AssembledLaw& law,
   return out;
 }
 
-// Without a flow stress there is no shear limit, as with data that have none.
+// Makes the model. Without a flow stress it has no shear limit, the same as with data that lack
+// one.
 models::Model model_of(const LawOptions& options,
                        const std::map<std::string, std::string>& ranges) {
   const models::Law& law = law_of(options.law);

@@ -1,5 +1,5 @@
 // `export --law`: routines of a law whose constants are known, from the literature or a handbook.
-// No data, no job.
+// Needs neither data nor a job.
 #pragma once
 
 #include <string>
@@ -17,7 +17,8 @@ struct LawOptions {
   std::string units;
 };
 
-// Writes table, model and DIR/<target>/ and proves the table; 1 where it misses its tolerance.
+// Writes table, model and DIR/<target>/ and proves the table; returns 1 where it exceeds its
+// tolerance.
 int export_law(const LawOptions& options, const CommonOptions& common);
 
 } // namespace frictab::cli

@@ -1,4 +1,4 @@
-// frictab list [models|effects|targets|quantities]: what there is, one line each.
+// frictab list [models|effects|targets|quantities]: all registered names, one line each.
 #include <algorithm>
 
 #include <CLI/CLI.hpp>
@@ -22,7 +22,7 @@ namespace {
 struct Line {
   std::string name;
   std::string title;
-  bool by_name = false; // a law that jobs have only by its name
+  bool by_name = false; // a job gets this law only by naming it
 };
 
 template <class T> std::vector<Line> lines_of(const std::vector<T>& items) {

@@ -1,4 +1,4 @@
-// frictab man: manual pages, from the options themselves.
+// frictab man: manual pages, made from the options themselves.
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -16,8 +16,8 @@ namespace frictab::cli::man_command {
 
 namespace {
 
-// Text for roff: no request at the start of a line, hyphens that can be searched for and copied. A
-// long line of settings may break at their separators.
+// Escapes text for roff: no request at the start of a line, hyphens that can be searched for and
+// copied. A long line of settings may be broken at its separators.
 std::string roff(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -66,7 +66,7 @@ std::string option_text(const OptionText& option) {
   return ".TP\n" + head + "\n" + roff(option.description) + "\n";
 }
 
-// "  frictab run   # what it does", as the footer of help has it.
+// Converts "  frictab run   # what it does", the form of help's footer.
 std::string examples(const std::string& footer) {
   std::string out;
   for (const std::string& line : pieces(footer, '\n'))

@@ -1,4 +1,4 @@
-// frictab predict: a calibrated law on rows of data, as CSV.
+// frictab predict: a calibrated law evaluated on rows of data, as CSV.
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -28,7 +28,7 @@ run::LawToPredict law_of(const Options& options, const CommonOptions& common) {
   return run::law_of_model_file(options.law);
 }
 
-// DATA alone: the job is that of this folder.
+// A single argument is DATA; the job is then that of this folder.
 Options with_job(Options options) {
   if (!options.data.empty()) return options;
   if (options.law.ends_with(".json") || options.law.ends_with(".toml"))

@@ -1,4 +1,4 @@
-// Labels in a column, texts broken at blanks.
+// Prints labels in a column and texts broken at blanks.
 #include "cli/printed_explanation.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How an explanation is printed.
+// Prints an explanation for people.
 #pragma once
 
 #include "cli/explanation.h"

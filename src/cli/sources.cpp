@@ -1,4 +1,4 @@
-// Sources into -o DIR.
+// Writes sources below -o DIR.
 #include "cli/sources.h"
 
 #include <filesystem>

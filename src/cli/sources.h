@@ -1,4 +1,4 @@
-// What every form of `export` without a job ends with.
+// The last steps that every form of `export` without a job shares.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace frictab::cli {
 
-// Throws InputError where there is no -o DIR; `option` is what needs it.
+// Throws InputError where -o DIR is missing; `option`: the option that needs it.
 void need_directory(const CommonOptions& common, const std::string& option);
 
-// <target>/ of each target.
+// Writes <target>/ for each target.
 void write_sources(io::OutputFiles& output, const std::vector<const codegen::Exporter*>& exporters,
                    const table::Table& table, const std::string& units);
 
-// Puts sources in place under -o DIR and prints their names.
+// Moves sources into place under -o DIR and prints their names.
 void commit_and_list(io::OutputFiles& output, const CommonOptions& common);
 
 } // namespace frictab::cli

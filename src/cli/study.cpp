@@ -97,7 +97,7 @@ int report(const Options& options, const CommonOptions& common) {
   return 0;
 }
 
-// "frictab study NAME STUDY": what all of them take.
+// Declares "frictab study NAME STUDY" with the options that all of them have.
 template <int (*command)(const Options&, const CommonOptions&), bool runs = false>
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<Options>();

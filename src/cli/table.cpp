@@ -1,4 +1,4 @@
-// frictab table: the group of commands that look into table files.
+// frictab table: the group of commands that inspect table files.
 #include <fstream>
 #include <iostream>
 

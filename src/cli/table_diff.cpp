@@ -1,4 +1,4 @@
-// frictab table diff A B: how far two tables are apart.
+// frictab table diff A B: the difference between two tables.
 #include <memory>
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// frictab table info FILE: what a table file holds.
+// frictab table info FILE: the contents of a table file.
 #include <memory>
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// Texts, and tables made from the registries.
+// Texts of topics, and tables made from the registries.
 #include "cli/topics.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What `explain` knows beside laws, effects, targets, quantities and keys.
+// Topics of `explain` other than laws, effects, targets, quantities and keys.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace frictab::cli {
 
 const std::vector<std::string>& topic_names();
 
-// nullopt where no topic is called so.
+// Explains a topic; nullopt if the name is unknown.
 std::optional<Explanation> explain_topic(const std::string& name);
 
 } // namespace frictab::cli
