@@ -4,7 +4,7 @@
 include(GNUInstallDirs)
 install(TARGETS frictab RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
-# What the program writes of itself, when it is installed.
+# Pages and scripts that the program writes about itself on installation.
 set(FRICTAB_PAGES ${CMAKE_BINARY_DIR}/pages)
 install(CODE "execute_process(COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:frictab> \
 -DPAGES=${FRICTAB_PAGES} -P ${CMAKE_CURRENT_LIST_DIR}/pages.cmake COMMAND_ERROR_IS_FATAL ANY)")
@@ -19,9 +19,9 @@ install(FILES README.md CHANGELOG.md SECURITY.md CITATION.cff DESTINATION ${CMAK
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
         PATTERN data EXCLUDE PATTERN out EXCLUDE PATTERN __pycache__ EXCLUDE
-        REGEX "/examples/run$" EXCLUDE) # which builds
+        REGEX "/examples/run$" EXCLUDE) # that script builds the program
 
-set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # what is packed was built before
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # the files to pack are built already
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME frictab)
 set(CPACK_PACKAGE_CONTACT "The frictab authors") # as CITATION.cff; the project has no address

@@ -1,4 +1,4 @@
-# Writes PAGES: what PROGRAM says of itself for man, the shells and editors.
+# Writes PAGES: files that PROGRAM makes for man, the shells and editors.
 file(REMOVE_RECURSE ${PAGES})
 file(MAKE_DIRECTORY ${PAGES})
 execute_process(COMMAND ${PROGRAM} man -o ${PAGES}/man1 COMMAND_ERROR_IS_FATAL ANY)

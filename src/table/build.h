@@ -10,7 +10,7 @@
 
 namespace frictab::table {
 
-// The range of one state over which a table holds and is verified.
+// The range of one state that a table covers and for which it is verified.
 struct StateRange {
   std::string name;
   double low = 0;
@@ -27,9 +27,9 @@ struct StateRange {
 // Otherwise it is the range of the training data (a single value is widened by 1 %); with
 // options.range = "table1" it is joined with Table 1 where the data cover at least half of that.
 // Flow stress: half the smallest to twice the largest value. Where the law usually continues below
-// the range, but its standard error a tenth of the low end is too large (calibrate/stress_error.h),
-// the state is clamped there. Throws InputError for a job range in which the quantity has no
-// meaning.
+// the range, but its standard error at a tenth of the low end is too large
+// (calibrate/stress_error.h), the state is clamped there. Throws InputError for a job range in
+// which the quantity has no meaning.
 std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data::Dataset& training,
                                      const TableOptions& options);
 
@@ -46,8 +46,8 @@ std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data
 // round, and the worst states become further lines along which the axes are measured. The search
 // ends after 12 rounds, when the drift is between 85 % and 100 % of the limit (0.96 of the
 // tolerance, because the search may miss the very worst state), when the grid no longer changes, or
-// when the target is known to 5 %. Last, each axis gives up cells for as long as the drift stays
-// within the limit. Node counts that the job gives are left as they are. With table.nodes or
+// when the target is bracketed to 5 %. Last, each axis gives up cells for as long as the drift
+// stays within the limit. Node counts that the job gives are left as they are. With table.nodes or
 // table.max_bytes the same search finds the grid of smallest drift within the budget.
 Table build_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                   const TableOptions& options);

@@ -76,7 +76,7 @@ private:
   std::size_t variables_, degree_, support_;
   std::vector<std::size_t> tensor_index_; // place of a monomial in the tensor, or npos
   std::vector<std::uint32_t> used_;       // per tensor entry: bits of the variables it depends on
-  std::vector<std::uint32_t> used_by_;    // the same per monomial
+  std::vector<std::uint32_t> used_by_;    // variables per monomial, as bits
   std::vector<expr::Monomials::Exponents> exponents_;
 };
 

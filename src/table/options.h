@@ -29,13 +29,13 @@ struct AxisOptions {
 
 struct TableOptions {
   std::vector<std::string> model{"best"}; // best | recommended | names | all
-  std::vector<double> quantile{0.5};      // of the experiments: one table each
+  std::vector<double> quantile{0.5};      // quantiles of the experiments: one table each
   std::optional<double> tolerance_MPa;    // none: auto (table/tolerance.h); 0.5 if nobody chose
   std::string tolerance_from;             // in words, if it was chosen automatically
   std::string range = "data"; // of the axes: data | table1: joined with Table 1 of the paper
   // absent: linear if the table is small with it, else cubic
   std::optional<Interpolation> interpolation;
-  std::string coordinates = "law"; // law: those in which it is straight | plain: none
+  std::string coordinates = "law"; // law: those in which it is straight | plain: no logarithms
   // instead of a tolerance: the closest table of so many nodes ...
   std::optional<std::size_t> nodes;
   std::optional<std::size_t> max_bytes;    // ... or so many bytes

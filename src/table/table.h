@@ -37,7 +37,7 @@ struct TableAxis {
   // inner nodes at which a cubic spline may bend; it is C2 elsewhere
   std::vector<double> kinks = {};
   Outside below = Outside::clamp; // answer to queries below the first node
-  Outside above = Outside::clamp; // and above the last
+  Outside above = Outside::clamp; // answer to queries above the last node
   // Smallest and largest value in the data on which the law was calibrated; absent if not known.
   // The nodes may extend further (table/beyond_data.h).
   std::optional<std::pair<double, double>> data = {};
