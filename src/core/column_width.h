@@ -1,4 +1,4 @@
-// Tables on the terminal: a column of names is as wide as its longest name.
+// Width of a name column in terminal tables.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace frictab {
 
-// With a blank behind the longest; at least `least`.
+// Width of the longest name plus one blank; at least `least`.
 inline std::size_t column_width(const std::vector<std::string>& names, std::size_t least = 14) {
   std::size_t width = least;
   for (const std::string& name : names)

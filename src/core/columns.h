@@ -1,11 +1,11 @@
-// Columns of numbers, as functions over rows take them.
+// Columns of numbers in the form that row functions take.
 #pragma once
 
 #include <vector>
 
 namespace frictab {
 
-// Where each column begins; valid as long as the columns are.
+// Returns a pointer to the start of each column, valid as long as the columns live.
 inline std::vector<const double*> pointers(const std::vector<std::vector<double>>& columns) {
   std::vector<const double*> out;
   for (const auto& column : columns)

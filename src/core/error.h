@@ -1,4 +1,4 @@
-// The one error type: what is wrong, where (file:line:col), how to mend it.
+// The one error type: the fault, its place (file:line:col) and its remedy.
 #pragma once
 
 #include <cstddef>
@@ -24,17 +24,17 @@ struct Place {
 };
 Place at_job_key(std::string table, std::string name);
 
-// "file:line:col", leaving out what is unknown; "export.inputs.psi".
+// Formats "file:line:col" without the unknown parts; of a key of the job "export.inputs.psi".
 std::string format_place(const Place& place);
 
-// One fault of the input. `hint` says how to mend it and may be empty.
+// One fault of the input. `hint` gives the remedy and may be empty.
 struct Fault {
   Place place;
   std::string what;
   std::string hint;
 };
 
-// Thrown for everything the user can mend (exit code 2). Holds every fault found in one go.
+// Thrown for everything the user can fix (exit code 2). Carries every fault found in one pass.
 class InputError : public std::exception {
 public:
   explicit InputError(std::vector<Fault> faults);
@@ -53,7 +53,7 @@ class FaultList {
 public:
   static constexpr std::size_t shown = 20;
   void add(Place place, std::string what, std::string hint = "");
-  void add(const InputError& error); // each of its faults
+  void add(const InputError& error); // adds each of its faults
   bool empty() const { return faults_.empty(); }
   std::size_t size() const { return faults_.size(); }
   const std::vector<Fault>& all() const { return faults_; }
@@ -63,12 +63,13 @@ private:
   std::vector<Fault> faults_;
 };
 
-// Faults of the same cause told once, with their count.
+// Collects faults with the same cause and reports each cause once, with its count.
 class FaultsByCause {
 public:
-  // `cause`: any text that faults of one cause share. The first one of a cause is told.
+  // `cause`: any text shared by the faults of one cause. Only the first fault of a cause is
+  // reported.
   void add(const std::string& cause, Fault fault);
-  // "what (and 12 more rows)", in the order in which the causes came.
+  // Adds "what (and 12 more rows)" per cause to `faults`, in the order in which the causes came.
   void tell(FaultList& faults, const std::string& noun) const;
 
 private:
@@ -80,7 +81,7 @@ private:
   std::map<std::string, std::size_t> index_;
 };
 
-// "place: error: what\n  hint: ..." a fault; the text `InputError::what()` returns.
+// "place: error: what\n  hint: ..." per fault; the text that `InputError::what()` returns.
 std::string format_faults(const std::vector<Fault>& faults);
 
 } // namespace frictab

@@ -1,4 +1,4 @@
-// xxHash behind one function.
+// Wraps xxHash.
 #include "core/hash.h"
 
 #define XXH_INLINE_ALL

@@ -1,4 +1,4 @@
-// Texts as numbers, to tell whether they are the same.
+// Hashes of texts, to check whether two texts are equal.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace frictab {
 
-// XXH64 (Collet): the same on every machine; no defence against who wants two texts to agree.
+// XXH64 (Collet). Gives the same value on every machine; not safe against deliberate collisions.
 std::uint64_t hash_of(std::string_view text);
 
 } // namespace frictab

@@ -1,4 +1,4 @@
-// A list of what to undo, and the thread that waits for signals.
+// The list of undo functions, and the thread that waits for signals.
 #include "core/interrupt.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace frictab {
 namespace {
 
 struct ToUndo {
-  std::mutex mutex; // held while a commit runs, and by the thread that undoes
+  std::mutex mutex; // locked during a commit and by the thread that undoes
   std::vector<std::pair<const WhenInterrupted*, std::function<void()>>> all;
 };
 
@@ -43,11 +43,11 @@ sigset_t interruptions() {
   ::_exit(128 + signal);
 }
 
-// A thread allocates as it starts. In a process that is forked meanwhile (io/isolated) that lock
-// stays held for ever, unless the allocator lets go of it in the child: glibc's does, that of
-// AddressSanitizer (GCC 12) does not.
+// Lets a fork wait until the thread runs: a starting thread allocates, and in a process forked
+// meanwhile (io/isolated) the allocator's lock would stay locked forever unless the allocator
+// releases it in the child. glibc's does; that of AddressSanitizer (GCC 12) does not.
 std::latch& thread_has_started() {
-  static std::latch started(1); // outlives both who wait on it and who count it down
+  static std::latch started(1); // outlives the threads that wait on it or count it down
   return started;
 }
 
@@ -57,7 +57,7 @@ void wait_for_interruption() {
   thread_has_started().count_down();
   int signal = 0;
   if (sigwait(&signals, &signal) != 0) return;
-  const std::lock_guard lock(list.mutex); // never given back
+  const std::lock_guard lock(list.mutex); // never released
   for (auto at = list.all.rbegin(); at != list.all.rend(); ++at)
     at->second();
   end_by(signal);
@@ -67,7 +67,7 @@ void wait_for_interruption() {
 
 void tidy_up_when_interrupted() {
   sigset_t signals = interruptions();
-  // nohup and a shell's background jobs ignore some: then they stay ignored.
+  // Signals that nohup or a shell's background job ignores stay ignored.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action {};
     if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN)

@@ -1,18 +1,19 @@
-// What Ctrl-C, a closed terminal or `kill` leave behind: nothing that nobody wants. Whoever makes a
-// working file or starts a program says here how it is undone; a thread waits for the signal,
-// undoes all of it, and lets the signal end the process as it would have.
+// Cleanup on SIGINT, SIGHUP and SIGTERM. Code that creates a working file or starts a program
+// registers here how to undo it; a thread waits for the signal, undoes everything, and lets the
+// signal end the process as it would have.
 #pragma once
 
 #include <functional>
 
 namespace frictab {
 
-// Once, before any other thread is started. Without it WhenInterrupted does nothing.
+// Starts the waiting thread; call once, before any other thread starts. Without it WhenInterrupted
+// does nothing.
 void tidy_up_when_interrupted();
 
-// While it lives, `undo` runs when the process is interrupted, in the thread that waits for the
-// signal and beside what the others are doing; what was made last is undone first. It must not
-// throw, nor make one of these itself.
+// Runs `undo` if the process is interrupted during this object's lifetime. It runs in the thread
+// that waits for the signal, concurrently with all other threads; the latest registration is undone
+// first. `undo` must not throw and must not create a WhenInterrupted.
 class WhenInterrupted {
 public:
   explicit WhenInterrupted(std::function<void()> undo);
@@ -21,7 +22,7 @@ public:
   WhenInterrupted& operator=(const WhenInterrupted&) = delete;
 };
 
-// While it lives, an interruption waits: a commit is not stopped in its midst.
+// Delays an interruption during this object's lifetime, so that a commit is not stopped halfway.
 class Uninterrupted {
 public:
   Uninterrupted();

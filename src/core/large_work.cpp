@@ -10,7 +10,7 @@ namespace frictab {
 
 namespace {
 
-// The most that this process had in memory at a time: what was held is free again by now.
+// Peak memory of this process: by now the memory that was in use is free again.
 double most_bytes() {
   rusage usage{};
   if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;

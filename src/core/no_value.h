@@ -1,4 +1,4 @@
-// What a number is that is not there.
+// The value of a missing number.
 #pragma once
 
 #include <limits>

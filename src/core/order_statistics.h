@@ -1,4 +1,4 @@
-// Values by their rank, without sorting all of them.
+// Order statistics without a full sort.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace frictab {
 
-// Reorders values begin .. end - 1 so that each of these ranks (ascending, in that range) holds
-// what it would hold if all were sorted.
+// Reorders values begin .. end - 1 so that each of these ranks (ascending, in that range) holds the
+// value that a full sort would put there.
 inline void place_ranks(std::vector<double>& values, std::size_t begin, std::size_t end,
                         std::span<const std::size_t> ranks) {
   if (ranks.empty()) return;

@@ -1,5 +1,5 @@
-// Threads behind one loop, on oneTBB. ThreadSanitizer follows only what was compiled for it, which
-// Debian's oneTBB was not: FRICTAB_STD_THREADS puts std::thread in its place, for that build alone.
+// A parallel loop on oneTBB. ThreadSanitizer follows only code compiled for it, which excludes
+// Debian's oneTBB: FRICTAB_STD_THREADS uses std::thread instead, in that build only.
 #include "core/parallel.h"
 
 #ifdef FRICTAB_STD_THREADS
@@ -28,7 +28,7 @@ void set_threads(unsigned threads) {
   limit = threads;
 }
 
-// A loop within a loop starts threads of its own, so that its body is followed as well.
+// A nested loop starts its own threads, so that ThreadSanitizer follows its body as well.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
   std::atomic<std::size_t> next = 0;
   std::exception_ptr failure;

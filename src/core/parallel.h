@@ -1,5 +1,5 @@
-// Threads behind one loop. Work is split by index, never by thread, so results do not depend on how
-// many threads there are: each index writes its own slot, and the caller reduces in index order.
+// A parallel loop. Work is split by index, never by thread, so results do not depend on the number
+// of threads: each index writes its own slot, and the caller reduces in index order.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +7,11 @@
 
 namespace frictab {
 
-// Limits the threads used from here on; 0 = all cores. Called once, by the command line.
+// Limits the number of threads from now on; 0 = all cores. Called once, by the command line.
 void set_threads(unsigned threads);
 
-// Calls body(i) for i in [0, count), in any order and on any thread. An exception thrown by a body
-// is rethrown to the caller.
+// Calls body(i) for i in [0, count), in any order and on any thread. Rethrows an exception of a
+// body to the caller.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 } // namespace frictab

@@ -1,4 +1,4 @@
-// The only file that knows PCRE2.
+// The only file that uses PCRE2.
 #include "core/pattern.h"
 
 #include <array>
@@ -18,7 +18,8 @@ std::string message_of(int code) {
   return reinterpret_cast<const char*>(text.data());
 }
 
-// The table of names: entries of `size` bytes, two of them the group's number.
+// Group names from PCRE2's name table: entries of `size` bytes, the first two of which are the
+// group's number.
 std::vector<std::string> names_of(const pcre2_code* code) {
   std::uint32_t count = 0, size = 0;
   PCRE2_SPTR table = nullptr;

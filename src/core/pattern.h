@@ -13,13 +13,12 @@ namespace frictab {
 
 class Pattern {
 public:
-  // Throws InputError at `place` where `text` is no regular expression.
+  // Throws InputError at `place` if `text` is not a valid regular expression.
   Pattern(const std::string& text, const Place& place);
 
-  const std::vector<std::string>& names() const { return names_; } // of the groups, sorted
-  // What the named groups hold where the pattern first matches, anywhere in `subject`; nullopt
-  // where it does not. A group that took no part is empty. Throws InputError where the search would
-  // take too long.
+  const std::vector<std::string>& names() const { return names_; } // group names, sorted
+  // Contents of the named groups at the first match anywhere in `subject`; nullopt without a match.
+  // A group that did not take part is empty. Throws InputError if the search would take too long.
   std::optional<std::map<std::string, std::string>> search(const std::string& subject) const;
 
 private:

@@ -1,4 +1,4 @@
-// By posix_spawn, without a shell.
+// Runs programs by posix_spawn, without a shell.
 #include "core/program.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ namespace {
 constexpr std::chrono::milliseconds longest_pause{5};
 constexpr std::size_t shown_at_each_end = 4000;
 
-// A compiler may say the same a million times.
+// A compiler may repeat one message a million times.
 std::string beginning_and_end(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string text(2 * shown_at_each_end + 1, '\0');
@@ -55,7 +55,7 @@ public:
     posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     posix_spawn_file_actions_adddup2(&actions, 1, 2);
     posix_spawnattr_init(&attributes);
-    sigset_t none; // the thread that waits for signals (interrupt.h) is not there
+    sigset_t none; // the child has no thread that waits for signals (interrupt.h)
     sigemptyset(&none);
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setpgroup(&attributes, 0);
@@ -72,7 +72,7 @@ public:
   posix_spawnattr_t attributes{};
 };
 
-// Its status; nothing where it does not end in time.
+// Exit status; nullopt if the child does not end in time.
 std::optional<int> wait_for(pid_t child, std::chrono::seconds patience) {
   const auto end = std::chrono::steady_clock::now() + patience;
   for (std::chrono::milliseconds pause(1);; pause = std::min(2 * pause, longest_pause)) {
@@ -85,7 +85,7 @@ std::optional<int> wait_for(pid_t child, std::chrono::seconds patience) {
   }
 }
 
-// Gives the exit status of waitpid.
+// Returns the exit status as waitpid gives it.
 int run(const std::vector<std::string>& command, const fs::path& log,
         std::chrono::seconds patience) {
   std::vector<char*> argv;
@@ -100,7 +100,7 @@ int run(const std::vector<std::string>& command, const fs::path& log,
     throw std::runtime_error("cannot run " + command[0] + ": " + std::strerror(failed));
   const WhenInterrupted killed([child] { ::kill(-child, SIGKILL); });
   const std::optional<int> status = wait_for(child, patience);
-  ::kill(-child, SIGKILL); // what it has started goes with it
+  ::kill(-child, SIGKILL); // kills the processes it has started as well
   if (status) return *status;
   ::waitpid(child, nullptr, 0);
   throw std::runtime_error(fmt::format("{}\ndid not end within {} s and was stopped\n{}",
@@ -134,7 +134,7 @@ fs::path temporary_place() {
 
 namespace {
 
-// Twice: something may still be written to it when the process is interrupted.
+// Removes twice, because other threads may still write to the tree during an interruption.
 void remove_tree(const fs::path& path) noexcept {
   std::error_code ignored;
   for (int time = 0; time < 2; ++time)

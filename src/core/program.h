@@ -1,4 +1,4 @@
-// Other programs (compilers, xlsx2csv) and the directories they work in.
+// External programs (compilers, xlsx2csv) and their working directories.
 #pragma once
 
 #include <chrono>
@@ -11,26 +11,25 @@
 
 namespace frictab {
 
-// True where a program of this name is on PATH (or is a path that can be executed), or none is
-// asked for.
+// True if a program of this name is on PATH (or is an executable path), or if the name is empty.
 bool have_program(const std::string& name);
 
-// A program that does not end: a compiler that waits for a licence, say.
+// Time limit for a program that may hang, for example a compiler that waits for a licence.
 inline constexpr std::chrono::seconds usual_patience{600};
 
 // Runs a program without a shell; its output goes to `log`. Throws std::runtime_error with the
-// beginning and the end of that output where it fails, or where it does not end in time: it is then
-// killed, with all that it has started.
+// beginning and the end of that output if the program fails or exceeds `patience`; in the latter
+// case the program and every process it has started are killed.
 void run_program(const std::vector<std::string>& command, const std::filesystem::path& log,
                  std::chrono::seconds patience = usual_patience);
 
-// TMPDIR; /tmp where that is not set or empty.
+// TMPDIR, or /tmp if that is unset or empty.
 std::filesystem::path temporary_place();
 
-// A directory of our own below that place, removed with everything in it.
+// A new directory below temporary_place(), removed with all its contents.
 class TemporaryDirectory {
 public:
-  TemporaryDirectory(); // throws InputError where none can be made
+  TemporaryDirectory(); // throws InputError if none can be created
   ~TemporaryDirectory();
   TemporaryDirectory(const TemporaryDirectory&) = delete;
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;

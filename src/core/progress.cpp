@@ -1,4 +1,5 @@
-// Draws from a thread of its own, which lives as long as there is work: first after one second.
+// Draws progress from a separate thread, which lives as long as there is work; the first line comes
+// after one second.
 #include "core/progress.h"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ std::size_t terminal_width() {
   return size.ws_col;
 }
 
-// All work there is, and the thread that shows it.
+// All current work, and the thread that displays it.
 class Display {
 public:
   void add(std::shared_ptr<Progress::Work> work) {
@@ -86,7 +87,7 @@ private:
   void draw(bool in_place) {
     std::vector<ProgressState> states{works_.front()->state()};
     if (works_.size() > 1) states.push_back(works_.back()->state());
-    // A line that ends in the last column would go on in the next one.
+    // Most terminals wrap a line that fills the last column.
     const std::string text = progress_text(states, terminal_width() - 1);
     if (in_place)
       fmt::print(stderr, "\r\x1b[K{}", text);
@@ -103,17 +104,17 @@ private:
     drawn_ = false;
   }
 
-  // Before an interrupted program says what it leaves: nothing is drawn after this.
+  // Erases the line before an interrupted program reports what it leaves; draws nothing afterwards.
   void erase_at_the_end() {
     const std::lock_guard lock(mutex_);
     stop_ = true;
     erase();
   }
 
-  std::mutex turns_; // of what starts and ends the thread
-  std::mutex mutex_; // of what follows; whoever holds it waits for nothing
+  std::mutex turns_; // guards the start and the end of the thread
+  std::mutex mutex_; // guards the members below; its owner never blocks
   std::condition_variable wake_;
-  std::vector<std::shared_ptr<Progress::Work>> works_; // the outermost first
+  std::vector<std::shared_ptr<Progress::Work>> works_; // outermost first
   std::optional<WhenInterrupted> tidy_;
   std::thread thread_;
   bool stop_ = false, drawn_ = false;
@@ -137,7 +138,7 @@ std::string time_text(double seconds) {
   return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
 }
 
-// Of the steps so far, how long the others take; "" where none is done.
+// Estimated time left from the duration of the steps so far; "" before the first one.
 std::string left_text(const ProgressState& work) {
   const std::size_t done = std::min(work.done, work.total);
   const std::size_t here = done - std::min(work.before, done);

@@ -1,4 +1,4 @@
-// One progress line on stderr, for work that lasts over a second.
+// A progress line on stderr, for work that lasts more than a second.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@ namespace frictab {
 
 enum class ProgressStyle {
   off,
-  line,  // drawn again in its place: a terminal
-  lines, // one below the other, now and then: a log, or a terminal that cannot erase
+  line,  // redrawn in place: a terminal
+  lines, // a new line now and then: a log, or a terminal that cannot erase
 };
 
-// Off until switched on by the command line.
+// Sets the style. The default is off; the command line switches it on.
 void show_progress(ProgressStyle style);
 
-// A piece of work of `total` steps (0: how many is not known; 1 shows no steps), from construction
-// to destruction; tick() from any thread. Work within other work is shown behind it: of several
-// pieces at a time the one that began last. `before`: steps that an earlier run has done.
+// A piece of work of `total` steps (0: number unknown; 1: shows no steps), from construction to
+// destruction; tick() may be called from any thread. Nested work is shown after the outer one; of
+// several pieces at a time only the latest is shown. `before`: steps completed by an earlier run.
 class Progress {
 public:
   Progress(std::string title, std::size_t total, std::size_t before = 0);
@@ -34,15 +34,15 @@ private:
   std::shared_ptr<Work> work_;
 };
 
-// How far a piece of work is.
+// Progress of one piece of work.
 struct ProgressState {
   std::string title;
   std::size_t done = 0, total = 0, before = 0;
   double seconds = 0;
 };
 
-// The line for the outermost work and the one within it that is shown (or none), of at most `width`
-// columns: where there is little room the bar goes first, then the end of the text.
+// The line for the outermost work and the nested one that is shown (or none), at most `width`
+// columns wide: if space is short the bar is dropped first, then the end of the text.
 std::string progress_text(const std::vector<ProgressState>& works, std::size_t width);
 
 } // namespace frictab

@@ -1,5 +1,5 @@
-// Seeded random numbers that are the same on every platform and for any number of threads: each
-// stream is named by a key, so nothing depends on the order of calls elsewhere.
+// Seeded random numbers, equal on every platform and for any number of threads: each stream is
+// identified by a key, so nothing depends on the order of calls elsewhere.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ private:
 };
 
 // Point `index` of the Halton sequence in (0,1)^dims, dims = out.size(): coordinate d is the
-// radical inverse of index + 1 in the d-th prime (Halton 1960). Fills the box evenly.
+// radical inverse of index + 1 in the d-th prime (Halton 1960). Covers the box evenly.
 void halton(std::uint64_t index, std::span<double> out);
 
 } // namespace frictab

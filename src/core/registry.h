@@ -1,6 +1,5 @@
-// Things that describe themselves as data (laws, effects, targets) and are found because they
-// exist. A file adds one with a file-scope `const Registered<T> registered{make};`; it links
-// because the library is a CMake OBJECT library.
+// Registry of self-describing things (laws, effects, targets). A file adds one with a file-scope
+// `const Registered<T> registered{make};`; it links because the library is a CMake OBJECT library.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +16,8 @@ template <class T> const T& registered_item(const std::unique_ptr<T>& item) {
   return *item;
 }
 
-// T has `std::string name` and `int order` (the position in listings), or is a std::unique_ptr to
-// an interface that has.
+// Requires of T: `std::string name` and `int order` (the position in listings). T may also be a
+// std::unique_ptr to an interface with these.
 template <class T> class Registry {
 public:
   static Registry& instance() {

@@ -1,4 +1,4 @@
-// Reads i/n.
+// Parses i/n.
 #include "core/shard.h"
 
 #include <algorithm>

@@ -40,7 +40,7 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
       best = candidate;
     }
   }
-  // What a person shortens is no typing error: tolerance for tolerance_MPa, not for trace.
+  // An abbreviation is not a typing error: it gives tolerance_MPa for tolerance, not trace.
   if (name.size() >= 3 && (best.empty() || best_distance > 2))
     for (const std::string& candidate : candidates)
       if (candidate.starts_with(name)) return candidate;
@@ -93,7 +93,7 @@ std::string_view utf8_start(std::string_view text, std::size_t bytes) {
   for (std::size_t back = 0; back < std::min<std::size_t>(4, bytes); ++back)
     if ((static_cast<unsigned char>(text[bytes - back]) & 0xC0) != 0x80)
       return text.substr(0, bytes - back);
-  return text.substr(0, bytes); // no UTF-8
+  return text.substr(0, bytes); // not UTF-8
 }
 
 std::string printable(std::string_view text) {

@@ -1,4 +1,4 @@
-// Units by UDUNITS-2.
+// Unit conversion by UDUNITS-2.
 #include "core/units.h"
 
 #include <cmath>
@@ -14,11 +14,12 @@ namespace frictab {
 
 namespace {
 
-// The library's own database and what rigs write beside it; one thread at a time may ask it.
+// The library's database and the spellings that rigs use in addition; one thread at a time may
+// query it.
 class Units {
 public:
   Units() {
-    ut_set_error_message_handler(ut_ignore); // names are asked for that may be none
+    ut_set_error_message_handler(ut_ignore); // unknown names are expected
     system_ = ut_read_xml(nullptr);
     if (!system_)
       throw std::runtime_error("the units of UDUNITS-2 cannot be read: is libudunits2-data "
@@ -49,7 +50,7 @@ private:
     return out;
   }
 
-  // nullopt where it is no straight line: logarithmic units, or the reciprocal of the unit.
+  // nullopt if the conversion is not linear: logarithmic units, or the reciprocal of the unit.
   static std::optional<Conversion> converter(ut_unit* a, ut_unit* b) {
     cv_converter* const how = ut_get_converter(a, b);
     if (!how) return std::nullopt;
@@ -62,7 +63,7 @@ private:
     return Conversion{rounded(factor), rounded(at_0)};
   }
 
-  // 1e-06 where the library's own multiplications give 9.9999999999999995e-07.
+  // Rounds 9.9999999999999995e-07, which the library's own multiplications give, to 1e-06.
   static double rounded(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.12g", value);
@@ -76,7 +77,7 @@ private:
 };
 
 Units& units() {
-  static Units* const all = new Units; // kept to the end: threads may still ask
+  static Units* const all = new Units; // never destroyed: threads may still use it at exit
   return *all;
 }
 

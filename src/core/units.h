@@ -15,10 +15,10 @@ struct Conversion {
   double operator()(double value) const { return factor * value + offset; }
 };
 
-// nullopt where either unit is unknown or they do not measure the same thing.
+// nullopt if either unit is unknown or their dimensions differ.
 std::optional<Conversion> convert(std::string_view from, std::string_view to);
 
-// The units that convert to `unit`, for messages.
+// Units that convert to `unit`, for messages.
 std::vector<std::string> units_like(std::string_view unit);
 
 } // namespace frictab

@@ -1,9 +1,9 @@
-// Loops compiled three times: for any x86-64, and for one with AVX2 or AVX-512, chosen when the
-// program starts. Only for element-wise arithmetic and sums of fixed order, where the width of a
-// register changes the speed but no bit (-ffp-contract=off: no product is fused with a sum).
+// Loops compiled three times: for any x86-64, for AVX2 and for AVX-512; the variant is chosen at
+// program start. Only for element-wise arithmetic and sums of fixed order, where the register width
+// changes the speed but no bit (-ffp-contract=off: products are not fused with sums).
 #pragma once
 
-// Sanitizers run before the choice can be made.
+// Code of the sanitizers runs before the variant can be chosen.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) &&                             \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define FRICTAB_WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
@@ -11,7 +11,7 @@
 #define FRICTAB_WIDE
 #endif
 
-// For what such a loop is made of: only what is inlined into it is compiled so.
+// For functions called in such a loop: only inlined code is compiled for the chosen variant.
 #if defined(__GNUC__)
 #define FRICTAB_INLINE __attribute__((always_inline)) inline
 #else

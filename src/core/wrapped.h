@@ -1,4 +1,4 @@
-// Text in lines of a given width.
+// Text broken into lines of a given width.
 #pragma once
 
 #include <cstddef>
@@ -6,11 +6,12 @@
 
 namespace frictab {
 
-// Columns of what is printed to people: those of a terminal as it opens.
+// Width of printed text: that of a newly opened terminal.
 inline constexpr std::size_t page_width = 80;
 
-// Broken at blanks into lines of at most `width` characters; longer words stay whole. Lines but the
-// first are indented, and the first is thought to begin there. Line ends of the text's own stay.
+// Breaks text at blanks into lines of at most `width` characters; longer words stay whole. All
+// lines except the first are indented, and the first is assumed to start at the indentation. Line
+// ends within the text stay.
 std::string wrapped(const std::string& text, std::size_t width, std::size_t indent);
 
 } // namespace frictab
