@@ -1,4 +1,4 @@
-// Writes a command's files into a staging directory beside the target and renames them at the end.
+// Writes a command's files into a staging directory inside the target and renames them at the end.
 #include "io/atomic_file.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::string staging_prefix = ".frictab-", one_file_prefix = ".frictab-file-";
-// In a staging directory.
+// Names inside a staging directory.
 const std::string new_files = "new", old_files = "old", journal_name = "journal",
                   keep_name = "keep";
 
@@ -33,11 +33,11 @@ const std::string new_files = "new", old_files = "old", journal_name = "journal"
       fmt::format("cannot {} {}: {}", what, file.string(), std::strerror(errno)));
 }
 
-// Onto the disk: a file's content, or the names in a directory.
+// Flushes a file's content, or the entries of a directory, to disk.
 void sync(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) cannot("open", path);
-  // A file system that cannot do it for directories says so.
+  // Some file systems cannot sync directories and fail with EINVAL or ENOTSUP.
   const bool done = ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP;
   const int error = errno;
   const bool closed = ::close(file) == 0;
@@ -49,7 +49,7 @@ void rename_file(const fs::path& from, const fs::path& to) {
   if (::rename(from.c_str(), to.c_str()) != 0) cannot("write", to);
 }
 
-// Relative, within the directory, and no folder on its way is a link that leads elsewhere.
+// Requires a relative path inside the directory; no folder on its way may be a symbolic link.
 void check_inside(const fs::path& directory, const std::string& path) {
   const fs::path given(path);
   bool inside = !path.empty() && given.is_relative();
@@ -76,7 +76,7 @@ struct Rename {
   std::string from, to; // both relative to the directory
 };
 
-// What a commit does, in its order; as JSON it is the journal.
+// The ordered steps of a commit; written as JSON it is the journal.
 struct Journal {
   std::vector<Rename> renames;     // into place
   std::vector<std::string> remove; // files of an earlier run
@@ -121,23 +121,23 @@ void write_journal(const fs::path& staging, const Journal& journal) {
   sync(staging);
 }
 
-// Keeps what stands there until all is done.
+// Keeps the existing file until the commit is complete.
 void keep_old(const fs::path& target, const fs::path& backup) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(target, error))) return;
   fs::create_directories(backup.parent_path());
   fs::create_hard_link(target, backup, error);
-  if (error) fs::copy_file(target, backup); // a file system without links
+  if (error) fs::copy_file(target, backup); // file system without hard links
 }
 
-// Empty directories on the way to a file that has gone.
+// Removes directories that became empty when this file was removed.
 void remove_empty(const fs::path& directory, fs::path at) {
   std::error_code ignored;
   for (at = at.parent_path(); !at.empty(); at = at.parent_path())
     if (!fs::remove(directory / at, ignored)) return;
 }
 
-// The renames of a journal; all of them, or none.
+// Executes the renames of a journal, all or none.
 class Commit {
 public:
   Commit(const fs::path& directory, const fs::path& staging, const Journal& journal)
@@ -165,7 +165,7 @@ public:
   }
   bool taken_back() const { return taken_back_; }
 
-  // Where a process died in the midst.
+  // Completes the commit of a process that died halfway.
   void finish() {
     for (const Rename& one : journal_.renames)
       if (fs::exists(directory_ / one.from)) {
@@ -211,7 +211,7 @@ void write_text(const fs::path& file, std::string_view content) {
   if (!out) cannot("write", file);
 }
 
-// ---- what earlier processes left ----
+// ---- leftovers of earlier processes ----
 
 bool is_older_than_a_day(const fs::path& path) {
   std::error_code ignored;
@@ -230,7 +230,8 @@ std::vector<fs::path> staging_directories(const fs::path& directory) {
   return found;
 }
 
-// What an unfinished run had staged: kept where that was asked for, in place of what was.
+// Moves the staged files of an unfinished run to .frictab-kept if the run called keep(), replacing
+// its contents; otherwise removes them.
 void keep_or_remove(const fs::path& directory, const fs::path& staging) noexcept {
   std::error_code error;
   if (fs::exists(staging / keep_name, error)) {
@@ -241,8 +242,8 @@ void keep_or_remove(const fs::path& directory, const fs::path& staging) noexcept
   fs::remove_all(staging, error);
 }
 
-// Those of processes that died: what they had begun to commit is finished. A lock says that they
-// died; without one they are left alone for a day.
+// Handles staging directories of dead processes and finishes their commits. A lock proves that they
+// are dead; without a lock, directories younger than a day are left untouched.
 void clear_abandoned(const fs::path& directory, bool locked) {
   std::error_code ignored;
   for (const fs::path& staging : staging_directories(directory)) {
@@ -276,7 +277,7 @@ OutputFiles::OutputFiles(fs::path directory, Claim claim) : directory_(std::move
   if (created_)
     directory_when_interrupted_.emplace([this] {
       std::error_code ignored;
-      fs::remove(directory_, ignored); // only where it is empty
+      fs::remove(directory_, ignored); // fails unless it is empty
     });
   if (claim == Claim::directory) {
     lock_.emplace(directory_);
@@ -285,7 +286,7 @@ OutputFiles::OutputFiles(fs::path directory, Claim claim) : directory_(std::move
   staging_ = make_staging(directory_, claim == Claim::directory ? staging_prefix : one_file_prefix);
   when_interrupted_.emplace([this] {
     abandon();
-    abandon(); // other threads may have been writing
+    abandon(); // other threads may have written in the meantime
   });
 }
 
@@ -294,13 +295,13 @@ OutputFiles::~OutputFiles() {
   abandon();
   lock_.reset();
   std::error_code ignored;
-  if (created_) fs::remove(directory_, ignored); // only where it is empty
+  if (created_) fs::remove(directory_, ignored); // fails unless it is empty
 }
 
-// Nothing is left to do behind commit().
+// Removes staged files; after commit() there are none.
 void OutputFiles::abandon() noexcept {
   std::error_code ignored;
-  if (fs::exists(staging_ / journal_name, ignored)) return; // the next one finishes it
+  if (fs::exists(staging_ / journal_name, ignored)) return; // the next writer finishes it
   keep_or_remove(directory_, staging_);
 }
 
@@ -323,7 +324,7 @@ void OutputFiles::take_kept(const std::string& path) {
 void OutputFiles::write(const std::string& path, std::string_view content) {
   const fs::path file = stage(path);
   std::error_code ignored;
-  fs::remove(file, ignored); // a second name of a file that was kept
+  fs::remove(file, ignored); // may be a hard link to a kept file
   write_text(file, content);
   hashes_[path] = hash_of(content);
 }
@@ -370,7 +371,8 @@ void OutputFiles::commit() {
   try {
     commit.run();
   } catch (...) {
-    if (commit.taken_back()) fs::remove(staging_ / journal_name); // else the next one finishes it
+    // else the next writer finishes it
+    if (commit.taken_back()) fs::remove(staging_ / journal_name);
     throw;
   }
   commit.tidy();
@@ -417,7 +419,7 @@ std::string read_file(const fs::path& file) {
   if (!in)
     throw InputError({file.string(), 0, 0}, "cannot be read",
                      fs::exists(file, error) ? "check its permissions" : "there is no such file");
-  std::string text; // in large pieces: character by character is ten times slower
+  std::string text; // read in large pieces: one character at a time is ten times slower
   std::size_t size = 0;
   do {
     text.resize(std::max<std::size_t>(

@@ -14,70 +14,70 @@
 
 namespace frictab::io {
 
-// Where unfinished work is kept, in a result directory.
+// Folder of a result directory that stores unfinished work.
 inline constexpr const char* kept_name = ".frictab-kept";
 
-// Files of one command. They are written beside what is there, in a staging directory, and moved
-// into place by commit(); without commit() nothing changes. Paths are relative to the directory,
-// lead nowhere else, and through no symbolic link.
+// Output files of one command. They are written into a staging directory next to the existing files
+// and moved into place by commit(); without commit() nothing changes. Paths are relative to the
+// directory and may neither leave it nor pass through a symbolic link.
 //
 // commit() is all or nothing. It syncs the files, compares texts with what was to be written, and
-// leaves a journal of its renames in the staging directory; where one of them fails, those before
-// are taken back; where the process dies, the next one to write here finishes them.
+// leaves a journal of its renames in the staging directory. If a rename fails, the earlier ones are
+// undone; if the process dies, the next writer in this directory finishes them.
 class OutputFiles {
 public:
-  // A directory has one such writer at a time. one_file: a single file among others' files, which
-  // keeps nobody off.
+  // directory: the only writer in its directory. one_file: writes one file among others' files and
+  // takes no lock.
   enum class Claim { directory, one_file };
   explicit OutputFiles(std::filesystem::path directory, Claim claim = Claim::directory);
-  ~OutputFiles(); // removes what was not committed
+  ~OutputFiles(); // removes uncommitted files
   OutputFiles(const OutputFiles&) = delete;
   OutputFiles& operator=(const OutputFiles&) = delete;
 
   void write(const std::string& path, std::string_view content);
-  // A place to write one file by other means (HDF5); committed like the others.
+  // Path for a file that is written by other means (HDF5) and committed like the others.
   std::filesystem::path stage(const std::string& path);
-  // Where a file of paths() lies until commit().
+  // Location of a file of paths() until commit().
   std::filesystem::path staged(const std::string& path) const;
-  // False where the file system has no locks: a second writer would not be kept off.
+  // False if the file system has no locks: a second writer would then not be excluded.
   bool is_exclusive() const { return lock_ && lock_->held(); }
-  // From here on the staged files are worth keeping without commit(), whatever ends the process:
-  // they go to the directory's .frictab-kept, with `record` as its file `name`. commit() removes
-  // what is kept there.
+  // Makes the staged files survive the end of the process without commit(): from here on they then
+  // move to the directory's .frictab-kept, with `record` as its file `name`. commit() removes the
+  // contents of .frictab-kept.
   void keep(const std::string& name, std::string_view record);
-  // Stages a file that was kept.
+  // Stages a file from .frictab-kept.
   void take_kept(const std::string& path);
-  // A file of an earlier run that commit() removes unless it was written anew; directories that
-  // become empty go with it.
+  // Marks a file of an earlier run that commit() removes unless it was written again; directories
+  // that become empty are removed as well.
   void remove_old(const std::string& path);
-  // Throws std::runtime_error where the disk refuses.
+  // Throws std::runtime_error if writing to the disk fails.
   void commit();
-  // True where a staged file already exists in the directory with other content: what a command
-  // that must not overwrite asks before commit().
+  // True if a staged file already exists in the directory with different content; for commands that
+  // must not overwrite, before commit().
   bool would_change() const;
   std::vector<std::string> paths() const;                      // staged so far, sorted
-  const std::vector<std::string>& old() const { return old_; } // that commit() removes
+  const std::vector<std::string>& old() const { return old_; } // files that commit() removes
 
 private:
   void abandon() noexcept;
 
   std::filesystem::path directory_;
-  bool created_ = false; // the directory is ours to remove again
+  bool created_ = false; // this object created the directory and may remove it
   std::optional<DirectoryLock> lock_;
   std::filesystem::path staging_;
-  // The first before the lock is made, which goes before the directory can.
+  // Constructed before the lock, because the lock has to go before the directory can.
   std::optional<WhenInterrupted> directory_when_interrupted_, when_interrupted_;
   std::vector<std::string> paths_;
   std::map<std::string, std::uint64_t> hashes_; // of texts, by path
   std::vector<std::string> old_;
 };
 
-// Finishes what a process that died had begun to commit, if there is such; what reads the
-// directory calls it. Does nothing while somebody writes there; throws InputError where it cannot
-// be finished.
+// Finishes the commit of a process that died, if there is one; readers of the directory call it.
+// Does nothing while another process writes there. Throws InputError if the commit cannot be
+// finished.
 void finish_interrupted(const std::filesystem::path& directory);
 
-// The whole file; throws InputError where it cannot be read.
+// Reads a whole file. Throws InputError if it cannot be read.
 std::string read_file(const std::filesystem::path& file);
 
 } // namespace frictab::io

@@ -1,4 +1,4 @@
-// A CSV reader that goes over the text once.
+// A single-pass CSV reader.
 #include "io/csv.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::string_view trim(std::string_view s) {
   return s;
 }
 
-// The number a cell holds; false where it holds anything else.
+// Parses the number in a cell; false if the cell contains anything else.
 bool parse_number(std::string_view cell, const CsvFormat& format, double& value) {
   cell = trim(cell);
   return read_number(cell, format.decimal, value) ||
@@ -44,7 +44,7 @@ bool valid_utf8(std::string_view text) {
   return true;
 }
 
-// What is not UTF-8 is taken as Latin-1, as older measuring programs write it.
+// Takes text that is not UTF-8 as Latin-1, the encoding of older measuring programs.
 std::string to_utf8(std::string_view text) {
   if (valid_utf8(text)) return std::string(text);
   std::string out;
@@ -60,7 +60,7 @@ std::string to_utf8(std::string_view text) {
   return out;
 }
 
-// A text in UTF-16 as UTF-8; nullopt where it is none.
+// Converts UTF-16 text to UTF-8; nullopt if the text is not UTF-16.
 std::optional<std::string> from_utf16(std::string_view text) {
   const bool little = text.starts_with("\xFF\xFE"), big = text.starts_with("\xFE\xFF");
   if (!little && !big) return std::nullopt;
@@ -84,7 +84,7 @@ bool has_lone_return(std::string_view text) {
   return false;
 }
 
-// Walks over the text cell by cell.
+// Scans the text cell by cell.
 class Scanner {
 public:
   Scanner(std::string_view text, char delimiter, std::size_t first_line = 1)
@@ -96,7 +96,7 @@ public:
   std::size_t position() const { return at_; }
   std::size_t unclosed_line() const { return unclosed_line_; } // 0 = none
 
-  // Takes the cell if it is a plain number: the way most cells of a file go.
+  // Fast path, used for most cells of a file: takes the cell if it is a plain number.
   bool number(char decimal, double& value, bool& last) {
     const char* p = text_.data() + at_;
     const char* const end = text_.data() + text_.size();
@@ -123,8 +123,8 @@ public:
     return line;
   }
 
-  // The next cell of this row; `last` is set where the row ends with it. Quoted cells are unquoted
-  // into `storage`.
+  // The next cell of this row; `last` is set if it ends the row. Quoted cells are unquoted into
+  // `storage`.
   std::string_view cell(bool& last, std::string& storage) {
     if (delimiter_ == ' ') skip_blanks();
     if (!at_end() && text_[at_] == '"') return quoted(last, storage);
@@ -173,7 +173,7 @@ private:
       }
       if (text_[at_] == '"') {
         ++at_;
-        if (at_end() || text_[at_] != '"') break; // "" is one "
+        if (at_end() || text_[at_] != '"') break; // "" stands for one "
       }
       if (text_[at_] == '\n') ++line_;
       storage += text_[at_];
@@ -202,8 +202,9 @@ std::size_t count_cells(std::string_view line, char delimiter) {
   return count;
 }
 
-// The separator of a header: the one that occurs most, blanks where there is none. One that cuts
-// the line below alike goes first: names hold commas too ("Load (N, mean)").
+// Separator of a header: the most frequent candidate, or blanks if there is none. A candidate that
+// gives the line below the same number of cells takes precedence, because names contain commas too
+// ("Load (N, mean)").
 char find_delimiter(std::string_view header, std::string_view below, char decimal) {
   char best = ' ';
   std::size_t most = 0;
@@ -230,7 +231,7 @@ std::string_view without_footer(std::string_view text, std::size_t lines) {
   return text;
 }
 
-// A line of blanks, or of delimiters alone, as spreadsheets leave where a row is empty.
+// True for a line of blanks or of delimiters only, as spreadsheets write empty rows.
 bool is_blank(std::string_view text, std::size_t from) {
   for (; from < text.size() && text[from] != '\n'; ++from)
     if (!std::strchr(" \t\r,;|", text[from])) return false;
@@ -245,7 +246,7 @@ std::vector<std::string> read_names(Scanner& scanner) {
   return names;
 }
 
-// Which columns are kept as text.
+// Flags the columns whose cells stay text.
 std::vector<char> text_columns(const CsvTable& table, const CsvFormat& format) {
   std::vector<char> is_text(table.columns.size());
   for (std::size_t i = 0; i < is_text.size(); ++i)
@@ -255,13 +256,13 @@ std::vector<char> text_columns(const CsvTable& table, const CsvFormat& format) {
   return is_text;
 }
 
-// How many cells a line has, without empty ones behind the last column, and how many of them were
-// put into columns.
+// `filled`: cells of a line without the empty ones after the last column; `kept`: cells stored in
+// columns.
 struct Cells {
   std::size_t filled = 0, kept = 0;
 };
 
-// Empty cells where the column has none in front of this row.
+// Appends empty cells for the rows before this one that the column lacks.
 void pad(CsvColumn& column, std::size_t row) {
   for (std::size_t i = column.numbers.size(); i < row; ++i) {
     column.numbers.push_back(no_value);
@@ -269,8 +270,8 @@ void pad(CsvColumn& column, std::size_t row) {
   }
 }
 
-// Reads one line's cells into row `row` of the columns. Empty ones behind the last name are left
-// out until a filled one follows: a header may end with a thousand delimiters.
+// Reads one line's cells into row `row` of the columns. Empty cells after the last name are stored
+// only if a filled one follows: a header may end with a thousand delimiters.
 Cells read_cells(CsvTable& table, Scanner& scanner, const CsvFormat& format,
                  const std::vector<char>& is_text, std::size_t named, std::size_t row) {
   std::string storage;
@@ -301,7 +302,8 @@ Cells read_cells(CsvTable& table, Scanner& scanner, const CsvFormat& format,
   return {filled, std::min(cells, is_text.size())};
 }
 
-// Without those behind the last name: a header may end with delimiters that its rows do not have.
+// Number of columns up to the last name: a header may end with delimiters that its rows do not
+// have.
 std::size_t named_columns(const CsvTable& table) {
   std::size_t count = table.columns.size();
   while (count > 0 && table.columns[count - 1].name.empty())
@@ -309,7 +311,8 @@ std::size_t named_columns(const CsvTable& table) {
   return count == 0 ? table.columns.size() : count;
 }
 
-// Columns behind the last name that hold nothing are none; the others get their empty cells.
+// Removes nameless columns without content after the last name and pads the others with empty
+// cells.
 void settle_nameless(CsvTable& table, std::size_t named) {
   while (table.columns.size() > named && table.columns.back().numbers.empty())
     table.columns.pop_back();
@@ -322,13 +325,13 @@ bool starts_with_line(std::string_view text, std::size_t at, std::string_view li
          (at + line.size() == text.size() || text[at + line.size()] == '\n');
 }
 
-// Moves over blank lines.
+// Skips blank lines.
 void skip_blank_lines(Scanner& lines, std::string_view text) {
   while (!lines.at_end() && is_blank(text, lines.position()))
     lines.take_line();
 }
 
-// Moves over a header line that comes again, with its units.
+// Skips a repeated header line and its units.
 void skip_header(Scanner& scanner, std::string_view text, bool units_row) {
   scanner.take_line();
   if (!units_row) return;
@@ -336,7 +339,8 @@ void skip_header(Scanner& scanner, std::string_view text, bool units_row) {
   if (!scanner.at_end()) scanner.take_line();
 }
 
-// Of as many columns as it reached: a short line in a wide file costs no more than it holds.
+// Removes a row from the columns that it reached, so that a short line in a wide file costs only
+// its own cells.
 void forget_row(CsvTable& table, std::size_t row, std::size_t columns) {
   for (std::size_t i = 0; i < columns; ++i) {
     CsvColumn& column = table.columns[i];
@@ -346,19 +350,19 @@ void forget_row(CsvTable& table, std::size_t row, std::size_t columns) {
   }
 }
 
-// A line that is no row.
+// A line that is not a row.
 struct RaggedLine {
   std::size_t line, cells;
 };
 
-// Once per number of cells.
+// Reports ragged lines, once per number of cells.
 void tell_ragged(const std::vector<RaggedLine>& ragged, const CsvTable& table, FaultList& faults) {
   std::map<std::size_t, std::size_t> count;
   for (const RaggedLine& one : ragged)
     ++count[one.cells];
   for (const RaggedLine& one : ragged) {
     std::size_t& lines = count[one.cells];
-    if (lines == 0) continue; // told
+    if (lines == 0) continue; // already reported
     faults.add({table.file, one.line, 0},
                fmt::format("{} cells, the header has {}{}", one.cells, table.columns.size(),
                            and_more(lines - 1, "line")),
@@ -372,7 +376,8 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
   const std::size_t width = table.columns.size(), named = named_columns(table);
   const std::vector<char> is_text = text_columns(table, format);
   std::size_t again = 0, in_front = 0, delimiters_alone = 0;
-  std::vector<RaggedLine> ragged, since_row; // lines of a header that comes again are no faults
+  // ragged lines just before a repeated header are not faults
+  std::vector<RaggedLine> ragged, since_row;
   const auto tell = [&] {
     ragged.insert(ragged.end(), since_row.begin(), since_row.end());
     since_row.clear();
@@ -422,7 +427,7 @@ std::vector<std::string> notes_of(const CsvPassedOver& lines) {
   return notes;
 }
 
-// The header of the table, checked; moves `scanner` behind it.
+// Reads and checks the header; moves `scanner` past it.
 void read_header(CsvTable& table, Scanner& scanner, const CsvFormat& format) {
   std::size_t numeric = 0;
   double ignored = 0;
@@ -453,7 +458,7 @@ std::string_view line_at(std::string_view text, std::size_t begin) {
                              : std::string_view();
 }
 
-// Whether a cell of a header is one of the names, or one of them with a unit.
+// True if a header cell is one of the names, with or without a unit.
 bool is_wanted(const std::string& cell, const CsvFormat& format) {
   if (format.also_wanted && format.also_wanted(cell)) return true;
   const std::string name = read_header_name(cell).name;
@@ -461,7 +466,7 @@ bool is_wanted(const std::string& cell, const CsvFormat& format) {
                      [&](const std::string& wanted) { return wanted == cell || wanted == name; });
 }
 
-// How many of the names stand in a line, however it is cut.
+// Number of wanted names in a line, for the delimiter that gives the most.
 std::size_t count_names(std::string_view line, const CsvFormat& format) {
   std::size_t most = 0;
   for (const char delimiter : {',', ';', '\t', '|', ' '}) {
@@ -475,13 +480,13 @@ std::size_t count_names(std::string_view line, const CsvFormat& format) {
   return most;
 }
 
-// Moves over the preamble to the header line. Throws where there is none.
+// Skips the preamble up to the header line. Throws if there is none.
 void find_header(Scanner& lines, std::string_view text, const std::string& file,
                  const CsvFormat& format) {
   for (std::size_t i = 0; i < format.skip_rows && !lines.at_end(); ++i)
     lines.take_line();
   skip_blank_lines(lines, text);
-  // "sep=;": a word to spreadsheets, no header.
+  // "sep=;" is a directive to spreadsheets, not a header.
   if (format.skip_rows == 0 && line_at(text, lines.position()).starts_with("sep="))
     lines.take_line();
   if (lines.at_end())
@@ -502,7 +507,7 @@ void find_header(Scanner& lines, std::string_view text, const std::string& file,
   lines = best;
 }
 
-// A text of which lines end with \n; `storage` holds it where they ended with CR alone.
+// The text with \n as line end; `storage` keeps it if it had lone CRs.
 std::string_view with_unix_lines(std::string_view text, std::string& storage) {
   if (!has_lone_return(text)) return text;
   storage = text;
@@ -516,11 +521,12 @@ void check_text(std::string_view text, const std::string& file) {
     throw InputError({file, 0, 0}, "this is no text file", "give CSV text or HDF5");
 }
 
-// What stands in front of the first row.
+// The part of the text before the first row.
 struct Head {
-  std::string_view header; // its line
+  std::string_view header; // the header line
   char delimiter = ',';
-  std::size_t end = 0, end_line = 1; // of the first line below header and units
+  // position and number of the first line below header and units
+  std::size_t end = 0, end_line = 1;
 };
 
 // Reads columns and units into the table.
@@ -548,7 +554,8 @@ Head read_head(CsvTable& table, std::string_view text, const CsvFormat& format, 
   return head;
 }
 
-// A row has a sign per column at least, whatever its first line looks like.
+// Limits the estimate by the fact that a row has at least one character per column, however short
+// the first line is.
 void reserve_rows(CsvTable& table, std::string_view rows_text, std::size_t whole_bytes) {
   const std::size_t estimate = std::min(whole_bytes / (line_at(rows_text, 0).size() + 1),
                                         whole_bytes / table.columns.size()) +
@@ -567,7 +574,7 @@ std::size_t CsvTexts::first_from(std::size_t row) const {
 }
 
 void CsvTexts::push_back(const Text& cell) {
-  constexpr std::size_t most_known = 4096; // a column of time stamps holds each once
+  constexpr std::size_t most_known = 4096; // a column of time stamps has no repeated texts
   const auto column = static_cast<std::uint32_t>(cell.column);
   if (!empty() && back().text == cell.text) {
     cells_.push_back({cell.row, column, cells_.back().word});
@@ -608,11 +615,12 @@ CsvTable parse_csv(std::string_view text, const std::string& file, const CsvForm
 
 namespace {
 
-constexpr std::size_t pieces_at_once = 8;                // on so many cores
-constexpr std::size_t head_bytes = std::size_t{1} << 20; // holds a header and the row below it
+constexpr std::size_t pieces_at_once = 8; // parsed in parallel
+// must contain the header and the row below it
+constexpr std::size_t head_bytes = std::size_t{1} << 20;
 
-// The end of the last line that ends outside quotes; npos where there is none. A piece starts
-// outside quotes.
+// The end of the last line that ends outside quotes; npos if there is none. A piece starts outside
+// quotes.
 std::size_t last_line_end(std::string_view text) {
   if (text.find('"') == text.npos) {
     const std::size_t end = text.rfind('\n');
@@ -643,8 +651,8 @@ struct CsvPieces::Data {
   CsvTable header;
   std::string header_line;
   char delimiter = ',';
-  std::string rest;     // read and not yet in a piece
-  std::size_t line = 1; // of the file, where `rest` begins
+  std::string rest;     // read but not yet in a piece
+  std::size_t line = 1; // line number in the file at which `rest` begins
   CsvPassedOver passed_over;
   std::string whole_because;
   bool rows = false, ended = false;
@@ -681,7 +689,7 @@ struct CsvPieces::Data {
     return table;
   }
 
-  // Intervals and lines passed over go on from piece to piece.
+  // Continues the intervals and the counts of skipped lines from piece to piece.
   void number(CsvTable& table) {
     for (std::size_t& interval : table.interval)
       interval += passed_over.headers;
@@ -770,7 +778,7 @@ void reserve(CsvTable& table, std::size_t rows) {
 
 void append(CsvTable& to, CsvTable&& more) {
   const std::size_t rows = to.rows();
-  if (to.columns.size() < more.columns.size()) // that have no name, and held nothing so far
+  if (to.columns.size() < more.columns.size()) // nameless columns that were empty so far
     for (std::size_t c = to.columns.size(); c < more.columns.size(); ++c) {
       to.columns.push_back({more.columns[c].name, more.columns[c].unit, {}, {}});
       pad(to.columns.back(), rows);

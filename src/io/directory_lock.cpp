@@ -1,4 +1,4 @@
-// flock on a file that comes and goes.
+// flock on a file that exists only while it is locked.
 #include "io/directory_lock.h"
 
 #include <cerrno>
@@ -31,7 +31,7 @@ std::string me() {
                      fmt::localtime(std::time(nullptr)));
 }
 
-// What its holder wrote, cut to a line.
+// First line of the text that the lock's owner wrote.
 std::string holder(int file) {
   char text[300] = {};
   const ssize_t got = ::pread(file, text, sizeof text - 1, 0);
@@ -42,7 +42,7 @@ std::string holder(int file) {
   return line.empty() ? "another process" : line;
 }
 
-// Whether the open file still has this name: its holder before removed it perhaps.
+// True if the open file still has this name; its previous owner may have removed it.
 bool is_there(int file, const std::filesystem::path& name) {
   struct stat open {
   }, named{};
@@ -57,7 +57,7 @@ void cannot_write_here(const std::filesystem::path& directory, const std::string
                    "choose another directory with -o DIR");
 }
 
-// False where nothing can be held.
+// False if no lock is available.
 bool DirectoryLock::open_and_lock(const std::filesystem::path& directory, Wish wish) {
   const auto end = std::chrono::steady_clock::now() + patience;
   while (true) {
@@ -66,7 +66,8 @@ bool DirectoryLock::open_and_lock(const std::filesystem::path& directory, Wish w
     if (open_ < 0) cannot_write_here(directory, std::strerror(errno));
     const bool locked = ::flock(open_, LOCK_EX | LOCK_NB) == 0;
     if (locked && is_there(open_, file_)) return true;
-    if (!locked && errno != EWOULDBLOCK && errno != EINTR) return false; // no locks here
+    // file system without locks
+    if (!locked && errno != EWOULDBLOCK && errno != EINTR) return false;
     const std::string who = locked ? "" : holder(open_);
     ::close(std::exchange(open_, -1));
     if (!locked && wish == Wish::if_free) return false;
@@ -83,13 +84,14 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory, Wish wish)
   when_interrupted_.emplace([file = file_] { ::unlink(file.c_str()); });
   const std::string text = me() + "\n";
   if (::ftruncate(open_, 0) != 0 || ::pwrite(open_, text.data(), text.size(), 0) < 0) {
-    // it is held all the same
+    // the lock is valid even without the text
   }
 }
 
 DirectoryLock::~DirectoryLock() {
   if (open_ < 0) return;
-  if (held_) ::unlink(file_.c_str()); // who waits for it finds another file of this name
+  // a waiting process notices that the name now refers to another file
+  if (held_) ::unlink(file_.c_str());
   ::close(open_);
 }
 

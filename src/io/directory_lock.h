@@ -1,4 +1,4 @@
-// One writer at a time in a directory.
+// Lock for one writer at a time in a directory.
 #pragma once
 
 #include <filesystem>
@@ -9,16 +9,17 @@
 
 namespace frictab::io {
 
-// Throws InputError: nothing can be written in this directory, and why.
+// Throws InputError: the directory cannot be written to, and why.
 [[noreturn]] void cannot_write_here(const std::filesystem::path& directory, const std::string& why);
 
-// Holds DIRECTORY/.frictab.lock by flock(2), which ends with the process however it ends; the file
-// says who holds it and is gone afterwards. Where the file system has no locks (some network file
-// systems) nothing is held.
+// Locks DIRECTORY/.frictab.lock by flock(2), which ends with the process in every case; the file
+// names its owner and is removed afterwards. If the file system has no locks (some network file
+// systems), nothing is locked.
 class DirectoryLock {
 public:
-  // must: waits a few seconds for who holds it; throws InputError that names it then, or says why
-  // nothing can be written there. if_free: held() says whether it was.
+  // must: waits a few seconds for the current owner; throws InputError that names an owner who
+  // stays, or gives the reason if nothing can be written there. if_free: never waits; held()
+  // returns whether the lock was free.
   enum class Wish { must, if_free };
   explicit DirectoryLock(const std::filesystem::path& directory, Wish wish = Wish::must);
   ~DirectoryLock();

@@ -1,4 +1,4 @@
-// Reads HDF5 files in a child process: the library can crash on damaged ones.
+// Reads HDF5 files in a child process, because the library can crash on damaged ones.
 #include "io/hdf5.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct Hdf5Reader::Data {
     return found->second;
   }
 
-  // Of a dataset or a group; nullptr where there is neither.
+  // Attributes of a dataset or a group; nullptr if there is neither.
   const Hdf5Attributes* attributes(const std::string& object) const {
     const auto set = contents.datasets.find(object);
     if (set != contents.datasets.end()) return &set->second.attributes;
@@ -35,10 +35,11 @@ struct Hdf5Reader::Data {
     return group != contents.groups.end() ? &group->second : nullptr;
   }
 
-  // Runs the library on the file, elsewhere.
+  // Runs the library on the file in a child process.
   void ask(const std::function<void(ByteSink&)>& work,
            const std::function<bool(ByteSource&)>& take) const {
-    const std::lock_guard lock(hdf5::library()); // no other thread is within the library
+    // no other thread uses the library during the fork
+    const std::lock_guard lock(hdf5::library());
     ChildLimits limits;
     limits.cpu_seconds += static_cast<unsigned>(file_bytes >> 22);
     const auto of_child = [&](ByteSink& out) {

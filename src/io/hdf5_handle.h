@@ -1,4 +1,4 @@
-// What the HDF5 reader and writer share: handles that close themselves, the library's lock.
+// Shared by the HDF5 reader and writer: handles that close themselves, and the library's lock.
 #pragma once
 
 #include <algorithm>
@@ -34,24 +34,25 @@ private:
   Close close_;
 };
 
-// Before anything else is asked of the library. It prints its error stack unless told otherwise;
-// our messages are enough. And it ends with the program by closing what is open: handles do that,
-// and a file whose disk has failed would be closed once more, which crashes.
+// Call before any other use of the library. Switches off its error printing, because our messages
+// suffice, and its own cleanup at exit: handles close everything, and the cleanup would close a
+// file on a failed disk a second time, which crashes.
 inline void silence() {
   static const herr_t no_end_of_its_own = H5dont_atexit();
   static_cast<void>(no_end_of_its_own);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-// The library is not made for threads: one file at a time.
+// Lock of the library, which is not thread-safe: one file at a time.
 inline std::recursive_mutex& library(bool renew = false) {
   static auto mutex = std::make_unique<std::recursive_mutex>();
-  // A forked child is another owner: it cannot take what its parent holds, nor needs to.
+  // A forked child needs a new lock: it cannot take a lock that its parent owns.
   if (renew) static_cast<void>(mutex.release()), mutex = std::make_unique<std::recursive_mutex>();
   return *mutex;
 }
 
-// A block of at most `most` consecutive values: the last axes whole, one in part, 1 of the others.
+// A block of at most `most` consecutive values: the last axes whole, one in part, 1 along the
+// others.
 inline std::vector<hsize_t> block_shape(std::vector<hsize_t> dims, hsize_t most) {
   hsize_t values = 1;
   for (std::size_t d = dims.size(); d-- > 0;) {

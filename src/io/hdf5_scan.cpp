@@ -1,4 +1,4 @@
-// The C API behind exceptions, then bytes.
+// Wraps the C API in exceptions and converts the result to bytes.
 #include "io/hdf5_scan.h"
 
 #include <algorithm>
@@ -16,22 +16,23 @@ using namespace hdf5;
 namespace {
 
 constexpr std::size_t values_at_once = std::size_t{1} << 20;
-constexpr std::uint64_t held_bytes = std::uint64_t{1} << 24; // of one dataset
+constexpr std::uint64_t held_bytes = std::uint64_t{1} << 24; // limit for one dataset
 constexpr std::uint64_t held_in_all = std::uint64_t{1} << 28;
 constexpr std::size_t longest_text = std::size_t{1} << 20;
-constexpr std::uint64_t bytes_of_a_text = 64; // of a short one, with what stands around it
-// What deflate can make of a byte, at best.
+constexpr std::uint64_t bytes_of_a_text = 64; // memory of a short text with its overhead
+// Best compression ratio of deflate.
 constexpr std::uint64_t best_ratio = 1100;
 
 struct Unreadable {
   std::string what, hint;
 };
 
-enum Kind : std::uint64_t { is_absent, is_text, is_number }; // among the bytes
+enum Kind : std::uint64_t { is_absent, is_text, is_number }; // tags in the byte stream
 
 // ---- in the child ----
 
-// A damaged header may claim any size: what a file cannot hold is refused before allocation.
+// Number of values, or SIZE_MAX if the file cannot contain that many: a damaged header may claim
+// any size, so the claim is refused before allocation.
 std::size_t values_of(const std::vector<std::size_t>& shape, std::uint64_t file_bytes) {
   const std::uint64_t limit = file_bytes * best_ratio + 1024;
   std::size_t count = 1;
@@ -93,7 +94,7 @@ std::string other_attribute(hid_t attribute) {
                     : "an attribute that is neither a number nor a text";
 }
 
-// Those that hold one text or one number; the rest goes to `others`.
+// Attributes of one text or one number; the rest goes to `others`.
 Hdf5Attributes attributes_of(hid_t object, std::vector<Hdf5Other>* others = nullptr) {
   std::vector<std::string> names;
   const auto visit = [](hid_t, const char* name, const H5A_info_t*, void* into) -> herr_t {
@@ -121,7 +122,7 @@ std::optional<std::string> scale_of(hid_t set, std::size_t axis) {
     char name[256] = {};
     if (H5Iget_name(scale, name, sizeof name) > 0)
       *static_cast<std::optional<std::string>*>(into) = std::string(name + (name[0] == '/'));
-    return 1; // the first is enough
+    return 1; // stops at the first one
   };
   H5DSiterate_scales(set, static_cast<unsigned>(axis), nullptr, visit, &found);
   return found;
@@ -147,7 +148,8 @@ Hdf5Layout layout_of(hid_t set) {
   return out;
 }
 
-// The first filter of a dataset that this library lacks, as the file calls it: "lzf"; else empty.
+// The first filter of a dataset that this library lacks, by its name in the file ("lzf"); else
+// empty.
 std::string missing_filter(hid_t list) {
   for (int i = 0; i < H5Pget_nfilters(list); ++i) {
     unsigned flags = 0;
@@ -189,7 +191,7 @@ bool is_null(hid_t set) {
   return H5Sget_simple_extent_type(space) == H5S_NULL;
 }
 
-// Of a dataset with one long axis: `count` values from the `first` one on.
+// Selects `count` values from index `first` on of a dataset with one long axis.
 void select_rows(hid_t space, hsize_t first, hsize_t count) {
   const int rank = H5Sget_simple_extent_ndims(space);
   std::vector<hsize_t> dims(static_cast<std::size_t>(std::max(rank, 1)), 1);
@@ -203,7 +205,7 @@ void select_rows(hid_t space, hsize_t first, hsize_t count) {
   H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, part.data(), nullptr);
 }
 
-// What a type holds that is neither numbers nor texts; empty where it is one of them.
+// Description of a type that is neither numbers nor texts; else empty.
 std::string other_type_of(hid_t type) {
   switch (H5Tget_class(type)) {
   case H5T_FLOAT:
@@ -234,7 +236,7 @@ std::string other_type_of(hid_t type) {
   return fmt::format("records of {}{}", fmt::join(fields, ", "), all > shown ? ", ..." : "");
 }
 
-// `count` values from the `first` one on where one axis is long; else all.
+// `count` values from index `first` on if there is one long axis; otherwise all.
 std::vector<std::string> texts_of(const std::string& name, hid_t set, std::size_t first,
                                   std::size_t count) {
   const Handle type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
@@ -274,7 +276,8 @@ void check_numeric(const std::string& name, hid_t set) {
     throw Unreadable{"'" + name + "' is not numeric", ""};
 }
 
-// Into all of `values`. The library makes no numbers of booleans.
+// Fills all of `values`. Booleans are converted here because the library does not convert them to
+// numbers.
 bool read_numbers(hid_t set, hid_t memory, hid_t space, std::vector<double>& values) {
   const Handle type(H5Dget_type(set), H5Tclose);
   if (!is_boolean(type))
@@ -339,7 +342,8 @@ public:
 
   void values(const std::string& name, std::size_t most, ByteSink& out) const {
     const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
-    H5Pset_chunk_cache(access, 12421, std::size_t{1} << 26, 1); // chunks that span several blocks
+    // for chunks that span several blocks
+    H5Pset_chunk_cache(access, 12421, std::size_t{1} << 26, 1);
     const Handle set(opened(name, access), H5Dclose);
     read_values(name, set, shape_of(name, set), most, [&](std::span<const double> values) {
       out.number(values.size());
@@ -363,7 +367,7 @@ public:
         found.texts = texts_of(wanted.dataset, set, first, count);
       else
         found.numbers = numbers_of(wanted.dataset, set, first, count);
-      out.number(as_text ? is_text : is_number); // behind what can fail
+      out.number(as_text ? is_text : is_number); // written after everything that can fail
       out.doubles(found.numbers);
       for (const std::string& text : found.texts)
         out.text(text);
@@ -377,7 +381,7 @@ private:
     return set;
   }
 
-  // `group` is a path with / behind it; empty for the root.
+  // `group` is a path that ends in /; empty for the root.
   void add_group(Hdf5Contents& all, const std::string& group) {
     const std::string object = group.empty() ? "/" : group.substr(0, group.size() - 1);
     const Handle in(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose);
@@ -511,7 +515,7 @@ void put(ByteSink& out, const std::vector<Hdf5Other>& others) {
   }
 }
 
-// Takes what `put` writes; nothing is larger than what a file of these bytes can hold.
+// Parses the output of `put`; refuses any size that a file of these bytes cannot contain.
 class Taker {
 public:
   Taker(ByteSource& in, std::uint64_t file_bytes)
@@ -655,7 +659,7 @@ void scan_values(const std::filesystem::path& file, const std::string& dataset, 
   } catch (const Unreadable& error) {
     fault = error;
   }
-  out.number(0); // no more
+  out.number(0); // ends the list of blocks
   out.text(fault.what);
   out.text(fault.hint);
 }

@@ -28,7 +28,7 @@ std::vector<hsize_t> dimensions(std::span<const std::size_t> shape) {
   return {shape.begin(), shape.end()};
 }
 
-// Creation without time stamps, so that the same content gives the same bytes.
+// Creation list without time stamps, so that the same content gives the same bytes.
 hid_t without_times() {
   const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
   H5Pset_obj_track_times(list, false);
@@ -46,7 +46,7 @@ hid_t text_type(std::size_t size) {
 
 namespace {
 
-// Values in their order, however they come, as one number.
+// Hash of a sequence of values, independent of how it is split into blocks.
 class Hash {
 public:
   Hash() { XXH64_reset(&state_, 0); }
@@ -69,7 +69,7 @@ struct Hdf5Writer::Data {
   std::unique_lock<std::recursive_mutex> lock{library()};
   Handle file;
   std::filesystem::path path;
-  // What was given, to be compared with what the file gives back.
+  // Hashes of the given data, compared with what is read back from the file.
   std::map<std::string, Hash> values, texts; // by dataset
   std::map<std::pair<std::string, std::string>, std::variant<std::string, double>> attributes;
 
@@ -82,7 +82,7 @@ struct Hdf5Writer::Data {
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) {
   const std::lock_guard lock(library());
   silence();
-  // Headers with checksums, which the library's earliest format has not.
+  // Headers with checksums, which the library's earliest format lacks.
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
@@ -104,7 +104,7 @@ Handle space_of(const std::vector<hsize_t>& dims) {
           H5Sclose};
 }
 
-// `list` says how it lies in the file.
+// `list`: the storage of the dataset in the file.
 Handle create(hid_t file, const std::string& name, hid_t space, hid_t list) {
   const hid_t set =
       H5Dcreate2(file, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, list, H5P_DEFAULT);
@@ -166,7 +166,7 @@ void Hdf5Writer::dataset(const std::string& name, std::span<const std::string> v
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name,
                            const std::string& text) {
-  // H5LT writes no empty text.
+  // H5LT cannot write an empty text.
   const std::string written = text.empty() ? " " : text;
   must(H5LTset_attribute_string(data_->file, object.c_str(), name.c_str(), written.c_str()) >= 0,
        "write the attribute " + name);
@@ -217,7 +217,7 @@ void Hdf5Writer::close() {
     const auto text = in.text_attribute(object, name);
     const auto number = in.number_attribute(object, name);
     const auto* words = std::get_if<std::string>(&given);
-    // NaN is no number that equals itself.
+    // Compares bits, because NaN does not equal itself.
     const bool same = words ? text == *words
                             : number && std::bit_cast<std::uint64_t>(*number) ==
                                             std::bit_cast<std::uint64_t>(std::get<double>(given));

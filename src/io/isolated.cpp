@@ -1,4 +1,4 @@
-// A pipe, a fork, limits.
+// A child process with a pipe and resource limits.
 #include "io/isolated.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void write_all(int file, std::span<const char> bytes) {
   }
 }
 
-// Virtual memory that this process has already, which a limit counts as well.
+// Virtual memory that this process already uses and a limit therefore has to include.
 std::uint64_t own_memory() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -46,14 +46,14 @@ void set_limit(int what, rlim_t value) {
 
 [[noreturn]] void be_the_child(const ChildLimits& limits, int out,
                                const std::function<void(ByteSink&)>& work) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL); // nobody is left to read from it
-  sigset_t none;                      // the thread that waits for signals is the parent's
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL); // dies with the parent, its only reader
+  sigset_t none;                      // the child has no thread that waits for signals
   sigemptyset(&none);
   ::pthread_sigmask(SIG_SETMASK, &none, nullptr);
   const int nowhere = ::open("/dev/null", O_WRONLY);
-  ::dup2(nowhere, STDERR_FILENO); // a sanitizer's or the C library's last words
+  ::dup2(nowhere, STDERR_FILENO); // hides the last words of a sanitizer or the C library
   set_limit(RLIMIT_CORE, 0);
-  set_limit(RLIMIT_CPU, limits.cpu_seconds); // a loop in a damaged file would not end
+  set_limit(RLIMIT_CPU, limits.cpu_seconds); // stops endless loops caused by a damaged file
   set_limit(RLIMIT_AS, own_memory() + limits.memory_bytes);
   try {
     ByteSink sink(out);
@@ -65,7 +65,7 @@ void set_limit(int what, rlim_t value) {
   ::_exit(0);
 }
 
-// Reaps the child however this ends.
+// Kills and reaps the child on every path.
 class Child {
 public:
   Child(pid_t id, int from) : id_(id), from_(from) {}
@@ -161,7 +161,7 @@ bool run_isolated(const ChildLimits& limits, const std::function<void(ByteSink&)
                   const std::function<bool(ByteSource&)>& take) {
   int ends[2] = {};
   if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe can be had");
-  ::fcntl(ends[1], F_SETPIPE_SZ, 1 << 20); // fewer turns; the usual size does as well
+  ::fcntl(ends[1], F_SETPIPE_SZ, 1 << 20); // fewer system calls; the usual size works as well
   const pid_t id = ::fork();
   if (id < 0) {
     ::close(ends[0]);

@@ -1,4 +1,4 @@
-// Reading what may bring down its reader: in a child process, under limits, which hands over bytes.
+// Readers that may crash, run in a child process under limits, which returns bytes.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace frictab::io {
 
-// Where the child writes to.
+// Output of the child.
 class ByteSink {
 public:
   explicit ByteSink(int file) : file_(file) {}
@@ -24,8 +24,8 @@ private:
   std::string buffer_;
 };
 
-// What the parent takes from it, as it comes. Ends early where the child does; a length that is
-// larger than `most` is no length.
+// Input of the parent: the child's output as it comes. Its functions return false if the output
+// ends early; `text` also does if the length exceeds `most`.
 class ByteSource {
 public:
   explicit ByteSource(int file) : file_(file) {}
@@ -37,17 +37,17 @@ public:
 private:
   int file_;
   std::string buffer_;
-  std::size_t used_ = 0; // of the buffer
+  std::size_t used_ = 0; // bytes of the buffer already read
 };
 
 struct ChildLimits {
   unsigned cpu_seconds = 10;
-  std::uint64_t memory_bytes = std::uint64_t{4} << 30; // beside what the parent has
+  std::uint64_t memory_bytes = std::uint64_t{4} << 30; // on top of the parent's
 };
 
-// Runs `work` in a child while `take` runs here. True where the child ended well, and take said so
-// too. What take throws is thrown here, with the child gone. `work` is not to touch locks that
-// another thread may hold.
+// Runs `work` in a child while `take` runs here. Returns true if the child ended normally and
+// `take` returned true. An exception of `take` is thrown here after the child has ended. `work`
+// must not use locks that another thread may own.
 bool run_isolated(const ChildLimits& limits, const std::function<void(ByteSink&)>& work,
                   const std::function<bool(ByteSource&)>& take);
 

@@ -1,4 +1,4 @@
-// JSON text in and out.
+// Writes and parses JSON.
 #include "io/json.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace frictab::io {
 
 std::string json_text(const nlohmann::ordered_json& value) {
-  // Names from a user's file may be no UTF-8: shown with replacement characters, not refused.
+  // Names from a user's file may contain invalid UTF-8: replaced, not refused.
   return value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -28,7 +28,7 @@ nlohmann::ordered_json parse_json(std::string_view text, const std::string& file
       }
     }
     throw InputError(place, "this is not valid JSON", "the file may be cut short");
-  } catch (const nlohmann::ordered_json::exception& error) { // a number beyond double
+  } catch (const nlohmann::ordered_json::exception& error) { // a number beyond the range of double
     throw InputError({file, 0, 0}, std::string("this is not valid JSON: ") + error.what());
   }
 }

@@ -10,23 +10,23 @@
 
 namespace frictab::io {
 
-// Indented by two blanks, keys in the order they were set, newline at the end. Numbers read back
-// to the same bits; NaN and infinities become null.
+// Indents by two blanks, keeps the order of keys and ends with a newline. Numbers read back to the
+// same bits; NaN and infinities become null.
 std::string json_text(const nlohmann::ordered_json& value);
 
-// Throws InputError with file:line:col where the text is no JSON.
+// Throws InputError with file:line:col if the text is not valid JSON.
 nlohmann::ordered_json parse_json(std::string_view text, const std::string& file);
 
-// A count or a seed: a whole number from 0 to 2^63 - 1. The library itself makes any number fit:
-// 5.5e24 and -1 as well. Throws what read_json() turns into an InputError.
+// A count or a seed: a whole number from 0 to 2^63 - 1. The library itself converts any number,
+// even 5.5e24 and -1. Throws an exception that read_json() turns into an InputError.
 std::uint64_t count_of(const nlohmann::ordered_json& value);
 
 // Runs `read`, which takes values out of parsed JSON. A missing or mistyped key becomes an
-// InputError that names the file and says what `mends` it.
+// InputError that names the file and, from `mends`, its remedy.
 void read_json(const std::string& file, const std::string& mends,
                const std::function<void()>& read);
 
-// Throws InputError where the file is of another kind or version than `schema`, "frictab/model/1".
+// Throws InputError if the file's kind or version differs from `schema`, "frictab/model/1".
 void check_schema(const nlohmann::ordered_json& json, const std::string& schema,
                   const std::string& file, const std::string& mends);
 

@@ -20,11 +20,12 @@ bool is_exponent(char c) {
   return c == 'e' || c == 'E' || c == 'd' || c == 'D';
 }
 
-// The digits of a number, and its power of ten.
+// The digits of a number and its power of ten.
 struct Digits {
   std::uint64_t mantissa = 0;
-  int significant = 0; // digits of the mantissa without leading zeros; over 19 it has overflowed
-  int scale = 0;       // digits behind the decimal sign
+  // digits of the mantissa without leading zeros; above 19 it has overflowed
+  int significant = 0;
+  int scale = 0; // digits after the decimal sign
   int exponent = 0;
 
   void take(char c) {
@@ -46,13 +47,14 @@ const char* scan_exponent(const char* p, const char* end, int& exponent) {
 
 bool from_text(const char* begin, const char* end, double& value) {
   const auto [stop, code] = std::from_chars(begin, end, value);
-  // Too large or too small: strtod tells which (infinity or the nearest small number).
+  // Out of range: strtod distinguishes overflow (infinity) from underflow (the nearest small
+  // number).
   if (code == std::errc::result_out_of_range)
     value = std::strtod(std::string(begin, end).c_str(), nullptr);
   return code != std::errc::invalid_argument && std::isfinite(value);
 }
 
-// The general case. from_chars wants a point, an e, and no plus sign.
+// The general case. from_chars requires a point and an e, and accepts no plus sign.
 bool convert_slowly(const char* begin, const char* end, char decimal, double& value) {
   begin += *begin == '+';
   const auto is_foreign = [&](char c) {
@@ -83,13 +85,13 @@ const char* scan_number(const char* begin, const char* end, char decimal, double
     for (; p != end && is_digit(*p); ++p)
       digits.take(*p);
     any = any || p != behind;
-    // A scale that overflows int needs a number of 2 GB: cells are shorter.
+    // Only a number of 2 GB would overflow int; cells are shorter.
     digits.scale = static_cast<int>(p - behind);
   }
   if (!any) return nullptr;
   if (p != end && is_exponent(*p)) p = scan_exponent(p, end, digits.exponent);
   const int power = digits.exponent - digits.scale;
-  // Both factors are exact doubles, so the one rounding is the right one (Clinger 1990).
+  // Both factors are exact doubles, so the single rounding gives the nearest double (Clinger 1990).
   if (digits.significant <= 19 && digits.mantissa <= (std::uint64_t{1} << 53) && power >= -22 &&
       power <= 22) {
     const double mantissa = static_cast<double>(digits.mantissa);
@@ -107,7 +109,7 @@ bool read_number(std::string_view text, char decimal, double& value) {
 
 namespace {
 
-// How many bytes of a sign between groups of digits stand here; 0: none.
+// Length in bytes of the separator of digit groups at the front; 0: none.
 std::size_t sign_length(std::string_view text, char between) {
   if (text.starts_with(between)) return 1;
   if (between == '\'' && text.starts_with("\u2019")) return 3;
@@ -125,7 +127,7 @@ bool read_grouped_number(std::string_view text, char decimal, char between, doub
     plain += text.front();
     text.remove_prefix(1);
   }
-  std::size_t digits = 0; // of this group
+  std::size_t digits = 0; // in this group
   bool first = true;
   for (;;) {
     const std::size_t sign = sign_length(text, between);

@@ -1,4 +1,4 @@
-// Block by block, so that a disk image is not read to its end before it is refused.
+// Reads block by block, so that a disk image is refused before it is read completely.
 #include "io/text_file.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ std::string bytes_text(std::uint64_t bytes) {
   return human_bytes(static_cast<double>(bytes));
 }
 
-// What has been read so far, judged.
+// Checks the text read so far.
 class Judge {
 public:
   Judge(const std::string& named, const TextLimits& limits) : named_(named), limits_(limits) {}
@@ -45,7 +45,7 @@ public:
 private:
   const std::string& named_;
   const TextLimits& limits_;
-  std::size_t line_start_ = 0; // of the last line so far
+  std::size_t line_start_ = 0; // start of the last line so far
 };
 
 } // namespace
@@ -68,7 +68,7 @@ std::string read_text_file(const fs::path& file, const std::string& named,
   std::error_code error;
   std::uint64_t expected = 0;
   if (fs::is_regular_file(file, error)) expected = fs::file_size(file, error);
-  // A small file in one block, with a byte more by which its end is seen.
+  // Reads a small file in one block, with one byte more so that its end is detected.
   const std::size_t block =
       expected > 0 && expected < block_bytes ? static_cast<std::size_t>(expected) + 1 : block_bytes;
   std::string text;
@@ -78,7 +78,7 @@ std::string read_text_file(const fs::path& file, const std::string& named,
     in.read(text.data() + size, static_cast<std::streamsize>(block));
     text.resize(size + static_cast<std::size_t>(in.gcount()));
     judge.block(text, size);
-    // Memory for the whole file is asked for once its first block looks like text.
+    // Reserves memory for the whole file only after its first block looks like text.
     if (size == 0 && expected <= limits.bytes) text.reserve(expected + block);
   }
   judge.size(text.size());

@@ -1,4 +1,4 @@
-// The text of a data file, read no further than it looks like text.
+// Text of a data file, read only as long as it looks like text.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,18 @@
 
 namespace frictab::io {
 
-// What a data file may be at most; far beyond what rigs write in a test.
+// Size limits of a data file, far above what rigs write in a test.
 struct TextLimits {
   std::uint64_t bytes = std::uint64_t{8} << 30;
   std::uint64_t line_bytes = std::uint64_t{64} << 20;
 };
 
-// Throws InputError where it cannot be opened.
+// Throws InputError if it cannot be opened.
 std::ifstream open_text_file(const std::filesystem::path& file, const std::string& named);
 
-// Throws InputError, with the name that messages give it, where the file cannot be read, holds a 0
-// byte (UTF-16 with a BOM may), or is longer than the limits: at the block in which that shows.
+// Throws InputError, with the file's name in messages (`named`), if the file cannot be read,
+// contains a 0 byte (UTF-16 with a BOM may), or exceeds the limits; it stops at the block that
+// shows the fault.
 std::string read_text_file(const std::filesystem::path& file, const std::string& named,
                            const TextLimits& limits = {});
 
