@@ -1,5 +1,5 @@
-// What each operation of a formula does to numbers: the one definition used for folding constants
-// and for evaluation.
+// Numerical definition of each operation of a formula, used both for constant folding and for
+// evaluation.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace frictab::expr {
 
-// The comparison stands alone, so that it becomes an instruction instead of a branch.
+// Computes the comparison separately, so that it compiles to an instruction instead of a branch.
 inline double min_nan(double a, double b) {
   const double least = b < a ? b : a;
   return std::isnan(b) ? b : least;

@@ -1,4 +1,4 @@
-// Sweeps of a program over columns it is tied to: values forward, derivatives backward.
+// Sweeps of a program over the columns bound to it: values forward, derivatives backward.
 #include <algorithm>
 #include <array>
 
@@ -20,7 +20,7 @@ BoundProgram::BoundProgram(const Program& program, std::size_t rows,
         wanted[in.a[k]] = program.code_[in.a[k]].kind == Kind::data || wanted[in.a[k]];
   wanted.back() = program.code_.back().kind == Kind::data || wanted.back();
   const std::vector<bool> kept = wanted;
-  for (std::size_t i = program.code_.size(); i-- > 0;) // what the kept nodes are made of
+  for (std::size_t i = program.code_.size(); i-- > 0;) // inputs of the kept nodes
     if (wanted[i])
       for (std::size_t k = 0; k < program.code_[i].operands; ++k)
         wanted[program.code_[i].a[k]] = true;
@@ -51,8 +51,8 @@ BoundProgram::BoundProgram(const Program& program, std::size_t rows,
     }
 }
 
-// One sweep over all blocks. Derivatives by reverse accumulation: an adjoint is handed on as a
-// pointer where an operation passes it on unchanged, and gets rows of its own only when a second
+// One sweep over all blocks. Derivatives by reverse accumulation: an operation that leaves an
+// adjoint unchanged passes it on as a pointer; an adjoint gets rows of its own only when a second
 // contribution is added to it.
 class BoundProgram::Sweep {
 public:
@@ -86,7 +86,8 @@ private:
   double* adjoint_slot(std::size_t i) { return rows_.get() + (code_.size() + i) * block; }
   double* gradient_slot(std::size_t p) { return rows_.get() + (2 * code_.size() + p) * block; }
 
-  // Nodes without columns: once, with their derivatives by each parameter in forward mode.
+  // Evaluates the nodes without columns once, with their derivatives by each parameter in forward
+  // mode.
   void evaluate_scalars(std::span<const double> scalars) {
     for (std::size_t i = 0; i < code_.size(); ++i) {
       const auto& in = code_[i];
@@ -191,7 +192,7 @@ private:
               add);
   }
 
-  // Gives a sum rows of its own; says whether it already has contributions.
+  // Gives a sum rows of its own; returns whether it already has contributions.
   static bool own(const double*& sum, double* slot, std::size_t count) {
     const bool add = sum != nullptr;
     if (add && sum != slot) std::copy_n(sum, count, slot);
@@ -206,7 +207,7 @@ private:
   std::vector<Register> registers_;
   std::vector<double> value_;           // of scalar nodes
   std::vector<double> slope_;           // of scalar nodes, by parameter
-  std::vector<const double*> adjoint_;  // per node; nullptr: nothing has come back yet
+  std::vector<const double*> adjoint_;  // per node; nullptr: no contribution yet
   std::vector<const double*> gradient_; // per parameter
   std::unique_ptr<double[]> rows_;      // values, adjoints, gradients
 };

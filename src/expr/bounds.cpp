@@ -1,4 +1,4 @@
-// Bounds arithmetic of the operations a formula may hold.
+// Interval arithmetic for the operations of a formula.
 #include "expr/bounds.h"
 
 #include <limits>
@@ -11,7 +11,7 @@ constexpr double ulps = 8 * std::numeric_limits<double>::epsilon();
 constexpr double tiny = std::numeric_limits<double>::min();
 constexpr double largest = std::numeric_limits<double>::max();
 
-// 0 times infinity is 0 here: an end that is not reached.
+// Product of interval ends, with 0 times infinity = 0: an infinite end is never attained.
 double product(double a, double b) {
   return a == 0 || b == 0 ? 0 : a * b;
 }
@@ -21,7 +21,7 @@ Bounds monotone(double (*f)(double), const Bounds& a) {
 }
 
 Bounds sine(const Bounds& a) {
-  // Without a turning point inside, the ends are the extremes.
+  // Without a turning point inside, the extremes are at the ends.
   const double half = std::acos(-1.0);
   const double first = std::ceil(a.low / half - 0.5), last = std::floor(a.high / half - 0.5);
   if (a.width() < 1e6 && a.magnitude() < 1e6 && first > last) {
@@ -40,8 +40,7 @@ Bounds power(const Bounds& a, const Bounds& b) {
 
 Bounds outward(double low, double high) {
   if (std::isnan(low) || std::isnan(high)) return whole_line;
-  // A lower end beyond all numbers is no less than the largest; less some of itself it would be
-  // NaN.
+  // Limits the ends to finite numbers: an infinite lower end minus a part of itself would be NaN.
   low = std::min(low, largest);
   high = std::max(high, -largest);
   return {low - ulps * std::abs(low) - tiny, high + ulps * std::abs(high) + tiny};

@@ -1,7 +1,7 @@
-// Interval arithmetic (Moore 1966): from the interval of each operand, an interval that certainly
-// holds the result, whatever values the operands take in theirs. Ends are rounded outwards, so that
-// not even rounding leaves it. It is rigorous but pessimistic: x - x over 0 .. 1 gives -1 .. 1,
-// since it does not know that both are the same x (taylor_model.h does).
+// Interval arithmetic (Moore 1966): from the interval of each operand, an interval that contains
+// the result for all operands in their intervals. Ends are rounded outwards, so the result includes
+// rounding errors. It is rigorous but pessimistic: x - x over 0 .. 1 gives -1 .. 1, because the
+// dependence of both operands on the same x is lost (taylor_model.h keeps it).
 #pragma once
 
 #include <algorithm>
@@ -20,21 +20,21 @@ struct Bounds {
   bool finite() const { return std::isfinite(low) && std::isfinite(high); }
 };
 
-// Everything: nothing is known.
+// The interval of all numbers: nothing is known.
 inline constexpr Bounds whole_line{-HUGE_VAL, HUGE_VAL};
 
-// A few units in the last place wider: more than the mathematical library errs by. An interval with
-// a NaN end becomes the whole line.
+// Widens by a few units in the last place, more than the error of the mathematical library. An
+// interval with a NaN end becomes the whole line.
 Bounds outward(double low, double high);
 
 Bounds hull(const Bounds& a, const Bounds& b);
 Bounds operator+(const Bounds& a, const Bounds& b);
 Bounds operator-(const Bounds& a, const Bounds& b);
 Bounds operator*(const Bounds& a, const Bounds& b);
-Bounds operator/(const Bounds& a, const Bounds& b); // whole line where b holds 0
+Bounds operator/(const Bounds& a, const Bounds& b); // whole line if b contains 0
 
-// The operation on intervals. where_le with an open condition gives the hull of both branches.
-// Outside the domain (logarithm of a negative number, ...): the whole line.
+// Applies the operation to intervals. where_le with an undecided condition gives the hull of both
+// branches. Outside the domain (logarithm of a negative number, ...) the result is the whole line.
 Bounds apply(Op op, const Bounds& a, const Bounds& b, const Bounds& c, const Bounds& d);
 
 } // namespace frictab::expr

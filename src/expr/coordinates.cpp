@@ -1,4 +1,5 @@
-// Rewrites products of exponentials as one, and logarithms of products as sums.
+// Combines products of exponentials into one exponential, and splits logarithms of products into
+// sums.
 #include "expr/coordinates.h"
 
 #include <cmath>
@@ -73,7 +74,7 @@ Expr log_of(const Expr& e) {
   case Op::where_le:
     return where_le(a[0], a[1], log_of(a[2]), log_of(a[3]));
   default:
-    return log(e); // of a constant
+    return log(e); // a constant
   }
 }
 

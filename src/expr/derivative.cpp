@@ -1,5 +1,5 @@
-// Forward differentiation, node by node. A branch is chosen between derivatives and not between
-// adjoints: so 0 is never multiplied by what a branch not taken may hold.
+// Forward differentiation, node by node. A branch is chosen between derivatives, not between
+// adjoints, so that 0 is never multiplied by an infinite slope of the branch not taken.
 #include "expr/derivative.h"
 
 #include <numbers>
@@ -9,13 +9,14 @@ namespace frictab::expr {
 
 namespace {
 
-constexpr double least_root = 1e-150; // its reciprocal times anything usual does not overflow
+// small, but its reciprocal times an ordinary number does not overflow
+constexpr double least_root = 1e-150;
 
 bool is_zero(const Expr& e) {
   return e.is_constant(0);
 }
 
-// Products and sums without the terms that a zero derivative leaves out.
+// Products and sums that leave out terms with a zero derivative.
 Expr times(const Expr& a, const Expr& b) {
   if (is_zero(a) || is_zero(b)) return 0.0;
   if (a.is_constant(-1)) return -b;
@@ -33,7 +34,7 @@ Expr chosen(const Expr& a, const Expr& b, const Expr& x, const Expr& y) {
   return is_zero(x) && is_zero(y) ? Expr(0.0) : where_le(a, b, x, y);
 }
 
-// Whatever the symbols are.
+// True if the expression is positive for all values of its symbols.
 bool surely_positive(const Expr& e) {
   const auto& a = e.operands();
   switch (e.op()) {
@@ -57,12 +58,12 @@ bool surely_positive(const Expr& e) {
   }
 }
 
-// 1 in place of 0: what is divided by it is 0 there as well.
+// Replaces 0 by 1 in a divisor; the dividend is 0 there as well.
 Expr never_zero(const Expr& a) {
   return surely_positive(a) ? a : where_le(a, 0.0, where_le(0.0, a, 1.0, a), a);
 }
 
-// Of a power e = a^b, by its base alone.
+// Derivative of a power e = a^b through its base only.
 Expr base_slope(const Expr& e, const Expr& by_base) {
   const Expr &a = e.operands()[0], &b = e.operands()[1];
   if (b.is_constant(1)) return by_base;
@@ -128,7 +129,7 @@ private:
       return over(inner(), a[0]);
     case Op::sqrt:
       return over(times(0.5, inner()), root_bounded(e));
-    case Op::sin: // there is no cos
+    case Op::sin: // formulas have no cos
       return is_zero(inner()) ? Expr(0.0) : times(sin(a[0] + std::numbers::pi / 2), inner());
     case Op::tanh:
       return times(1.0 - e * e, inner());

@@ -1,4 +1,4 @@
-// Derivatives of formulas as formulas again, for generated code.
+// Derivatives of formulas as formulas, for generated code.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace frictab::expr {
 
-// d formula/d symbol. Where a branch is chosen (minimum, maximum, where) it is that branch's, by
-// the same comparison that Program's reverse sweep makes, so that at a kink both give the same
-// one-sided derivative; an infinite slope of the branch not taken never reaches the result. As
-// there, a power's slope is 0 where its base is 0. The infinite slopes of sqrt at 0 and of acos at
-// -1 and 1 are cut off at some 1e150, so that nothing is divided by zero.
+// d formula/d symbol. For minimum, maximum and where, this is the derivative of the chosen branch,
+// by the same comparison as in Program's reverse sweep, so that both give the same one-sided
+// derivative at a kink; an infinite slope of the branch not taken never reaches the result. As in
+// Program, the slope of a power is 0 where its base is 0. The infinite slopes of sqrt at 0 and of
+// acos at -1 and 1 are limited to about 1e150, so that nothing is divided by zero.
 Expr derivative(const Expr& formula, const std::string& symbol);
 
-// One per symbol.
+// One derivative per symbol.
 std::vector<Expr> derivatives(const Expr& formula, const std::vector<std::string>& symbols);
 
 } // namespace frictab::expr

@@ -32,7 +32,7 @@ Expr::Node::Node(Op of, double number, std::string named, std::vector<Expr> on)
     depth = std::max(depth, operand.depth() + 1);
 }
 
-// The last owner of a deep formula ends its nodes one after the other, not within each other.
+// Destroys the nodes of a deep formula in a loop, because recursion would overflow the stack.
 Expr::Node::~Node() {
   if (operands.empty()) return;
   static thread_local std::vector<Expr>* waiting = nullptr;
@@ -180,7 +180,7 @@ void for_each_part(const Expr& formula, const std::function<void(const Expr&)>& 
 void inside_out(const Expr& formula, const std::function<void(const Expr&)>& use) {
   struct Open {
     const Expr* e;
-    std::size_t next; // of its operands
+    std::size_t next; // index of the next operand to visit
   };
   std::unordered_set<const Expr::Node*> seen;
   std::vector<Open> open{{&formula, 0}};
@@ -202,7 +202,7 @@ namespace {
 
 using Replaced = std::unordered_map<const Expr::Node*, Expr>;
 
-// What its operands have become.
+// The operands of `e` after replacement.
 std::vector<Expr> replaced_operands(const Expr& e, const Replaced& done) {
   std::vector<Expr> operands;
   for (const Expr& operand : e.operands())
@@ -236,7 +236,7 @@ std::set<std::string> symbols(const Expr& formula) {
 
 namespace {
 
-// What makes two nodes equal, once their operands are shared.
+// Identifies equal nodes once their operands are shared.
 using NodeKey = std::tuple<Op, std::uint64_t, std::string, std::vector<const Expr::Node*>>;
 
 Expr share_node(const Expr& e, const std::vector<Expr>& operands, std::map<NodeKey, Expr>& known) {

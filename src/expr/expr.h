@@ -1,4 +1,4 @@
-// Formulas as data. A friction law is written once as an Expr; from it come its value, its
+// Formulas as data. A friction law is written once as an Expr, which yields its value, its
 // derivatives (parameters and state), its text in Python's spelling, its bounds (bounds.h,
 // taylor_model.h) and the statements of generated code (codegen/statements.h).
 #pragma once
@@ -29,7 +29,7 @@ enum class Op {
   sin,
   tanh,
   acos,
-  minimum, // NaN in either operand gives NaN
+  minimum, // NaN if either operand is NaN
   maximum,
   where_le // operands a, b, x, y: x where a <= b, else y
 };
@@ -47,7 +47,7 @@ public:
   double value() const;            // of a constant
   const std::string& name() const; // of a symbol
   const std::vector<Expr>& operands() const;
-  std::size_t depth() const; // operations within operations; 0 of numbers and symbols
+  std::size_t depth() const; // nesting depth of operations; 0 for numbers and symbols
   const Node* id() const { return node_.get(); } // equal for shared subformulas
 
   bool is_constant(double value) const;
@@ -76,9 +76,8 @@ Expr where_le(const Expr& a, const Expr& b, const Expr& x, const Expr& y);
 // Calls `use` once for each subformula, the formula itself first.
 void for_each_part(const Expr& formula, const std::function<void(const Expr&)>& use);
 
-// The same with the operands before what holds them, from left to right; walks of formulas are
-// built on it, because a function that calls itself for each operand ends the stack on a deep
-// formula.
+// Calls `use` once for each subformula, operands first, from left to right. Walks over formulas are
+// built on it, because recursion over operands would overflow the stack on a deep formula.
 void inside_out(const Expr& formula, const std::function<void(const Expr&)>& use);
 
 // Names of all symbols in the formula, sorted.
@@ -90,7 +89,7 @@ Expr substitute(const Expr& formula, const std::map<std::string, Expr>& replacem
 // The formula with some of its nodes (compared by id) replaced.
 Expr substitute(const Expr& formula, const std::vector<std::pair<Expr, Expr>>& nodes);
 
-// An operation over operands, through the operators: what they simplify is simplified again.
+// Applies an operation through the operators, which simplify the result again.
 Expr rebuild(Op op, const std::vector<Expr>& operands);
 
 // The same formula with equal subformulas stored once.
@@ -100,8 +99,8 @@ Expr shared(const Expr& formula);
 // parse_expr reads it back to a formula with the same bits. Constants round-trip.
 std::string to_text(const Expr& formula);
 
-// How large a formula may be that is read from a text: ten times what frictab itself writes, and
-// far from what would end the stack (1 MB of it is enough at these limits).
+// Size limits of a formula read from text: ten times what frictab itself writes, and far below a
+// stack overflow (these limits need 1 MB of stack).
 struct FormulaLimits {
   static constexpr std::size_t text = std::size_t{1} << 20; // bytes
   static constexpr std::size_t terms = 200000;              // numbers, names and operations
@@ -109,11 +108,12 @@ struct FormulaLimits {
   static constexpr std::size_t name = 255;                  // bytes
 };
 
-// Reads what to_text writes, and anything a person would write in that grammar. Throws InputError
-// with the column of the fault, also where the formula is larger than FormulaLimits; `file` is only
-// for its message.
+// Parses the output of to_text and anything a person would write in that grammar. Throws InputError
+// with the column of the fault, also if the formula exceeds FormulaLimits; `file` is used only in
+// its message.
 Expr parse_expr(std::string_view text, std::string_view file = "formula");
-// Whether a text is a name in a formula: ASCII letters, digits and _, no digit first.
+// True if a text is a valid name in a formula: ASCII letters, digits and _, not starting with a
+// digit.
 bool is_name(std::string_view text);
 
 } // namespace frictab::expr

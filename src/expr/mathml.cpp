@@ -1,4 +1,4 @@
-// From the inside out, each part with how tightly it binds.
+// Builds MathML bottom-up; each part carries its binding strength.
 #include "expr/mathml.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace frictab::expr {
 
 namespace {
 
-// How tightly a part binds: a sum, a product, a factor with a sign, an atom.
+// Binding strength of a part: a sum, a product, a factor with a sign, an atom.
 enum class Binding { sum, product, sign, atom };
 
 struct Part {
@@ -37,7 +37,7 @@ std::string call(const char* name, const std::string& arguments) {
                      row(sign_text("(") + arguments + sign_text(")")));
 }
 
-// 1.5e-05 as 1.5 times a power of ten.
+// Writes 1.5e-05 as 1.5 times a power of ten.
 Part number_part(double value) {
   std::string text = fmt::format("{:.6g}", std::abs(value));
   if (const std::size_t at = text.find('e'); at != text.npos)

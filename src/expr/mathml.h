@@ -1,4 +1,4 @@
-// A formula as MathML, which browsers set as mathematics without any script.
+// Formulas as MathML, which browsers typeset without any script.
 #pragma once
 
 #include <functional>
@@ -8,8 +8,8 @@
 
 namespace frictab::expr {
 
-// What stands inside <math>. `symbol` gives the MathML of a name: <mi>&#956;</mi>; it has to escape
-// what it takes from outside. Divisions are fractions, powers superscripts, where_le two cases.
+// Content of <math>. `symbol` returns the MathML of a name, such as <mi>&#956;</mi>, and has to
+// escape text from outside. Divisions become fractions, powers superscripts, where_le two cases.
 std::string mathml(const Expr& formula,
                    const std::function<std::string(const std::string&)>& symbol);
 

@@ -1,4 +1,4 @@
-// Reads formulas in Python spelling: + - * / ** ( ) numbers, names and the functions of expr.h.
+// Parses formulas in Python spelling: + - * / ** ( ) numbers, names and the functions of expr.h.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -15,8 +15,8 @@ namespace frictab::expr {
 
 namespace {
 
-constexpr int max_depth = 200;    // nested brackets; deeper is no formula a person wrote
-constexpr std::size_t shown = 60; // bytes of a long formula, to either side of a fault
+constexpr int max_depth = 200;    // nested brackets; nobody writes deeper formulas
+constexpr std::size_t shown = 60; // bytes shown of a long formula on either side of a fault
 
 bool begins_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -34,7 +34,8 @@ public:
       too_large(fmt::format("{} bytes", text_.size()), FormulaLimits::text);
     Expr e = sum();
     if (at_ < text_.size()) fail(fmt::format("unexpected '{}'", text_[at_]));
-    for_each_part(e, [this](const Expr& part) { // a division by a constant 0 is folded at once
+    // finds a division by a constant 0, which is folded immediately
+    for_each_part(e, [this](const Expr& part) {
       if (part.op() == Op::constant && !std::isfinite(part.value()))
         fail("a constant term is not a finite number");
     });
@@ -53,7 +54,7 @@ private:
                      most));
   }
 
-  // The formula, or what stands around the fault in a long one.
+  // The formula; for a long one, only the text around the fault.
   std::string excerpt() const {
     if (text_.size() <= 4 * shown) return std::string(text_);
     const std::size_t first = at_ - std::min(at_, shown);
@@ -61,7 +62,7 @@ private:
     return (first > 0 ? "... " : "") + part + (at_ + shown < text_.size() ? " ..." : "");
   }
 
-  // What has been read, where it is not too large.
+  // Counts a term and returns the parsed formula; throws if it is too large.
   Expr counted(Expr e) {
     if (++terms_ > FormulaLimits::terms)
       too_large(fmt::format("{} numbers, names and operations", terms_), FormulaLimits::terms);
@@ -164,7 +165,7 @@ private:
   }
 
   Expr call(const std::string& name) {
-    // Beside the names that to_text writes those that people use.
+    // Names that to_text writes, and common alternatives.
     static const std::map<std::string, Op> one = {
         {"exp", Op::exp}, {"log", Op::log},   {"ln", Op::log},      {"sqrt", Op::sqrt},
         {"sin", Op::sin}, {"tanh", Op::tanh}, {"arccos", Op::acos}, {"acos", Op::acos}};
@@ -206,10 +207,10 @@ private:
     return counted(where_le(a, b, x, y));
   }
 
-  // Functions without an operation of their own, which every language and bound would have to know.
+  // Functions composed of other operations, so that languages and bounds need not support them.
   static Expr magnitude(const Expr& x) { return maximum(x, -x); }
   static Expr sign(const Expr& x) { return where_le(x, 0, where_le(0, x, 0, -1), 1); }
-  // Near 0 as exact as any, 1e-8 off at worst, where it is within 1e-8 of pi/2.
+  // As accurate near 0 as elsewhere; the largest error is 1e-8, within 1e-8 of pi/2.
   static Expr arctangent(const Expr& x) {
     return std::numbers::pi / 2 - acos(x / sqrt(1.0 + x * x));
   }

@@ -26,7 +26,7 @@ std::size_t index_of(const std::vector<std::string>& names, const std::string& n
 Program::Program(const Expr& formula, std::vector<std::string> columns,
                  std::vector<std::string> scalars)
     : columns_(std::move(columns)), scalars_(std::move(scalars)) {
-  // The same operation on the same operands is computed once.
+  // Computes the same operation on the same operands only once.
   using Same = std::tuple<Op, std::uint64_t, std::size_t, Kind, std::array<std::size_t, 4>>;
   std::map<Same, std::size_t> known;
   std::unordered_map<const Expr::Node*, std::size_t> index;
@@ -45,8 +45,8 @@ Program::Program(const Expr& formula, std::vector<std::string> columns,
   assign_steps();
 }
 
-// A result's slot is free again behind its last use, so that the blocks of a long formula stay in
-// the cache.
+// Reuses the slot of a result after its last use, so that the blocks of a long formula stay in the
+// cache.
 void Program::assign_slots() {
   std::vector<std::size_t> last(code_.size(), code_.size()), free;
   for (std::size_t i = 0; i < code_.size(); ++i)
@@ -79,8 +79,7 @@ void Program::assign_steps() {
     } else {
       found.emplace_back(Source::result, steps_.size());
       Step step{.op = in.op};
-      for (std::size_t k = 0; k < 4;
-           ++k) { // what an operation leaves alone reads its first operand
+      for (std::size_t k = 0; k < 4; ++k) { // unused operands read the first one
         const auto& [source, index] = found[in.a[k < in.operands ? k : 0]];
         step.source[k] = source;
         step.index[k] = static_cast<std::uint32_t>(index);
@@ -128,7 +127,7 @@ void Program::forward(std::span<const double> row, std::span<const double> scala
 }
 
 double Program::operator()(std::span<const double> row, std::span<const double> scalars) const {
-  if (steps_.empty()) { // one symbol or constant
+  if (steps_.empty()) { // a single symbol or constant
     double alone = 0;
     forward(row, scalars, &alone);
     return alone;
@@ -159,7 +158,7 @@ double Program::gradient(std::span<const double> row, std::span<const double> sc
   adjoint[code_.size() - 1] = 1;
   for (std::size_t i = code_.size(); i-- > 0;) {
     const Instruction& in = code_[i];
-    if (adjoint[i] == 0) continue; // keeps an infinite slope of a branch not taken out
+    if (adjoint[i] == 0) continue; // ignores an infinite slope of a branch not taken
     if (in.op == Op::symbol && in.kind == Kind::data) by_column[in.index] += adjoint[i];
     const double operands[4] = {v[in.a[0]], v[in.a[1]], v[in.a[2]], v[in.a[3]]};
     for (std::size_t k = 0; k < in.operands; ++k)
@@ -170,11 +169,11 @@ double Program::gradient(std::span<const double> row, std::span<const double> sc
 
 namespace {
 
-// Rows per operation where nothing is summed over them: enough that the choice of a loop costs
-// little, few enough that the slots stay in the cache.
+// Rows per operation when nothing is summed over them: enough that selecting a loop costs little,
+// few enough that the slots stay in the cache.
 constexpr std::size_t at_once = 512;
 
-// Registers of one block; scalars are filled by the caller.
+// Registers of one block; the caller fills in the scalars.
 struct Workspace {
   std::vector<Register> registers;
   std::vector<double> storage;

@@ -12,25 +12,27 @@
 
 namespace frictab::expr {
 
-// Symbols are either `columns` (one value per row) or `scalars` (one value for all rows).
+// Program of a formula whose symbols are either `columns` (one value per row) or `scalars` (one
+// value for all rows).
 class Program {
 public:
   static constexpr std::size_t block = 128; // rows per sweep: the working set stays in L1
 
-  // Throws std::logic_error where the formula has a symbol that is in neither list.
+  // Throws std::logic_error if the formula has a symbol in neither list.
   Program(const Expr& formula, std::vector<std::string> columns, std::vector<std::string> scalars);
 
   const std::vector<std::string>& columns() const { return columns_; }
   const std::vector<std::string>& scalars() const { return scalars_; }
 
-  // One row. `row` and `scalars` are in the order of the lists above.
+  // Evaluates one row. `row` and `scalars` are in the order of the lists above.
   double operator()(std::span<const double> row, std::span<const double> scalars) const;
 
-  // The same, with the derivatives by each column, in one reverse sweep.
+  // Evaluates one row and its derivatives by each column, in one reverse sweep.
   double gradient(std::span<const double> row, std::span<const double> scalars,
                   std::span<double> by_column) const;
 
-  // All rows: out[i] for i < rows; columns[c][i]. Parallel and independent of the thread count.
+  // Evaluates all rows: out[i] for i < rows; columns[c][i]. Runs in parallel; the result does not
+  // depend on the thread count.
   void evaluate(std::size_t rows, std::span<const double* const> columns,
                 std::span<const double> scalars, double* out) const;
 
@@ -45,7 +47,7 @@ private:
     std::size_t a[4] = {}; // operands
     std::size_t operands = 0;
   };
-  // One operation of the one-row path: where each operand lies.
+  // One operation for single rows, with the source of each operand.
   enum class Source : std::uint8_t { row, scalar, constant, result };
   struct Step {
     Op op;
@@ -60,27 +62,27 @@ private:
   std::vector<Instruction> code_;
   std::vector<Step> steps_; // the operations of code_; constants and symbols are read in place
   std::vector<double> constants_;
-  std::vector<std::size_t> slot_; // per instruction: where `evaluate` keeps its result
+  std::vector<std::size_t> slot_; // per instruction: slot of its result in `evaluate`
   std::size_t slots_ = 0;
   std::vector<std::string> columns_;
   std::vector<std::string> scalars_;
 };
 
-// A program tied to columns that stay alive: what depends on the columns alone (logarithms of
-// pressures, ...) is computed once, so that each calibration step pays only for what changes.
+// A program bound to columns, which must outlive it: subformulas of columns only (logarithms of
+// pressures, ...) are computed once, so that each calibration step computes only what changes.
 class BoundProgram {
 public:
   BoundProgram(const Program& program, std::size_t rows, std::span<const double* const> columns);
 
   std::size_t rows() const { return rows_; }
 
-  // Called once per block in row order: rows first .. first+count-1, their values and, per scalar,
-  // their derivatives (derivative[s][i]).
+  // Result for one block: rows first .. first+count-1, their values and, per scalar, their
+  // derivatives (derivative[s][i]). `sweep` calls `take` once per block, in row order.
   struct Block {
     std::size_t first;
     std::size_t count;
     const double* value;
-    std::span<const double* const> derivative; // empty where none were asked for
+    std::span<const double* const> derivative; // empty unless requested
   };
   void sweep(std::span<const double> scalars, bool derivatives,
              const std::function<void(const Block&)>& take) const;
@@ -90,8 +92,7 @@ private:
   const Program& program_;
   std::size_t rows_;
   std::vector<const double*> columns_;
-  std::vector<std::vector<double>>
-      cached_; // per instruction; filled for data nodes that row nodes use
+  std::vector<std::vector<double>> cached_; // per instruction, for data nodes used by row nodes
 };
 
 } // namespace frictab::expr

@@ -73,7 +73,7 @@ FRICTAB_INLINE void binary(std::size_t n, Register a, Register b, double* out, F
       out[i] = f(*a.data, b[i]);
 }
 
-// to = f(i), or to + f(i): the first contribution needs no zeros to add to.
+// to = f(i) for the first contribution, which then needs no zeros to add to; otherwise to + f(i).
 template <class F> FRICTAB_INLINE void put(std::size_t n, double* to, bool add, F f) {
   if (add)
     for (std::size_t i = 0; i < n; ++i)
@@ -91,7 +91,7 @@ FRICTAB_INLINE void put_times(std::size_t n, double* to, bool add, Register fact
     put(n, to, add, [f, x = factor.data](std::size_t i) { return f(i, x[i]); });
 }
 
-// The adjoint goes to this operand in the rows where it was chosen.
+// Passes the adjoint to this operand in the rows in which it was chosen.
 template <class F>
 FRICTAB_INLINE void put_chosen(std::size_t n, double* to, bool add, Register a, Register b,
                                const double* adjoint, F chosen) {
@@ -108,7 +108,7 @@ FRICTAB_INLINE void put_chosen(std::size_t n, double* to, bool add, Register a, 
 
 FRICTAB_WIDE void run_operation(Op op, std::size_t n, const Operands& operands, double* out) {
   const Register* r = operands.r;
-  switch (op) { // the cheap operations get loops the compiler vectorises
+  switch (op) { // the compiler vectorises the loops of the cheap operations
   case Op::add:
     return binary(n, r[0], r[1], out, [](double a, double b) { return a + b; });
   case Op::subtract:

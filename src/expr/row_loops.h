@@ -1,5 +1,5 @@
-// Loops over the rows of a block, one per operation, forward and backward: written so that the
-// compiler vectorises the cheap ones. Row by row the same bits as `apply`.
+// Loops over the rows of a block, one per operation, forward and backward, written so that the
+// compiler vectorises the cheap ones. Gives the same bits as `apply` in each row.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ struct Register {
   double operator[](std::size_t i) const { return data[i * stride]; }
 };
 
-// What an operation reads; unused operands read zero.
+// Operands of an operation; unused ones read zero.
 struct Operands {
   static constexpr double zero = 0;
   Register r[4] = {{&zero, 0}, {&zero, 0}, {&zero, 0}, {&zero, 0}};
@@ -24,9 +24,9 @@ struct Operands {
 // out[i] = op(operands in row i), i < n.
 void run_operation(Op op, std::size_t n, const Operands& operands, double* out);
 
-// to[i] = adjoint[i] * d op/d operand `which` in row i, or with `add` that much more. `result` is
-// what the operation gave. Where the adjoint is 0 so is the product, however steep the operation:
-// the branch not taken keeps its infinite slopes to itself.
+// to[i] = adjoint[i] * d op/d operand `which` in row i, or adds this product to to[i] if `add` is
+// set. `result` is the result of the operation. If the adjoint is 0 the product is 0, even for an
+// infinite slope, so the branch not taken contributes nothing.
 void pass_back(Op op, std::size_t which, std::size_t n, const Operands& operands,
                const double* result, const double* adjoint, double* to, bool add);
 

@@ -1,4 +1,4 @@
-// Ranges and slopes carried through a formula together.
+// Propagates ranges and slopes through a formula together.
 #include "expr/sensitivity.h"
 
 #include <stdexcept>
@@ -16,7 +16,8 @@ bool is_zero(const Bounds& slope) {
   return slope.low == 0 && slope.high == 0;
 }
 
-// The mean value theorem: slope of f over the range of its operand, times the operand's.
+// Chain rule by the mean value theorem: slope of f over its operand's range, times the operand's
+// slope.
 Bounds chain(const Bounds& outer, const Bounds& inner) {
   return is_zero(inner) ? none : outer * inner;
 }
@@ -36,7 +37,7 @@ Bounds power_slope(const Carried& a, const Carried& b, const Bounds& result) {
   return by_base + by_exponent;
 }
 
-// Between branches that are chosen by something that does not change itself.
+// Slope of a choice between branches whose condition itself does not change.
 Bounds branch_slope(const Carried& a, const Carried& b, const Carried& c, const Carried& d) {
   if (a.range.high <= b.range.low) return c.slope;
   if (b.range.high < a.range.low) return d.slope;

@@ -1,11 +1,11 @@
-// How much a formula can change when one of its symbols does.
+// Bounds on the change of a formula when one of its symbols changes.
 //
-// Through the formula, operation by operation, go two intervals: the range of values (bounds.h),
-// and a slope S such that f(v) - f(w) lies in S (v - w) for any two values v, w of the symbol (a
-// Lipschitz interval). A smooth operation multiplies S by the interval of its derivative over the
-// operand's range (mean value theorem). min and max take the slope of the operand that is chosen,
-// or an interval around both where either may be: so kinks are covered, where a derivative would
-// not be.
+// Two intervals are propagated through the formula, operation by operation: the range of values
+// (bounds.h), and a slope S such that f(v) - f(w) lies in S (v - w) for any two values v, w of the
+// symbol (a Lipschitz interval). A smooth operation multiplies S by the interval of its derivative
+// over the operand's range (mean value theorem). min and max take the slope of the chosen operand,
+// or an interval around both slopes if either may be chosen. Kinks are thus covered, which a
+// derivative would not do.
 #pragma once
 
 #include <span>
@@ -23,8 +23,8 @@ public:
 
   struct Result {
     Bounds range; // of the formula over the box
-    // f(.., v, ..) - f(.., w, ..) lies in slope (v - w) for all v, w in the range of `of` and the
-    // other symbols anywhere in theirs. The whole line where nothing is known.
+    // f(.., v, ..) - f(.., w, ..) lies in slope (v - w) for all v, w in the range of `of` and all
+    // values of the other symbols in their ranges. The whole line if nothing is known.
     Bounds slope;
   };
   Result operator()(std::span<const Bounds> box) const;
@@ -35,7 +35,7 @@ private:
     double value = 0;
     std::size_t symbol = 0;
     std::size_t a[4] = {};
-    bool changes = false; // with the symbol `of`
+    bool changes = false; // depends on the symbol `of`
   };
   std::vector<Step> steps_;
   std::size_t of_;

@@ -1,4 +1,4 @@
-// Several formulas taken together: what they have in common is stored, and computed, once.
+// Several formulas together: common subformulas are stored, and computed, once.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace frictab::expr {
 
-// The same formulas with equal subformulas, of one or of different ones, stored once.
+// The same formulas with equal subformulas, within one or across several, stored once.
 std::vector<Expr> shared(const std::vector<Expr>& formulas);
 
 } // namespace frictab::expr

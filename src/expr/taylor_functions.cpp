@@ -1,4 +1,4 @@
-// Chebyshev interpolation with the error bound of each function's derivatives.
+// Chebyshev interpolation with an error bound from each function's derivatives.
 #include "expr/taylor_functions.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-// The distance of 0 from the interval low .. high.
+// Distance of 0 from the interval low .. high.
 double distance_from_zero(double low, double high) {
   if (low > 0) return low;
   return high < 0 ? -high : 0;
@@ -42,7 +42,7 @@ double tanh_derivative(double low, double high, std::size_t n) {
     const double y = (k + 0.5) * pi;
     sum += 2 * whole_power(1 / std::sqrt(x * x + y * y), n + 1);
   }
-  // The rest is below the integral from the last one on.
+  // Bounds the rest of the sum by the integral from its last term on.
   const double y = (pairs - 0.5) * pi;
   return sum + 2 / pi * whole_power(1 / y, n) / static_cast<double>(n);
 }
@@ -79,7 +79,7 @@ double derivative_bound(Op op, double low, double high, std::size_t n) {
   }
 }
 
-// Chebyshev points, and the matrix that makes powers of y of values at them.
+// Chebyshev points, and the matrix that converts values at them to coefficients of powers of y.
 struct Interpolation {
   std::vector<double> point;
   std::vector<double> power; // [power][point]
@@ -98,7 +98,7 @@ Interpolation interpolation(std::size_t n) {
       for (std::size_t i = 0; i < n; ++i)
         out.power[i * n + j] += share * now[i];
     }
-    const int twice = k == 0 ? 1 : 2; // T_k+1 = 2 y T_k - T_k-1, but T_1 = y T_0
+    const int twice = k == 0 ? 1 : 2; // T_k+1 = 2 y T_k - T_k-1, except T_1 = y T_0
     for (std::size_t i = 0; i < n; ++i)
       next[i] = (i > 0 ? twice * now[i - 1] : 0) - before[i];
     before.swap(now);
@@ -123,7 +123,8 @@ const Interpolation& interpolation_of(std::size_t n) {
 
 double chebyshev_fit(Op op, double centre, double radius, std::span<double> c) {
   const std::size_t n = c.size();
-  // One unit in the last place beyond the ends: centre and radius are rounded themselves.
+  // Extends the interval slightly beyond its ends, because centre and radius are rounded
+  // themselves.
   const double slack = 4 * std::numeric_limits<double>::epsilon() * (std::abs(centre) + radius);
   const double low = centre - radius - slack, high = centre + radius + slack;
   const double bound = derivative_bound(op, low, high, n);

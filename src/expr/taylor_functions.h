@@ -1,4 +1,4 @@
-// Polynomials in place of smooth functions of one variable, with a bound of what that costs.
+// Polynomials that approximate smooth functions of one variable, with an error bound.
 #pragma once
 
 #include <span>
@@ -8,9 +8,9 @@
 namespace frictab::expr {
 
 // Over centre - radius .. centre + radius: op(centre + radius y) is within the returned error of
-// sum_n c[n] y^n, |y| <= 1. Interpolation at Chebyshev points, whose error is at most
-// max|f^(n+1)| / (n+1)! radius^(n+1) / 2^n (Davis 1975, 3.3), and rounding. Infinite where `op` is
-// none of exp, log, sqrt, sin, tanh and 1/y (Op::divide), or is not smooth over the interval.
+// sum_n c[n] y^n, |y| <= 1. Interpolation at Chebyshev points, whose error is at most max|f^(n+1)|
+// / (n+1)! radius^(n+1) / 2^n (Davis 1975, 3.3), plus rounding. Infinite if `op` is none of exp,
+// log, sqrt, sin, tanh and 1/y (Op::divide), or is not smooth over the interval.
 double chebyshev_fit(Op op, double centre, double radius, std::span<double> c);
 
 } // namespace frictab::expr

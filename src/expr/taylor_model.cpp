@@ -1,4 +1,4 @@
-// Polynomial arithmetic with truncation; what is cut off or rounded goes into the error.
+// Polynomial arithmetic with truncation; truncated terms and rounding go into the error.
 #include "expr/taylor_model.h"
 
 #include <limits>
@@ -15,8 +15,8 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-// All exponents that sum up to `total`, over the variables from `variable` on; earlier variables
-// first.
+// Appends all exponents with the sum `total`, over the variables from `variable` on; earlier
+// variables first.
 void list(std::size_t variable, std::size_t variables, std::size_t total, Monomials::Exponents& one,
           std::vector<Monomials::Exponents>& all) {
   if (variable + 1 >= variables) {
@@ -94,8 +94,8 @@ struct Model {
   double& error;
 };
 
-// Loops over coefficients that the compiler vectorises: sums run in eight lanes whatever the
-// processor has, so that the bits are the same everywhere.
+// Loops over coefficients that the compiler vectorises. Sums run in eight lanes on every processor,
+// so that the bits are the same everywhere.
 constexpr std::size_t lanes = 8;
 
 double total(const double* lane) {
@@ -113,7 +113,7 @@ FRICTAB_WIDE double sum_abs(const double* c, std::size_t from, std::size_t to) {
   return total(sum);
 }
 
-// out = a + factor b, and the sum of its absolute values; `a` may be null.
+// out = a + factor b; returns the sum of its absolute values. `a` may be null.
 FRICTAB_WIDE double combine(std::size_t n, const double* a, double factor, const double* b,
                             double* out) {
   double sum[lanes] = {};
@@ -182,7 +182,7 @@ public:
     a.c[0] += middle;
     a.error += 0.5 * by.width() + eps * (std::abs(a.c[0]) + std::abs(middle));
   }
-  // Terms of a degree above `limit` go into the error.
+  // Moves terms of a degree above `limit` into the error.
   void multiply(const Model& a, const Model& b, std::size_t limit, const Model& out) const;
   void multiply(const Model& a, const Model& b, const Model& out) const {
     multiply(a, b, m_.degree(), out);
@@ -227,7 +227,7 @@ void Arithmetic::multiply(const Model& a, const Model& b, std::size_t limit,
   out.error = a.error * norm[1] + b.error * norm[0] + a.error * b.error + (cut + rounding) * 1.0001;
 }
 
-// a with `variable` replaced by a polynomial in it alone, by Horner's rule; |by| <= 1.
+// Replaces `variable` in a by a polynomial in that variable only, by Horner's rule; |by| <= 1.
 void Arithmetic::substitute(std::size_t variable, const Model& by, const Model& spare,
                             const Model& part, const Model& a) const {
   const std::size_t n = m_.degree(), size = m_.size_to(a.degree);
@@ -279,7 +279,7 @@ void Arithmetic::compose(Op op, const Model& a, const Model& y, const Model& spa
     out.error = error + slope * y.error + 16 * eps * (size + std::abs(c[0]));
     return;
   }
-  // Horner's rule: what will be multiplied by y another k times is needed to degree n - k only.
+  // Horner's rule: a product that is multiplied by y k more times is needed only to degree() - k.
   constant(c[n - 1], out);
   for (std::size_t k = n - 1; k-- > 0;) {
     multiply(out, y, m_.degree() - k, spare);
@@ -313,7 +313,7 @@ TaylorProgram::TaylorProgram(const Expr& formula, const std::vector<std::string>
   find_changes();
 }
 
-// What step i is an affine function of, apart from constants.
+// The step of which step i is an affine function, ignoring constants.
 std::size_t TaylorProgram::affine_source(std::size_t i) const {
   const Step& step = steps_[i];
   const auto is_constant = [&](std::size_t k) { return steps_[step.a[k]].op == Op::constant; };
@@ -326,7 +326,7 @@ std::size_t TaylorProgram::affine_source(std::size_t i) const {
 
 // Finds variables that reach the rest of the formula through one step only (Step::changes).
 void TaylorProgram::find_changes() {
-  std::vector<std::uint32_t> on(steps_.size(), 0); // bits of variables
+  std::vector<std::uint32_t> on(steps_.size(), 0); // bit set of variables
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     if (steps_[i].op == Op::symbol) on[i] = 1u << steps_[i].symbol;
     for (std::size_t k = 0; k < steps_[i].operands; ++k)
@@ -343,7 +343,7 @@ void TaylorProgram::find_changes() {
   }
 }
 
-// Three for intermediate results, and one for each change of variable.
+// Number of spare models: three for intermediate results, and one per change of variable.
 std::size_t TaylorProgram::Work::spares(const TaylorProgram& program) {
   return 3 + program.monomials_.variables();
 }
@@ -377,7 +377,7 @@ public:
   }
 
 private:
-  // The result of this step becomes the variable: from -1 to 1 again.
+  // Makes the result of this step the new variable, rescaled to -1 .. 1.
   void change_variable(std::size_t i) {
     const Model a = model(i);
     const std::size_t v = program_.steps_[i].changes;
@@ -428,14 +428,15 @@ private:
     out.error = HUGE_VAL;
   }
 
-  // One operand, moved by what the other may add to it.
+  // Copies one operand, enlarged by the possible contribution of the other.
   void take_operand(const Model& one, const Bounds& more, const Model& out) const {
     if (unknown(one) || !more.finite()) return give_up(out);
     with_.copy(one, out);
     if (more.low != 0 || more.high != 0) with_.shift(more, out);
   }
 
-  // max(a, b) = a + max(b - a, 0) = b + max(a - b, 0), min likewise: that which adds less.
+  // max(a, b) = a + max(b - a, 0) = b + max(a - b, 0), likewise for min; takes the form that adds
+  // less.
   void extreme(bool largest, const Model& a, const Model& b, const Model& out) const {
     with_.add(b, a, -1, t1_);
     const Bounds d = with_.range(t1_);
@@ -462,7 +463,7 @@ private:
   Work& work_;
   const Arithmetic with_;
   const Model t1_, t2_, t3_;
-  std::vector<std::size_t> changed_; // variables
+  std::vector<std::size_t> changed_; // changed variables
 };
 
 double TaylorProgram::operator()(std::span<const Bounds> box, Work& work,

@@ -1,11 +1,11 @@
 // Taylor models (Makino and Berz 2003): over a box of its symbols a formula is
 //   p(y) + e,   |e| <= error,
-// a polynomial p in the box's own coordinates y, each from -1 to 1, and one number that bounds how
-// far the formula is from it anywhere in the box. Sums and products of models are those of
+// with a polynomial p in the box's own coordinates y, each from -1 to 1, and one number that bounds
+// the distance of the formula from p anywhere in the box. Sums and products of models are those of
 // polynomials; terms above the highest degree, and all rounding, go into the error. A function such
 // as exp is replaced by its interpolating polynomial, whose error is known (taylor_functions.h).
-// min, max and where keep one operand and add to the error what the other may change. Unlike
-// intervals, models know that equal terms cancel, which makes proofs of a table's drift sharp.
+// min, max and where keep one operand and add the possible contribution of the other to the error.
+// Unlike intervals, models cancel equal terms, which makes proofs of a table's drift sharp.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace frictab::expr {
 
-// The monomials of total degree <= `degree`, by ascending total degree; the first is 1, and the
+// The monomials of total degree <= `degree`, in ascending total degree; the first is 1, and the
 // next `variables` are the variables themselves.
 class Monomials {
 public:
@@ -33,16 +33,16 @@ public:
   std::size_t size_to(std::size_t degree) const { return size_to_[degree]; }
   const Exponents& exponents(std::size_t i) const { return exponents_[i]; }
   std::size_t degree_of(std::size_t i) const { return degree_of_[i]; }
-  // Of the monomials i and j, where their degrees sum up to `degree` or less.
+  // Index of the product of the monomials i and j, for degrees with a sum of at most `degree`.
   std::size_t product(std::size_t i, std::size_t j) const { return product_[i][j]; }
   const std::uint16_t* products(std::size_t i) const { return product_[i].data(); }
-  std::size_t find(const Exponents& exponents) const; // size() where it is not among them
+  std::size_t find(const Exponents& exponents) const; // size() if not found
   // The monomial i > 0 is the variable factor(i) times the monomial rest(i).
   std::size_t factor(std::size_t i) const { return factor_[i]; }
   std::size_t rest(std::size_t i) const { return rest_[i]; }
-  // Of the monomial in the expansion of (x1 + x2 + ...) to its degree.
+  // Coefficient of monomial i in the expansion of (x1 + x2 + ...) to the power of its degree.
   double multinomial(std::size_t i) const { return multinomial_[i]; }
-  // The monomial with the exponent of v set to 0; v to the power k.
+  // Index of monomial i with the exponent of v set to 0; index of v to the power k.
   std::size_t without(std::size_t i, std::size_t v) const { return without_[i][v]; }
   std::size_t power(std::size_t v, std::size_t k) const { return power_[v][k]; }
 
@@ -66,11 +66,11 @@ public:
   TaylorProgram(const Expr& formula, const std::vector<std::string>& columns,
                 const Monomials& monomials);
 
-  // Where everything is computed; one per thread.
+  // Work space of an evaluation; one per thread.
   class Work;
 
-  // Coefficients by monomial in `polynomial`; returns the largest possible error of it over the
-  // box, infinite where the formula cannot be enclosed there (a logarithm that may reach 0, ...).
+  // Writes the coefficients by monomial to `polynomial` and returns its largest possible error over
+  // the box; infinite if the formula cannot be enclosed there (a logarithm that may reach 0, ...).
   double operator()(std::span<const Bounds> box, Work& work, std::span<double> polynomial) const;
 
 private:
@@ -82,8 +82,8 @@ private:
     std::size_t symbol = 0;
     std::size_t a[4] = {};
     std::size_t operands = 0;
-    // A variable that reaches the rest of the formula through this step alone: then the step's
-    // result is taken as the variable, because what follows is often affine in it.
+    // A variable that reaches the rest of the formula only through this step. The step's result
+    // then becomes the variable, because the rest is often affine in it.
     std::size_t changes = no_variable;
   };
   void find_changes();

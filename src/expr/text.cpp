@@ -1,4 +1,4 @@
-// Formulas to text in Python's spelling.
+// Writes formulas in Python's spelling.
 #include <cmath>
 #include <stdexcept>
 
@@ -60,7 +60,8 @@ std::string number(double value) {
 
 void write(std::string& text, const Expr& e, int least);
 
-// Operands with a sign between them, each as strong as the place asks.
+// Writes two operands with a sign between them; `left` and `right` are the binding strengths they
+// need.
 void write_pair(std::string& text, const Expr& e, const char* sign, int left, int right) {
   write(text, e.operands()[0], left);
   text += sign;
