@@ -1,4 +1,4 @@
-// Columns of two datasets end to end.
+// Appends the columns of one dataset to those of another.
 #include "data/append.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ bool is_text(const Column& column) {
   return !column.levels.empty();
 }
 
-// Of two condensed datasets, with the histories that both have.
+// Appends the condensed data of `from`; keeps the histories that both have.
 void append_condensed(Condensed& to, const Condensed& from) {
   append_values(to.rows, from.rows);
   append_values(to.within_MPa2, from.within_MPa2);
@@ -119,7 +119,7 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
                  "give experiments different names, or join the files");
   std::array both{&all, &more};
   if (all.has(direction_column) != more.has(direction_column)) add_direction(both);
-  std::unordered_map<std::string_view, Column*> others; // a file may have many
+  std::unordered_map<std::string_view, Column*> others; // a file may have many columns
   for (Column& column : more.columns)
     others.emplace(column.name, &column);
   std::set<std::string_view> known;
@@ -157,7 +157,8 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
       return static_cast<double>(std::lower_bound(levels.begin(), levels.end(), level) -
                                  levels.begin());
     };
-    if (levels != column.levels) // else a campaign of many parts would go through all again
+    // Skipped if equal: a campaign of many parts would otherwise scan all rows for each part.
+    if (levels != column.levels)
       for (double& value : column.values)
         value = recode(column, value);
     for (const double value : other->values)
@@ -180,7 +181,7 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
 
 namespace {
 
-// Of the same name, and both text or both numbers.
+// Keeps the columns that `other` has by name and of the same kind, text or numbers.
 void keep_columns_of(const Dataset& other, Dataset& data) {
   std::erase_if(data.columns, [&](const Column& column) {
     const Column* same = other.find(column.name);
@@ -207,7 +208,7 @@ Dataset together(const Dataset& first, const Dataset& second) {
   keep_columns_of(second, all);
   keep_columns_of(first, more);
   call_apart(first.experiments, more.experiments);
-  FaultList faults; // none is left
+  FaultList faults; // stays empty: only shared columns are left
   append(all, std::move(more), "", faults);
   faults.throw_if_any();
   all.oracle_MPa.clear();

@@ -29,7 +29,8 @@ void check_needed(Part& part, const DataOptions& options) {
                         join(part.raw_names(), ", "));
 }
 
-// In the canonical unit of any quantity, seconds since 1970 among them: more is no measurement.
+// Limit in the canonical unit of any quantity, including seconds since 1970: a larger value cannot
+// be a measurement.
 constexpr double more_than_anything = 1e12;
 
 namespace {
@@ -124,7 +125,7 @@ bool rows_look_like_tests(std::span<const std::vector<double>> settings, std::si
 
 namespace {
 
-// Nobody has said what a test is, and the file is taken for one.
+// Applies only if the job does not define tests, so that the whole file counts as one.
 void check_rows(Part& part, const DataOptions& options) {
   const Dataset& data = part.data;
   if (!options.experiment.empty() || !options.wide.empty() || !part.whole_file ||
@@ -142,7 +143,7 @@ void check_rows(Part& part, const DataOptions& options) {
                     "of one test");
 }
 
-// A column that numbers the rows makes every row a test.
+// A column that numbers the rows would make every row a test.
 void check_names(Part& part) {
   const Dataset& data = part.data;
   const bool named_by_column = data.experiments.size() > 1;
@@ -153,7 +154,7 @@ void check_names(Part& part) {
                     "leave it out");
 }
 
-// A campaign of one row per test is data; one such test among time series is a mistake.
+// A campaign of one row per test is valid; a single such test among time series is a mistake.
 void check_single_rows(Part& part) {
   const Dataset& data = part.data;
   std::vector<std::size_t> single;

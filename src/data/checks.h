@@ -1,4 +1,4 @@
-// What cannot be in a file, told once per cause with its count.
+// Checks for impossible content of a file, reported once per cause with its count.
 #pragma once
 
 #include <span>
@@ -9,29 +9,30 @@
 
 namespace frictab::data {
 
-// Cells that are no numbers, in the rows that are kept; what was to be computed from such a cell
-// follows them.
+// Reports cells of kept rows that are not numbers; a value that would be computed from such a cell
+// is not reported again.
 void tell_cells(Part& part);
 
-// A contact normal stress: a column that is mapped and absent has had its fault already.
+// Reports a missing contact normal stress. A column that is mapped but absent has been reported
+// before.
 void check_needed(Part& part, const DataOptions& options);
 
-// Quantities below their lowest value (friction may scatter about 0), and rows without load where
-// eq. 1 divides by it.
+// Reports quantities below their lowest value (friction may scatter about 0), and rows without load
+// where eq. 1 divides by it.
 void check_values(Part& part);
 
-// Values that could not be computed though every cell of their row is a number; a measured stress
-// where rows need none apart.
+// Reports values that could not be computed although every cell of their row is a number; not a
+// measured stress if the rows do not need one.
 void check_computed(Part& part, const DataOptions& options);
 
-// Whether rows stand for tests, not for a course: at least 8 and at most 1000 of them, with two
-// columns or more that come back to few levels (a third of the rows at most), whose combinations
-// change from row to row and come back in three rows at most. `settings`: columns that are no
-// response, text as levels.
+// True if rows look like tests rather than a time series: 8 to 1000 rows, with at least two columns
+// that repeat few levels (at most a third of the number of rows). Combinations of these levels have
+// to change from row to row, and each may occur in at most three rows. `settings`: the columns that
+// are not responses, text as levels.
 bool rows_look_like_tests(std::span<const std::vector<double>> settings, std::size_t rows);
 
-// Time that goes back; rows that look like tests, where nobody says what a test is; tests of one
-// row among others, where they are measured.
+// Reports time that decreases, rows that look like tests if the job does not define tests, and
+// measured tests of one row among others.
 void check_experiments(Part& part, const DataOptions& options);
 
 } // namespace frictab::data

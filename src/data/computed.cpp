@@ -40,14 +40,14 @@ std::vector<double> local_slopes(std::span<const double> t, std::span<const doub
       stt += (t[j] - mt) * (t[j] - mt);
       sty += (t[j] - mt) * (y[j] - my);
     }
-    slopes[i] = sty / stt; // NaN where time stands still
+    slopes[i] = sty / stt; // NaN if t is constant in the window
   }
   return slopes;
 }
 
 // ---- formulas ----
 
-// As a formula writes a column's name: "Drehzahl innen [1/min]" is Drehzahl_innen.
+// A column's name as formulas write it: "Drehzahl innen [1/min]" is Drehzahl_innen.
 std::string written(const std::string& column) {
   std::string out;
   for (const char c : io::read_header_name(column).name)
@@ -55,7 +55,7 @@ std::string written(const std::string& column) {
   return out;
 }
 
-// The column that a name of a formula means; nullptr where there is none.
+// The column that a name in a formula refers to; nullptr if there is none.
 const Column* meant(Part& part, const std::string& name) {
   if (const Column* column = part.find(name)) return column;
   for (const Column& column : part.data.columns)
@@ -71,7 +71,7 @@ std::string unit_of(const Part& part, const Column& column) {
   return "";
 }
 
-// x of abs(x) and sqrt(x^2), however they are written; nullptr of all else.
+// The x of abs(x) and of sqrt(x^2), in any notation; nullptr for other expressions.
 const expr::Expr* under_magnitude(const expr::Expr& e) {
   using expr::Op;
   const auto negates = [](const expr::Expr& a, const expr::Expr& b) {
@@ -89,7 +89,7 @@ const expr::Expr* under_magnitude(const expr::Expr& e) {
   return is_square ? &square.operands()[0] : nullptr;
 }
 
-// The formula with x for abs(x); none where it has no such term.
+// The formula with abs(x) replaced by x; nullopt if it has no such term.
 std::optional<expr::Expr> without_magnitudes(const expr::Expr& formula) {
   std::vector<std::pair<expr::Expr, expr::Expr>> nodes;
   expr::for_each_part(formula, [&](const expr::Expr& part) {
@@ -107,7 +107,7 @@ public:
     std::map<std::string, expr::Expr> open;
     for (const auto& [canonical, from] : options_.columns)
       if (!from.formula.empty()) open.emplace(canonical, parsed(from));
-    // Those that need no other one first.
+    // Computes the formulas whose inputs are ready, until none is left.
     for (bool any = true; any && !open.empty();) {
       any = false;
       for (auto next = open.begin(); next != open.end();) {
@@ -166,7 +166,8 @@ private:
     return canonical == "v_rel_mm_s" || canonical == "tau_R_MPa" || canonical == "F_R_N";
   }
 
-  // Where it is the formula but for its sign: abs(x) + abs(y) is not.
+  // Keeps the signed values only if they equal the formula up to sign, which abs(x) + abs(y) does
+  // not.
   void keep_if_same(const std::string& canonical, const std::vector<double>& magnitudes,
                     std::vector<double> with_sign) {
     constexpr double rounding = 1e-9;
@@ -250,7 +251,8 @@ std::vector<std::string> computed_from(const DataOptions& options, const std::st
 void compute_formulas(Part& part, const DataOptions& options) {
   Formulas(part, options).compute();
   if (!options.bystanders) return;
-  const std::vector<std::string>& keep = *options.bystanders; // beside them, what formulas used
+  // Kept, together with the columns that formulas used.
+  const std::vector<std::string>& keep = *options.bystanders;
   std::erase_if(part.data.columns, [&](const Column& column) {
     return !find_quantity(column.name) && !computed_from(options, column.name).empty() &&
            std::find(keep.begin(), keep.end(), column.name) == keep.end();
@@ -262,7 +264,7 @@ void multiply_coefficients(Part& part, const DataOptions& options) {
     if (from.times.empty()) continue;
     Column* target = part.find(canonical);
     const Column* factor = part.find(from.times);
-    if (!factor && !options.columns.count(from.times)) // else told already
+    if (!factor && !options.columns.count(from.times)) // otherwise already reported
       part.faults.add(from.place, fmt::format("{}: times = '{}', which the data do not have",
                                               canonical, from.times));
     if (!target || !factor) continue;
@@ -283,7 +285,7 @@ void derive_shear_stress(Part& part, const DataOptions& options) {
                     "map it in [data.columns]; the file has: " + join(part.raw_names(), ", "));
     return;
   }
-  if (!stress) return; // told by check_needed
+  if (!stress) return; // reported by check_needed
   part.measured_tau = false;
   part.data.columns.push_back({"tau_R_MPa", "MPa", std::vector<double>(stress->values.size()), {}});
   fill_shear_stress(part);
@@ -295,7 +297,8 @@ void fill_shear_stress(Part& part) {
   if (!tau) return;
   const auto &friction = part.find("F_R_N")->values, &normal = part.find("F_N_N")->values,
              &stress = part.find("sigma_n_MPa")->values;
-  // No load, no coefficient: NaN; check_values reports the load unless the row is left out before.
+  // NaN, because the coefficient is undefined without load; check_values reports the load unless
+  // the row is left out before.
   for (std::size_t i = 0; i < tau->values.size(); ++i)
     tau->values[i] = normal[i] > 0 ? friction[i] / normal[i] * stress[i] : no_value;
 }

@@ -1,5 +1,5 @@
-// Columns that are computed from others, after mapping: slopes of paths, formulas of the job,
-// coefficients, eq. 1 of the paper, the sliding distance.
+// Columns computed from others, after mapping: slopes of paths, formulas of the job, coefficients,
+// eq. 1 of the paper, the sliding distance.
 #pragma once
 
 #include <string>
@@ -10,27 +10,27 @@
 
 namespace frictab::data {
 
-// |d column/d time_s| of columns that are paths; that of the speed also with its sign (signs.h).
+// |d column/d time_s| of path columns; for the speed, the signed slope is kept as well (signs.h).
 void take_slopes(Part& part, const DataOptions& options);
 
-// [data.columns] NAME = { formula = "rpm*radius_mm*2*pi/60" }. Names in a formula are quantities,
-// in their canonical units, or other columns of the data, as the file gives them: by their names,
-// or by these with _ for every sign that is no letter or digit, without a unit behind them; pi is
-// known. A formula may use the columns of other formulas. Faults are told at the formula. Where a
-// formula of the speed, the friction or the stress makes a magnitude of a column with a sign
-// (abs(x), sqrt(x^2)), its values with that sign are kept as well (signs.h).
+// Evaluates [data.columns] NAME = { formula = "rpm*radius_mm*2*pi/60" }. Names in a formula are
+// quantities in their canonical units, or other columns as the file gives them: by their names
+// without a trailing unit, optionally with _ for every character other than letters and digits; pi
+// is known. A formula may use the columns of other formulas. Faults are reported at the formula. If
+// a formula of the speed, the friction or the stress takes the magnitude of a signed column
+// (abs(x), sqrt(x^2)), its signed values are kept as well (signs.h).
 void compute_formulas(Part& part, const DataOptions& options);
 
-// The quantities whose formulas in the job, of all or of some files, use a column of this name.
+// The quantities whose formulas in the job, for all or some files, use a column of this name.
 std::vector<std::string> computed_from(const DataOptions& options, const std::string& column);
 
-// Measured coefficients times the column that the job names.
+// Multiplies measured coefficients by the column that the job names.
 void multiply_coefficients(Part& part, const DataOptions& options);
 
-// Eq. 1 of the paper: mu_meas = F_R/F_N, tau_R = mu_meas sigma_N. A fault where the data have
-// neither a stress nor the forces and need them (options.measured).
+// Eq. 1 of the paper: mu_meas = F_R/F_N, tau_R = mu_meas sigma_N. Adds a fault if the data need
+// tau_R (options.measured) and have neither a stress nor the forces.
 void derive_shear_stress(Part& part, const DataOptions& options);
-// That tau_R once more, from forces that have changed.
+// Recomputes tau_R of derive_shear_stress() after the forces have changed.
 void fill_shear_stress(Part& part);
 
 // s_mm from v_rel_mm_s and time_s, by the trapezoidal rule.

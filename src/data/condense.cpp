@@ -1,4 +1,4 @@
-// Cuts experiments into blocks, and finds their rows again.
+// Cuts experiments into blocks, and reads their rows again.
 #include "data/condense.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ namespace {
 
 using Values = std::span<const double>;
 
-// Whether a block must not hold both row i - 1 and row i.
+// Rows at which a new block has to begin.
 class Borders {
 public:
   explicit Borders(const Dataset& data) : pressure_(data.values("sigma_n_MPa")) {
@@ -51,8 +51,9 @@ private:
   std::vector<Values> texts_;
 };
 
-// Rows behind the first at which a block of its start ends: 1, 2, ... 16, 18, ... 32, 36, ...: an
-// eighth of the way so far at most, as long as that is less than a usual block.
+// Offsets from an experiment's first row at which its short first blocks end: 1, 2, ... 16, 18, ...
+// 32, 36, .... A block covers at most an eighth of the rows before it, until that reaches the usual
+// block size.
 std::set<std::size_t> cuts_of_start(std::size_t usual_rows) {
   constexpr std::size_t of_an_octave = 8;
   std::set<std::size_t> cuts;
@@ -68,7 +69,7 @@ std::vector<std::size_t> cuts_of(const Borders& borders, std::size_t begin, std:
   const std::size_t rows = end - begin, count = std::min(rows, blocks);
   const std::set<std::size_t> start = cuts_of_start(rows / count);
   std::vector<std::size_t> cuts;
-  std::size_t next = 0; // of the blocks of equal size
+  std::size_t next = 0; // index of the next block of equal size
   for (std::size_t i = begin; i < end; ++i) {
     const bool due = i == begin + next * rows / count;
     if (due && next + 1 < count) ++next;
@@ -77,7 +78,7 @@ std::vector<std::size_t> cuts_of(const Borders& borders, std::size_t begin, std:
   return cuts;
 }
 
-// Of the cells that hold a value.
+// Mean of the cells that have a value.
 double mean_of_cells(Values values) {
   double sum = 0, count = 0;
   for (const double x : values)
@@ -105,7 +106,7 @@ std::pair<double, double> ends_of(Values values) {
   return span;
 }
 
-// Blocks of all experiments of a dataset.
+// Condenses all experiments of a dataset.
 class Condenser {
 public:
   Condenser(const Dataset& rows, std::size_t blocks) : rows_(rows) {
@@ -126,7 +127,7 @@ public:
     out_.file_of = rows_.file_of;
     out_.assumed = rows_.assumed;
     absorb(out_, rows_);
-    out_.aside.reset(); // strokes of blocks are drawn without
+    out_.aside.reset(); // stroke plots of blocks omit these rows
     out_.clocks = rows_.clocks;
     out_.condensed.emplace();
     add_experiments(source);
@@ -151,7 +152,7 @@ private:
   }
   std::size_t blocks() const { return first_.size() - 1; }
 
-  // A block holds one level.
+  // Text columns need no mean, because a block contains a single level.
   std::vector<double> means(const Column& column) const {
     std::vector<double> out;
     for (std::size_t b = 0; b < blocks(); ++b)
@@ -190,7 +191,7 @@ private:
       out_.condensed->experiments[e].spans[column.name] = ends_of(experiment(column.values, e));
   }
 
-  // Those of a law's own stress are derived where there is a law.
+  // Histories of a law's own stress are derived later, with the law.
   void add_history(const DerivedQuantity& quantity) {
     for (const std::string& need : quantity.needs)
       if (!rows_.has(need)) return;
@@ -223,7 +224,7 @@ void check_same(const Dataset& data, std::size_t experiment, std::size_t rows) {
                    "the files were changed while they were read: run again when they are complete");
 }
 
-// The columns that only all tests together give (data/recordings.h).
+// Adds the columns that need all tests together (data/recordings.h).
 Dataset with_recording(const Dataset& one, const Dataset& data, std::size_t experiment) {
   Dataset more = one;
   for (const char* name : {interval_column, recording_column})
@@ -239,7 +240,7 @@ Dataset with_recording(const Dataset& one, const Dataset& data, std::size_t expe
 void read_again(std::span<const Dataset* const> all, const TakeRows& take) {
   using Place = std::pair<std::size_t, std::size_t>; // dataset, experiment
   std::map<const RowSource*, std::multimap<std::string, Place>> asked;
-  std::vector<const RowSource*> order; // in which they come, whatever their addresses
+  std::vector<const RowSource*> order; // order of first use, independent of addresses
   for (std::size_t d = 0; d < all.size(); ++d) {
     if (!all[d]->condensed) throw std::logic_error("rows that are held are not read again");
     for (std::size_t e = 0; e < all[d]->experiments.size(); ++e) {

@@ -1,4 +1,4 @@
-// Access to, and cutting of, a campaign; an experiment is never split.
+// Access to and splitting of a campaign; an experiment is never split.
 #include "data/dataset.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ std::optional<std::string> Dataset::level_of_test(const Column& column,
   const std::size_t first = first_row[experiment];
   const double value = column.values[first];
   for (std::size_t i = first; i < first_row[experiment + 1]; ++i)
-    if (column.values[i] != value) return std::nullopt; // NaN as well
+    if (column.values[i] != value) return std::nullopt; // also for NaN
   return column.levels.empty() ? fmt::format("{:.6g}", value)
                                : column.levels[static_cast<std::size_t>(value)];
 }
@@ -140,14 +140,14 @@ namespace {
 
 constexpr XXH64_hash_t hold_out_stream = 0x686f6c646f7574; // "holdout"
 
-// The place of each unit in an order drawn by seed from what its tests hold.
+// Position of each unit in a random order, seeded by the contents of its tests.
 std::vector<std::size_t> drawn_by_content(const Dataset& data, const Units& units,
                                           std::uint64_t seed) {
   std::vector<std::vector<XXH64_hash_t>> tests(units.count);
   for (std::size_t e = 0; e < units.of.size(); ++e) {
     const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
     XXH64_hash_t hash = XXH64(&rows, sizeof rows, seed);
-    for (const Quantity& quantity : quantities()) // in their own order, not the file's
+    for (const Quantity& quantity : quantities()) // in canonical order instead of the file's
       if (const Column* column = data.find(quantity.name))
         hash = XXH64(column->values.data() + first, rows * sizeof(double), hash);
     tests[units.of[e]].push_back(hash);
@@ -188,7 +188,7 @@ Split hold_out(const Dataset& data, double share, std::uint64_t seed) {
   for (std::size_t e = 0; e < units.of.size(); ++e)
     (drawn[units.of[e]] < held ? out : in).push_back(e);
   Split split{data.subset(in), data.subset(out)};
-  // What was left out at reading is told once, with the training part.
+  // Rows left out at reading are reported once, with the training part.
   split.validation.dropped.clear();
   split.validation.phases = {};
   split.validation.interventions.clear();

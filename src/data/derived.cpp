@@ -51,7 +51,7 @@ void since_start(Rows t, Out out) {
     out[i] = t[i] - t[0];
 }
 
-// Time so far spent at no less than half of the peak stress so far.
+// Time so far at a stress of at least half of its peak so far.
 void dwell(Rows sigma, Rows t, Out out) {
   double peak = sigma[0];
   out[0] = 0;
@@ -61,7 +61,7 @@ void dwell(Rows sigma, Rows t, Out out) {
   }
 }
 
-// 1 while there was no stress yet: it is being loaded.
+// Stress over its peak so far; 1 before the first stress, when loading begins.
 void load_ratio(Rows sigma, Out out) {
   double peak = sigma[0];
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -70,9 +70,9 @@ void load_ratio(Rows sigma, Out out) {
   }
 }
 
-// 1 while the stress rises, 0 while it falls; without a load it goes on as before.
+// 1 while the stress rises, 0 while it falls; keeps its value without a load.
 void load_direction(Rows sigma, Out out) {
-  double extreme = 0; // since it last turned
+  double extreme = 0; // since the last turn
   bool rises = true;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const double now = sigma[i];
@@ -111,8 +111,8 @@ void integrate_product(Rows psi, Rows sigma, Rows s, Out out) {
   integrate(product, s, out);
 }
 
-// A fast source of heat q = tau v warms a surface by what grows with q/sqrt(v) (Blok 1937, Jaeger
-// 1942).
+// Flash temperature: a fast heat source q = tau v heats a surface in proportion to q/sqrt(v) (Blok
+// 1937, Jaeger 1942).
 void flash(Rows tau, Rows v, Out out) {
   for (std::size_t i = 0; i < out.size(); ++i)
     out[i] = tau[i] * std::sqrt(std::max(v[i], 0.0));
@@ -123,7 +123,7 @@ void power(Rows tau, Rows v, Out out) {
     out[i] = tau[i] * v[i];
 }
 
-// Inputs come in the order of `needs`.
+// A rule takes its inputs in the order of `needs`.
 struct Rule {
   DerivedQuantity quantity;
   std::function<void(const std::vector<Rows>&, Out)> along;
@@ -143,7 +143,7 @@ Rule rule_of_three(DerivedQuantity quantity, void (*rule)(Rows, Rows, Rows, Out)
           [rule](const std::vector<Rows>& in, Out out) { rule(in[0], in[1], in[2], out); }};
 }
 
-// Load and its way, heat, and what the surface has been through.
+// Rules for load and path, heat, and the surface's history.
 std::vector<Rule> further_rules() {
   using C = Continuation;
   return {
@@ -180,14 +180,15 @@ std::vector<Rule> further_rules() {
                    {"T_contact_C"},
                    {C::lag, C::temperature}},
                   above_mean),
-      // A routine knows the temperature of one contact, not that of a whole tool.
+      // No continuation: a routine knows the temperature of one contact, not that of a whole tool.
       rule_of_two({"temperature_above_tool",
                    "K",
                    "contact temperature above that of the tool",
                    {"T_contact_C", "T_tool_C"},
                    {}},
                   difference),
-      // Routines know the expansion so far where their solver gives it, not along the slide.
+      // No continuation: routines know the expansion so far if their solver gives it, but not its
+      // course along the slide.
       rule_of_three({"expansion_work",
                      "MPa mm",
                      "load times surface expansion so far, integral of psi sigma_N ds",
@@ -283,7 +284,7 @@ std::vector<Rule> first_rules() {
 
 // ---- state variables of rate-and-state friction ----
 
-// theta behind a step of time dt at the speed v over which it was `theta`.
+// theta after a time step dt at the speed v, from its value `theta` before.
 double aged(double theta, double v, double dt, double D) {
   const double x = v * dt / D;
   return theta * std::exp(-x) + dt * (x > 1e-8 ? -std::expm1(-x) / x : 1.0);
@@ -295,7 +296,7 @@ double slipped(double theta, double v, double dt, double D) {
 
 void follow_state(const Continuation& how, Rows v, Rows t, Out out) {
   const auto step = how.rule == Continuation::aging ? aged : slipped;
-  bool has_slid = false; // NaN has: what follows is not known either
+  bool has_slid = false; // a NaN speed counts as slid: later values are unknown as well
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i] = has_slid ? step(out[i - 1], std::max(0.5 * (v[i] + v[i - 1]), 0.0),
                              std::max(t[i] - t[i - 1], 0.0), how.distance_mm)
@@ -318,7 +319,7 @@ Rule state_rule(const std::string& name, const SlipState& state) {
       [how](const std::vector<Rows>& in, Out out) { follow_state(how, in[0], in[1], out); }};
 }
 
-// Rules of the states that were asked for; they stay where they are.
+// Rules of the requested states; their addresses stay valid.
 const Rule* find_state_rule(std::string_view name) {
   static std::mutex mutex;
   static std::map<std::string, Rule, std::less<>> known;

@@ -1,4 +1,4 @@
-// Four rules, from one that needs many rows to ones that need a dozen.
+// Four tests, from one that needs many rows to ones that need a dozen.
 #include "data/disguise.h"
 
 #include <algorithm>
@@ -26,14 +26,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Limits, by a prototype of the same rules: 0 of 120 synthetic campaigns without a disguise had one
-// named, and 166 of 185 disguises were. What this code calls is in tests/unit/roles_test.cpp.
+// Limits set with a prototype of the same rules: it reported a disguise in 0 of 120 synthetic
+// campaigns without one, and found 166 of 185 disguises. The rates of this code are in
+// tests/unit/roles_test.cpp.
 constexpr double sure_share = 0.05, ask_share = 0.2; // of y's mean square
-constexpr double own_scatter = 0.5;                  // from row to row
+constexpr double own_scatter = 0.5;                  // limit from row to row
 constexpr std::size_t few_levels = 8;                // of a number that tests share
-constexpr double shared_values = 0.3;                // of tests, that have a value of others
-constexpr double of_factor = 0.5;    // of what a factor leaves alone, that a reading leaves with it
-constexpr double sure_direct = 0.02; // of the best formula of states alone
+constexpr double shared_values = 0.3; // share of tests whose value other tests have as well
+// Most that a reading and a factor may leave, relative to what the factor leaves alone.
+constexpr double of_factor = 0.5;
+constexpr double sure_direct = 0.02; // relative to the best formula of states only
 constexpr double sure_rank = 0.999, state_rank = 0.99;
 constexpr double sure_linear = 0.95, ask_linear = 0.85; // R squared from row to row
 constexpr std::array<Index, 3> least_of_level = {40, 60, 10};
@@ -41,24 +43,25 @@ constexpr Index least_direct = 12, least_rank = 20, least_linear = 200;
 constexpr Index rows_of_test = 250, steps_of_campaign = 60000, rows_to_rank = 20000;
 constexpr Index pieces = 20, rows_for_blocks = 40, to_screen = 2000;
 constexpr std::size_t most_in_pairs = 40;
-// Of a large campaign every other row or fewer, and where that is not enough, some of the tests.
+// Limits for a large campaign: uses every other row or fewer, and if that is not enough, some of
+// the tests.
 constexpr Index values_to_hold = 2'000'000, least_rows = 20000, least_rows_of_test = 200,
                 most_rows_of_test = 20000;
-// What hardly is there has no logarithm: of the median.
+// Smallest value whose logarithm is taken, as a fraction of the median.
 constexpr double floor_share = 0.05, floor_share_tau = 0.1;
 constexpr double trimmed = 0.97, infinite = std::numeric_limits<double>::infinity();
 
 VectorXd logarithm(const VectorXd& x, double share) {
   std::vector<double> sizes;
   for (const double value : x)
-    if (std::abs(value) > 0) sizes.push_back(std::abs(value)); // NaN is not
+    if (std::abs(value) > 0) sizes.push_back(std::abs(value)); // excludes NaN as well
   const double floor = share * upper_median(std::move(sizes));
   return x.unaryExpr([floor](double value) {
     return std::abs(value) > floor ? std::log(std::abs(value)) : no_value;
   });
 }
 
-// Mean of the smallest squares.
+// Mean of the smallest squares; leaves out the largest share.
 double trimmed_mean_square(VectorXd x, double share = trimmed) {
   const Index keep = std::max<Index>(1, static_cast<Index>(share * static_cast<double>(x.size())));
   x = x.cwiseAbs2();
@@ -81,7 +84,7 @@ double squared_correlation(const VectorXd& a, const VectorXd& b) {
   return size > 0 ? xy * xy / size : 0;
 }
 
-// Ranks, those of equal values their mean.
+// Ranks; equal values get their mean rank.
 VectorXd ranks(const VectorXd& x) {
   std::vector<Index> order(static_cast<std::size_t>(x.size()));
   std::iota(order.begin(), order.end(), 0);
@@ -110,7 +113,7 @@ double resolution(const VectorXd& x) {
   return std::isfinite(least) ? least : 0;
 }
 
-// The step in which values are written, over their median: 0.115, 0.12 and 0.13 in steps of 0.005.
+// Step in which values are written, over their median: 0.115, 0.12 and 0.13 have steps of 0.005.
 double written_step(const std::vector<double>& values) {
   double decimal = 1;
   const auto is_whole = [&](double value) {
@@ -120,7 +123,7 @@ double written_step(const std::vector<double>& values) {
     decimal /= 10;
   long long step = 0;
   for (const double value : values) {
-    if (!(std::abs(value / decimal) < 1e15)) return 0; // more digits than a double holds
+    if (!(std::abs(value / decimal) < 1e15)) return 0; // more digits than a double has
     step = std::gcd(step, std::llround(value / decimal));
   }
   return static_cast<double>(step) * decimal / std::max(std::abs(upper_median(values)), 1e-300);
@@ -147,7 +150,8 @@ bool is_known(double value) {
   return std::isfinite(value);
 }
 
-// Tests of all parts in a row, and the three levels on which a column is looked at.
+// The tests of all parts in sequence, and the three levels on which a column is examined: row
+// steps, pieces of tests, means of tests.
 class Cut {
 public:
   explicit Cut(std::span<const Dataset* const> parts) : parts_(parts) {
@@ -172,7 +176,7 @@ public:
   Index rows() const { return rows_; }
   Index tests() const { return static_cast<Index>(tests_.size()); }
 
-  // NaN where a part has no such column, or text without a number.
+  // NaN if a part has no such column, or for text without a number.
   VectorXd values(const std::string& name) const {
     VectorXd out = VectorXd::Constant(rows_, no_value);
     for (const Test& test : tests_) {
@@ -214,7 +218,7 @@ public:
     VectorXd out(tests());
     for (Index t = 0; t < tests(); ++t) {
       double low = infinite,
-             high = -infinite; // of known values: where there are none, it is below 0
+             high = -infinite; // of known values; without any, high < low
       for (const double value : x.segment(at(t).first, at(t).rows)) {
         if (value < low) low = value;
         if (value > high) high = value;
@@ -224,7 +228,7 @@ public:
     return out;
   }
 
-  // Steps of x over those of y within tests; NaN where y stands still.
+  // Steps of x over those of y within tests; NaN if y is constant.
   VectorXd rate(const VectorXd& x, const VectorXd& y) const {
     VectorXd out = VectorXd::Constant(rows_, no_value);
     for (const Test& test : tests_)
@@ -258,7 +262,7 @@ private:
     return count > known * static_cast<double>(rows) ? sum / count : no_value;
   }
 
-  // Of the rows in the middle of each test; of many tests, of every other one or fewer.
+  // Adds row steps from the middle of each test; for many tests, from every other one or fewer.
   void add_steps() {
     Index all = 0;
     for (const Test& test : tests_)
@@ -290,14 +294,14 @@ private:
 
   std::span<const Dataset* const> parts_;
   std::vector<Test> tests_;
-  std::vector<Index> steps_; // row before each
+  std::vector<Index> steps_; // row before each step
   Index rows_ = 0, rows_of_test_ = most_rows_of_test;
 };
 
-// What regression on the states leaves, over the places where everything is known.
+// Residuals of a regression on the states, over the places where everything is known.
 class Rest {
 public:
-  // `constant`: of values; else of differences.
+  // `constant`: fits an intercept, for values; not for differences.
   Rest(std::vector<Index> at, const std::vector<const VectorXd*>& states, bool constant)
       : at_(std::move(at)) {
     std::vector<VectorXd> columns;
@@ -321,7 +325,7 @@ public:
   Index states() const { return basis_.cols(); }
 
 private:
-  // Unless it is made of those that are there.
+  // Adds a column unless it is a combination of the present ones.
   void add(const VectorXd& column) {
     VectorXd x = column;
     for (int twice = 0; twice < 2; ++twice)
@@ -337,7 +341,7 @@ private:
 
 struct Recorded {
   std::string name;
-  std::string column; // behind the name: the sum of which this is the rate
+  std::string column; // source column: if this is a rate, the sum it was taken from
   VectorXd values;
   std::array<VectorXd, 3> logarithms;
   bool inside = false;
@@ -409,7 +413,7 @@ private:
       if (data.has(name)) clocks_.emplace_back(name, cut_.values(name));
   }
 
-  // A factor of formulas, unless it is another one times a constant.
+  // Adds a factor of formulas, unless it is a constant multiple of another one.
   void add_power(const std::string& name, VectorXd logarithms) {
     const auto varies = [](const VectorXd& x) {
       const VectorXd known = x.array().isFinite().select(x, 0);
@@ -426,7 +430,8 @@ private:
     const auto known = (one.values.array().isFinite()).count();
     if (static_cast<double>(known) < 0.5 * static_cast<double>(cut_.rows())) return;
     one.is_reading = is_reading(one) && may_be_called;
-    if (!one.is_reading && !column.levels.empty()) return; // numbers of levels
+    // Text without numbers: level indices have no meaning.
+    if (!one.is_reading && !column.levels.empty()) return;
     one.logarithms = cut_.levels(logarithm(one.values, floor_share));
     one.step = shared_step(one);
     one.is_reading = one.is_reading && std::isfinite(one.step);
@@ -441,7 +446,7 @@ private:
       }
   }
 
-  // Whether equal tests may differ in it: it varies within tests, or most tests have a value of
+  // True if equal tests may differ in it: it varies within tests, or most tests have a value of
   // their own.
   bool is_reading(Recorded& one) const {
     const VectorXd means = cut_.means_of_tests(one.values);
@@ -457,8 +462,8 @@ private:
     return one.inside || (count > 0.5 * tests && count >= 4);
   }
 
-  // Where tests share values of it: the step in which these are written; infinite where there are
-  // so few that they were set; 0: they do not.
+  // Step in which shared values of tests are written; infinite if the values are so few that they
+  // were set; 0 if tests do not share values.
   double shared_step(const Recorded& one) const {
     if (one.inside) return 0;
     std::map<double, std::size_t> tests_of;
@@ -475,13 +480,14 @@ private:
     return tests_of.size() < few_levels ? infinite : written_step(values);
   }
 
-  // Whether tests that share a value of it differ in friction by more than its digits hide: a dose
-  // that friction goes with, and no reading. (Rounding makes less than a third of a step.)
+  // True if tests with the same value differ in friction by more than the value's digits can hide:
+  // then it is a dose that drives friction, not a reading. (Rounding causes less than a third of a
+  // step.)
   static bool is_set_again(const Recorded& one, std::size_t level, const VectorXd& apart) {
     return level == 2 && one.step > 0 && spread_of(apart) > one.step;
   }
 
-  // What only grows or only falls within tests: a sum, a work.
+  // True if the values only grow or only fall within tests: a sum, a work.
   bool is_sum(const VectorXd& values) const {
     const VectorXd steps = cut_.steps(values);
     if (steps.size() < 100) return false;
@@ -492,7 +498,7 @@ private:
     return one_way && spread_of(steps) > 1e-3 * std::abs(steps.mean());
   }
 
-  // Where a level has y and the states.
+  // Places at which a level has y and the states.
   std::vector<Index> places(std::size_t level) const {
     std::vector<Index> at;
     const VectorXd& y = tau_levels_[level];
@@ -515,7 +521,7 @@ private:
     return out;
   }
 
-  // Whether a level has places enough, and more of y left than its last digit.
+  // True if a level has enough places, and residuals of y larger than its last digit.
   bool says_something(std::size_t level, const Rest& rest, const VectorXd& y) const {
     const auto all = static_cast<double>(whole_[level].size());
     const bool many = rest.count() >= least_of_level[level] &&
@@ -536,7 +542,7 @@ private:
     const Recorded& one = recorded_[c];
     Best best;
     if (!one.is_reading) return best;
-    double finest = infinite; // share on the finest level that says something
+    double finest = infinite; // share on the finest level that says_something()
     for (std::size_t level = 0; level < 3; ++level) {
       std::vector<Index> at = known_of(whole_[level], level, one, one);
       if (static_cast<Index>(at.size()) < least_of_level[level]) continue;
@@ -550,7 +556,8 @@ private:
       }
       if (!std::isfinite(finest)) finest = best.share;
     }
-    // What scatters on its own from row to row is no copy, though its means over tests may be near.
+    // A column with its own scatter from row to row is not a copy, even if its means over tests are
+    // close.
     if (one.inside && finest > own_scatter) best.share = std::max(best.share, sure_share);
     return best;
   }
@@ -567,7 +574,7 @@ private:
         factor, std::max(100 * share, 0.01));
   }
 
-  // c goes with what is left by itself; w is a factor beside it (a radius, an area).
+  // True if c is the reading and w only a factor of it (a radius, an area).
   bool is_the_reading(std::size_t c, std::size_t w, const std::vector<Best>& best) const {
     const Recorded &one = recorded_[c], &other = recorded_[w];
     if (!other.is_reading) return true;
@@ -578,7 +585,7 @@ private:
   Best with_another(std::size_t c, const std::vector<Best>& alone) const {
     Best best = alone[c];
     if (best.share < sure_share) return best;
-    // Below its ask_share it may be a copy that scatters: no factor makes it a better one.
+    // Below ask_share it may be a copy with scatter, which no factor improves.
     if (best.share < ask_share || !recorded_[c].is_reading) return best;
     for (std::size_t w = 0; w < recorded_.size(); ++w) {
       if (w == c || alone[w].share < ask_share || !is_the_reading(c, w, alone)) continue;
@@ -605,7 +612,7 @@ private:
         const double left = share(all, e, f);
         const VectorXd apart = all.of(tau_levels_[level]) -
                                all.of(e * one.logarithms[level] + f * other.logarithms[level]);
-        if (left > of_factor * share(all, 0, f) || // the factor does it alone: a cause
+        if (left > of_factor * share(all, 0, f) || // the factor alone explains it: a cause
             is_set_again(one, level, apart))
           continue;
         if (left < std::min(best.share, sure_share))
@@ -645,7 +652,7 @@ private:
     return std::nullopt;
   }
 
-  // Mean square about the middle; infinite of too few.
+  // Mean square about the median; infinite for too few values.
   static double about_middle(const VectorXd& x) {
     std::vector<double> known;
     for (const double value : x)
@@ -657,7 +664,8 @@ private:
         centre);
   }
 
-  // tau over whole powers of pressure, load and speed, and the least that one of them leaves.
+  // Formulas are tau times powers -1, 0 or 1 of pressure, load and speed; of_states_ is the least
+  // mean square of their logarithms about the median.
   void make_formulas() {
     formulas_ = {{log_tau_, ""}};
     for (const auto& [name, x] : powers_)
@@ -670,11 +678,11 @@ private:
       of_states_ = std::min(of_states_, about_middle(y));
   }
 
-  // Nothing is fitted: a dozen rows are enough.
+  // Compares without a fit, so a dozen rows are enough.
   Best direct(const Recorded& one) const {
     const VectorXd z = logarithm(one.values, floor_share);
     Best best;
-    if (!(of_states_ >= 1e-7) || !std::isfinite(of_states_)) return best; // nothing is left
+    if (!(of_states_ >= 1e-7) || !std::isfinite(of_states_)) return best; // no residual to explain
     for (const auto& [y, text] : formulas_)
       for (const double sign : {1.0, -1.0}) {
         const VectorXd rest = y - sign * z;
@@ -697,7 +705,7 @@ private:
     return a.size() > 0 && squared_correlation(a, b) > limit * limit;
   }
 
-  // Of tau and mu those that are no monotone function of a state.
+  // Targets are tau and mu, unless they are monotone functions of a state.
   void make_targets() {
     for (Index i = 0; i < cut_.rows(); i += 1 + cut_.rows() / rows_to_rank)
       compared_.push_back(i);
@@ -724,7 +732,7 @@ private:
     return "";
   }
 
-  // A copy with another zero: it has the scatter from row to row.
+  // Finds a copy with another zero by its scatter from row to row.
   Best linear(const Recorded& one) const {
     Best best;
     const auto look_at = [&](const VectorXd& x, const char* what) {
@@ -754,7 +762,7 @@ private:
     return best;
   }
 
-  // Leaves out the largest of y.
+  // Removes the places with the largest y.
   static void trim(VectorXd& y, VectorXd& z) {
     std::vector<double> sizes(static_cast<std::size_t>(y.size()));
     for (std::size_t i = 0; i < sizes.size(); ++i)
@@ -771,13 +779,13 @@ private:
   Cut cut_;
   VectorXd tau_, log_tau_, pressure_;
   std::array<VectorXd, 3> tau_levels_;
-  double step_MPa_ = 0, digit_ = 0; // of the last digit; the same of the logarithm
+  double step_MPa_ = 0, digit_ = 0; // of the last digit; the same for the logarithm
   std::vector<std::array<VectorXd, 3>> states_;
   std::vector<VectorXd> state_values_, state_steps_;
   VectorXd tau_steps_;
   std::vector<std::pair<VectorXd, std::string>> formulas_; // logarithms
   double of_states_ = infinite;
-  std::vector<Index> compared_; // rows whose ranks are compared
+  std::vector<Index> compared_; // rows used to compare ranks
   std::vector<std::pair<const char*, VectorXd>> targets_;
   std::vector<std::pair<std::string, VectorXd>> powers_, clocks_;
   std::array<std::vector<Index>, 3> whole_, screened_;

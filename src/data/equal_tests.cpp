@@ -1,4 +1,4 @@
-// Tests with the rows of another: compared by a hash, then by their values.
+// Finds tests with equal rows, compared by a hash and then by their values.
 #include "data/equal_tests.h"
 
 #include <algorithm>

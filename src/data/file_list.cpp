@@ -27,7 +27,7 @@ fs::path inside(const std::string& base, const std::string& name) {
   return base.empty() ? fs::path(name) : fs::path(base) / name;
 }
 
-// A folder's own name is no pattern, whatever its letters.
+// Escapes a folder's own name, which is not a pattern even if it contains glob characters.
 std::string without_signs(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -73,7 +73,7 @@ bool fits(const FileRule& rule, const std::string& file) {
   return fnmatch(rule.match.c_str(), name.c_str(), FNM_PATHNAME) == 0;
 }
 
-// Its number among the rules; their count where there is none.
+// Index of the first matching rule; number of rules if none matches.
 std::size_t rule_of(const std::string& file, const DataOptions& options) {
   std::size_t i = 0;
   while (i < options.files.size() && !fits(options.files[i], file))
@@ -101,10 +101,10 @@ void apply(const FileRule& rule, DataOptions& options) {
   if (!rule.experiment.empty()) options.experiment = rule.experiment;
 }
 
-// ---- what names say ----
+// ---- contents of names ----
 
-// A point, a comma or p is the decimal sign of a name (2p5), and where `dash` a - between digits
-// (0-8).
+// Parses a number in a name. The decimal sign may be a point, a comma or p (2p5), and with `dash`
+// also a - between digits (0-8).
 bool is_number(const std::string& text, bool dash, double& value) {
   for (const char decimal : {'.', ','})
     if (io::read_number(text, decimal, value)) return true;
@@ -118,7 +118,8 @@ bool is_number(const std::string& text, bool dash, double& value) {
   return io::read_number(text.substr(0, sign) + "." + text.substr(sign + 1), '.', value);
 }
 
-// 1-2 beside 2-3 is a range or a date; 0-5, or 2-5 beside 1 and 10, is a number.
+// Interprets dashes: 1-2 together with 2-3 is a range or a date; 0-5, or 2-5 together with 1 and
+// 10, is a number.
 bool dash_is_decimal(const std::set<std::string>& levels) {
   double value = 0;
   return std::any_of(levels.begin(), levels.end(), [&](const std::string& text) {
@@ -138,7 +139,7 @@ NamedGroups groups_of(const FileRule& rule, const Pattern& pattern, const std::s
   return *found;
 }
 
-// The groups of one rule's files as columns of these files.
+// The named groups of one rule's files, as columns of these files.
 class FromNames {
 public:
   FromNames(const FileRule& rule, std::vector<FilePlan*> files)
@@ -159,8 +160,8 @@ private:
         files_[i]->label = label;
   }
 
-  // A group that took no part in a name says nothing of that file: a quantity is then a column of
-  // its own or missing, another column empty.
+  // Reads the groups of a name. A group that took no part gives no value for that file: a quantity
+  // is then taken from the file's own column or is missing, any other column is empty.
   void take(const std::string& name) {
     std::set<std::string> levels;
     for (const NamedGroups& groups : groups_)
@@ -245,7 +246,7 @@ std::string note_of(const FileRule& rule, std::size_t files,
                      parts.empty() ? "nothing special" : join(parts, "; "));
 }
 
-// What a file may be called, from short to long: its name, with its folder, with all folders.
+// Possible labels of a file, from short to long: its name, with its folder, with all folders.
 constexpr std::size_t label_forms = 3;
 
 std::string label_of(const std::string& file, std::size_t form) {
@@ -254,7 +255,7 @@ std::string label_of(const std::string& file, std::size_t form) {
   return (folders[form] / path.stem()).generic_string();
 }
 
-// The shortest that no other file has.
+// The shortest labels that are unique.
 std::vector<std::string> labels_of(const std::vector<std::string>& files) {
   std::map<std::string, std::size_t> count[label_forms];
   for (const std::string& file : files)
@@ -294,7 +295,7 @@ std::vector<std::string> find_files(const std::vector<std::string>& named, const
 FilePlans plan_files(const std::vector<std::string>& files, const DataOptions& options) {
   FilePlans plans;
   const std::vector<std::string> labels = labels_of(files);
-  DataOptions one = options; // of one file: without the lists of all
+  DataOptions one = options; // for one file, without the lists of all files
   one.training.clear();
   one.validation.clear();
   one.files.clear();

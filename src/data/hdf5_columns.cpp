@@ -1,4 +1,4 @@
-// Puts rows of datasets and groups end to end.
+// Concatenates the rows of datasets and groups.
 #include "data/hdf5_columns.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ Hdf5Columns::Hdf5Columns(const std::string& path, const std::string& named,
                          const DataOptions& options, FaultList& faults)
     : in_(path, named), plan_(plan_hdf5(in_, named, options, faults)), faults_(faults) {
   table_.file = named;
-  table_.notes = plan_.notes; // go with the first piece
+  table_.notes = plan_.notes; // returned with the first piece
   if (plan_.per_test) column("experiment", "", 0);
 }
 
@@ -40,14 +40,14 @@ io::CsvTable Hdf5Columns::next(std::uint64_t bytes) {
 }
 
 std::uint64_t Hdf5Columns::bytes_of_a_row(const Hdf5Rows& rows) const {
-  constexpr std::uint64_t of_a_number = 8, of_a_text = 64; // about, with its place
+  constexpr std::uint64_t of_a_number = 8, of_a_text = 64; // estimated, with overhead
   std::uint64_t bytes = 1;
   for (const std::string& name : rows.columns)
     bytes += in_.is_text(hdf5_path(rows.group, name)) ? of_a_text : of_a_number;
   return bytes;
 }
 
-// `count` rows of the columns of a group.
+// Requests `count` rows of the columns of a group.
 void Hdf5Columns::want(const Hdf5Rows& rows, std::size_t first, std::size_t count) {
   for (const std::string& name : rows.columns)
     wanted_.push_back({hdf5_path(rows.group, name), first, count});
@@ -69,7 +69,7 @@ void Hdf5Columns::read_groups(std::uint64_t bytes) {
   for (; next_ < plan_.groups.size(); ++next_) {
     const Hdf5Rows& test = plan_.groups[next_];
     const std::uint64_t more = bytes_of_a_row(test) * test.count;
-    if (taken > 0 && taken + more > bytes) break; // groups without rows are no piece
+    if (taken > 0 && taken + more > bytes) break; // groups without rows do not make a piece
     taken += more;
     want(test, 0, test.count);
   }
@@ -82,7 +82,7 @@ void Hdf5Columns::read_groups(std::uint64_t bytes) {
   }
 }
 
-// A group is a test: its single values are the same in all of its rows.
+// Adds a group, which is a test: its single values are repeated in all of its rows.
 void Hdf5Columns::add_group(const Hdf5Rows& test, std::span<io::Hdf5Values> values) {
   const std::size_t first = table_.rows();
   add(test, first, test.count, values);
@@ -94,7 +94,7 @@ void Hdf5Columns::add_group(const Hdf5Rows& test, std::span<io::Hdf5Values> valu
                        "every test needs the same datasets and attributes");
 }
 
-// Rows of a group, behind the first ones of this piece.
+// Appends rows of a group to this piece, after its first `first` rows.
 void Hdf5Columns::add(const Hdf5Rows& rows, std::size_t first, std::size_t count,
                       std::span<io::Hdf5Values> values) {
   auto next = values.begin();
@@ -102,11 +102,11 @@ void Hdf5Columns::add(const Hdf5Rows& rows, std::size_t first, std::size_t count
     const std::string path = hdf5_path(rows.group, name);
     io::Hdf5Values& found = *next++;
     io::CsvColumn& to = column(name, in_.text_attribute(path, "units").value_or(""), first);
-    if (first == 0) // no copy of a large one
+    if (first == 0) // avoids a copy of a large column
       to.numbers = std::move(found.numbers);
     else
       to.numbers.insert(to.numbers.end(), found.numbers.begin(), found.numbers.end());
-    to.numbers.resize(first + count, no_value); // where they are texts
+    to.numbers.resize(first + count, no_value); // for text columns
     for (std::size_t i = 0; i < found.texts.size(); ++i)
       to.texts.push_back({first + i, found.texts[i], 0});
     found = {};
@@ -125,7 +125,7 @@ void Hdf5Columns::repeat(const Hdf5Single& single, std::size_t first, std::size_
     to.texts.push_back({first + i, *text, 0});
 }
 
-// The column of this name; one that comes in behind the first row lacks the rows before.
+// The column of this name; one that appears later gets empty cells for the earlier rows.
 io::CsvColumn& Hdf5Columns::column(const std::string& name, const std::string& unit,
                                    std::size_t first) {
   const auto [known, is_new] = number_of_.emplace(name, table_.columns.size());

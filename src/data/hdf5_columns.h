@@ -18,18 +18,18 @@
 
 namespace frictab::data {
 
-// Reads them in pieces. In its tables `line` counts rows from 1 and header_line is 0.
+// Reads the columns in pieces. In its tables `line` counts rows from 1 and header_line is 0.
 class Hdf5Columns {
 public:
-  // Throws InputError where the file is no HDF5 file, and as plan_hdf5 does. `faults`: columns that
-  // do not fit each other, or are asked for and cannot be read.
+  // Throws InputError if the file is not an HDF5 file, and as plan_hdf5 does. `faults`: columns
+  // that do not fit each other, or that are requested and cannot be read.
   Hdf5Columns(const std::string& path, const std::string& named, const DataOptions& options,
               FaultList& faults);
 
   std::size_t rows() const; // of the file
-  // The next rows, of no more than about so many bytes, but one row or group at least; none at the
-  // end of the file. Notes come with the first ones. `faults` of the constructor: tests that do not
-  // fit each other.
+  // The next rows, about `bytes` in size at most, but at least one row or group; none at the end of
+  // the file. The first piece carries the notes. Adds tests that do not fit each other to the
+  // `faults` of the constructor.
   io::CsvTable next(std::uint64_t bytes);
 
 private:
@@ -46,11 +46,11 @@ private:
   io::Hdf5Reader in_;
   Hdf5Plan plan_;
   FaultList& faults_;
-  std::size_t next_ = 0;                         // row of the root group, or group
-  std::size_t rows_before_ = 0;                  // in the pieces so far
-  std::vector<io::Hdf5Slice> wanted_;            // of this piece
+  std::size_t next_ = 0;                         // next row of the root group, or next group
+  std::size_t rows_before_ = 0;                  // rows in the pieces so far
+  std::vector<io::Hdf5Slice> wanted_;            // slices of this piece
   io::CsvTable table_;                           // columns of all pieces, rows of this one
-  std::map<std::string, std::size_t> number_of_; // of the columns, from 0
+  std::map<std::string, std::size_t> number_of_; // index of each column, from 0
 };
 
 } // namespace frictab::data

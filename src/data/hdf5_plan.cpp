@@ -1,4 +1,4 @@
-// Looks at names, shapes and types alone; single values are read with the description.
+// Examines only names, shapes and types; single values are read with the description.
 #include "data/hdf5_plan.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace frictab::data {
 
 namespace {
 
-// The names of columns that the job, or the program by itself, takes from a file.
+// Names of the columns that the job, or the program itself, takes from a file.
 class AskedFor {
 public:
   explicit AskedFor(const DataOptions& options) : options_(options) {
@@ -52,7 +52,7 @@ private:
   mutable std::map<std::string, bool> known_;
 };
 
-// What is not read, each thing once however many groups hold it.
+// Parts that are not read, each listed once for all groups.
 class LeftOut {
 public:
   void add(const std::string& group, const std::string& name, const std::string& what) {
@@ -117,7 +117,7 @@ private:
     return in_.datasets(group.empty() ? "/" : group);
   }
 
-  // MATLAB writes one number as 1 x 1.
+  // True for datasets of one value, which MATLAB writes as 1 x 1.
   bool is_single(const std::string& path) const {
     const std::vector<std::size_t> shape = in_.shape(path);
     return shape.empty() || (shape.size() > 1 && io::length_of_column(shape) == 1);
@@ -127,8 +127,8 @@ private:
     return in_.other_type(path).empty() && io::length_of_column(in_.shape(path)).has_value();
   }
 
-  // Those of the length of the first one that is asked for. `one_row`: single values are a column
-  // of one row where nothing else is.
+  // The columns of the length of the first requested one. `one_row`: single values form columns of
+  // one row if the group has no other columns.
   Hdf5Rows columns_of(const std::string& group, bool one_row) const {
     Hdf5Rows rows{group, 0, {}, {}};
     std::vector<std::string>& names = rows.columns;
@@ -217,7 +217,7 @@ private:
     return all;
   }
 
-  // In how many tests each dataset of one value is.
+  // Number of tests that have each dataset of one value.
   std::map<std::string, std::size_t> count_values(const std::vector<Hdf5Rows>& tests) const {
     std::map<std::string, std::size_t> count;
     for (const Hdf5Rows& test : tests)
@@ -226,7 +226,7 @@ private:
     return count;
   }
 
-  // Values that `is_read` refuses are told.
+  // Reports the values that `is_read` refuses.
   template <class IsRead>
   std::vector<Hdf5Single> singles_of_test(const Hdf5Rows& test, const IsRead& is_read) {
     std::vector<Hdf5Single> all = attributes_of(test.group);
@@ -240,7 +240,7 @@ private:
     return all;
   }
 
-  // Those that are asked for and not `taken` from elsewhere; the rest is told.
+  // Requested single values that are not `taken` from elsewhere; reports the others.
   std::vector<Hdf5Single> singles_of_root(const Hdf5Rows& root,
                                           const std::set<std::string>& taken) {
     using Value = decltype(Hdf5Single::value);
@@ -267,7 +267,8 @@ private:
     return std::binary_search(rows.columns.begin(), rows.columns.end(), name);
   }
 
-  // What is neither a column nor a single value. `read`: the columns of this group are.
+  // Reports contents other than columns and single values. `read`: the columns of this group are
+  // read.
   void tell_others_of(const Hdf5Rows& rows, bool read) {
     for (const io::Hdf5Other& other : in_.others(rows.group.empty() ? "/" : rows.group))
       leave(rows.group, other.name, other.what);

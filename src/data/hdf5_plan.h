@@ -1,4 +1,4 @@
-// Which parts of an HDF5 file are rows, and which are not read.
+// Decides which parts of an HDF5 file are rows, and which are not read.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace frictab::data {
 
-// The same in all rows of a group: an attribute, or a dataset of one value.
+// A value shared by all rows of a group: an attribute, or a dataset of one value.
 struct Hdf5Single {
   std::string name, unit;
   std::variant<double, std::string> value;
@@ -27,18 +27,18 @@ struct Hdf5Rows {
 };
 
 struct Hdf5Plan {
-  bool per_test = false;          // each group is a test; else all columns are in the root group
-  std::vector<Hdf5Rows> groups;   // sorted by name; of the root alone where not per_test
-  std::vector<std::string> notes; // what is not read
+  bool per_test = false; // true: each group is a test; false: all columns are in the root group
+  std::vector<Hdf5Rows> groups;   // sorted by name; only the root unless per_test
+  std::vector<std::string> notes; // parts that are not read
 };
 
-// As the reader knows a dataset of a group, or of the root group: "".
+// Path of a dataset for the reader, from a group or the root group: "".
 std::string hdf5_path(const std::string& group, const std::string& name);
 
-// Groups are tests where the root holds no columns, or none that anybody asks for while groups hold
-// some. Of the root's single values those are read that somebody asks for. Throws InputError where
-// both could be the campaign, or where there are no rows. `faults`: columns of another length, and
-// what is asked for and is no column.
+// Groups are tests if the root has no columns, or only unrequested ones while groups have requested
+// ones. Of the root's single values only requested ones are read. Throws InputError if both
+// readings are possible, or if no rows are found. `faults`: columns of different lengths, and
+// requested names that are not columns.
 Hdf5Plan plan_hdf5(const io::Hdf5Reader& in, const std::string& named, const DataOptions& options,
                    FaultList& faults);
 

@@ -1,4 +1,4 @@
-// Two clocks of one test made one.
+// Brings two clocks of one test together.
 #include "data/join.h"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace frictab::data {
 
 namespace {
 
-// Of an ascending clock: the row at or before `at`, and how far the next one is; nothing beyond the
-// ends. Asked for ascending times it moves on from where it was.
+// Position in an ascending clock: the row at or before `at`, and the share of the step to the next
+// one; none beyond the ends. For ascending times the search continues from the last row.
 class Position {
 public:
   explicit Position(std::span<const double> clock) : clock_(clock) {}
@@ -53,8 +53,8 @@ public:
     highest = t1_.back() - t2_.front() - least_span_;
   }
 
-  // Without the rows of one piece of 8, where it is not 8; 0 where too little is shared. `rows`:
-  // how many it is of.
+  // Correlation without the rows of one piece of 8 (`without` = 8: all rows); 0 if too little is
+  // shared. `rows`: receives the number of rows used.
   double correlation(double offset, std::size_t without = pieces, std::size_t stride = 1,
                      double* rows = nullptr) const {
     Position at(t2_);
@@ -66,7 +66,7 @@ public:
       end = t1_[i];
       if (i * pieces / t1_.size() == without) continue;
       const double y = at.value(y_), dx = x_[i] - mx, dy = y - my;
-      if (!std::isfinite(dx) || !std::isfinite(dy)) continue; // an empty cell, told elsewhere
+      if (!std::isfinite(dx) || !std::isfinite(dy)) continue; // an empty cell, reported elsewhere
       n += 1;
       mx += dx / n;
       my += dy / n;
@@ -79,15 +79,15 @@ public:
     return enough ? sxy / std::sqrt(sxx * syy) : 0;
   }
 
-  // Likelihood ratio of a straight line between the two series: the same correlation over more
-  // shared rows says more.
+  // Likelihood ratio of a straight line between the two series: at equal correlation, more shared
+  // rows give stronger evidence.
   double evidence(double offset, std::size_t stride) const {
     double rows = 0;
     const double r = correlation(offset, pieces, stride, &rows);
     return r > 0 ? -0.5 * rows * std::log1p(-std::min(r * r, 1 - 1e-12)) : 0;
   }
 
-  // Golden section between two offsets.
+  // Golden-section search between two offsets.
   double best_between(double low, double high, std::size_t without = pieces) const {
     const double golden = 0.5 * (std::sqrt(5.0) - 1);
     double a = high - golden * (high - low), b = low + golden * (high - low);
@@ -110,14 +110,14 @@ public:
   }
 
   static constexpr std::size_t pieces = 8;
-  double lowest, highest; // offsets at which enough is shared
+  double lowest, highest; // offsets with a sufficient overlap
 
 private:
   const std::vector<double>&t1_, &x_, &t2_, &y_;
   double least_span_;
 };
 
-// Over pieces of the common span: what noise, however it is correlated, leaves open.
+// Standard error from leaving out pieces of the common span; valid however the noise is correlated.
 double jackknife(const Agreement& agreement, double low, double high, double offset) {
   double sum = 0, squares = 0;
   constexpr double n = Agreement::pieces;
@@ -129,8 +129,8 @@ double jackknife(const Agreement& agreement, double low, double high, double off
   return std::sqrt(std::max(0.0, (n - 1) / n * (squares - sum * sum / n)));
 }
 
-// How far the offset moves without every other row of the second set: what straight lines between
-// its rows may cost.
+// Shift of the offset without every other row of the second set: the possible error of straight
+// lines between its rows.
 double thinning_error(const std::vector<double>& t_first, const std::vector<double>& x,
                       const std::vector<double>& t_second, const std::vector<double>& y, double low,
                       double high, double offset) {
@@ -158,7 +158,7 @@ std::span<const double> rows_of(const Dataset& data, std::size_t e, const Column
   return {column.values.data() + data.first_row[e], data.first_row[e + 1] - data.first_row[e]};
 }
 
-// The column by which an offset is found: a force or a path that both have.
+// The column used to find an offset: a force or a path that both have.
 const char* common_column(const Part& part, const Dataset& second, const std::string& by) {
   for (const char* name : {"F_N_N", "s_mm"})
     if (name != by && part.data.has(name) && second.has(name)) return name;
@@ -192,7 +192,7 @@ public:
       part_.data.columns.push_back(std::move(column));
     const auto out = static_cast<std::size_t>(std::count(keep_.begin(), keep_.end(), 0));
     if (out > 0) part_.data.dropped.push_back({"no partner in data.join", out});
-    keep_rows(part_, keep_, nullptr); // of other files there may be some
+    keep_rows(part_, keep_, nullptr); // no fault: other files may have partners
   }
 
 private:
@@ -235,7 +235,7 @@ private:
       keep_[first + i] = 1;
       for (std::size_t c = 0; c < added_.size(); ++c) {
         const auto values = rows_of(second_, partner, *from_[c]);
-        // A text holds until the next row.
+        // A text is valid until the next row.
         added_[c].values[first + i] = from_[c]->levels.empty() ? at.value(values) : values[at.row];
       }
     }
@@ -295,7 +295,7 @@ private:
   std::size_t rows_;
   std::vector<Column> added_;
   std::vector<std::string> in_both_;
-  std::vector<const Column*> from_; // in the second set, of each
+  std::vector<const Column*> from_; // source of each added column in the second set
   std::vector<char> keep_;
   std::vector<std::string> alone_;
 };

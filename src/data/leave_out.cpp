@@ -44,7 +44,7 @@ void drop_rows(Part& part, const DataOptions& options) {
 
 namespace {
 
-// Rows that this column has no number in, unless they go already.
+// Drops the rows without a number in this column, unless they are dropped already.
 void drop_without(const Column& column, Part& part, std::vector<char>& keep) {
   std::size_t dropped = 0;
   for (std::size_t i = 0; i < keep.size(); ++i) {
@@ -76,14 +76,14 @@ void drop_missing(Part& part, const DataOptions& options) {
 
 namespace {
 
-// Why rows of a phase are left out.
+// Reason for leaving out the rows of a phase.
 const char* phase_rule(Phase phase) {
   if (phase == Phase::rest) return "at rest: v_rel_mm_s is 0, or cannot be told from 0";
   if (phase == Phase::turning) return "turning: where a stroke begins and ends";
   return "unloaded: below 5 % of the load of its test";
 }
 
-// The rows that are left out, with what a stroke is drawn of.
+// The left-out rows, with the columns used to plot a stroke.
 std::shared_ptr<const Dataset> rows_aside(const Part& part, const std::vector<char>& keep,
                                           const std::vector<Phase>& phases) {
   const Dataset& data = part.data;

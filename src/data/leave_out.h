@@ -1,4 +1,4 @@
-// Rows that the user wants left out, counted.
+// Rows left out at the user's request, counted.
 #pragma once
 
 #include "data/options.h"
@@ -7,25 +7,25 @@
 
 namespace frictab::data {
 
-// By data.drop.
+// Leaves out rows by data.drop.
 void drop_rows(Part& part, const DataOptions& options);
 
-// Rows with an empty cell, where the job leaves them out.
+// Leaves out rows with an empty cell if the job asks for it.
 void drop_missing(Part& part, const DataOptions& options);
 
-// Rows that are not sliding, kept in data.aside; all are counted in data.phases. A test of which
-// none slides goes (data.at_rest).
+// Leaves out rows that are not sliding and keeps them in data.aside; counts all rows in
+// data.phases. A test without a sliding row is left out (data.at_rest).
 void leave_out_phases(Part& part, const std::vector<Phase>& phases, const DataOptions& options);
 
-// Rows that no rig can measure (plausibility.h), in data.apart.
+// Leaves out rows that no rig can measure (plausibility.h), recorded in data.apart.
 void leave_out_impossible(Part& part, const DataOptions& options);
 
-// Whether a campaign as a whole says that rows were left out which should not have been, or offsets
-// taken off: `options` are then those with which it is to be read once more. Spikes in more than
-// few rows are the scatter of its rows; where nothing slides, the speed says nothing.
+// True if the whole campaign shows that rows should not have been left out, or offsets not
+// subtracted; `options` are then set for a second reading. Spikes in more than a few rows are
+// ordinary scatter; if nothing slides, the speed is not usable.
 bool look_again(const Dataset& data, DataOptions& options);
 
-// A note of a whole campaign that its summary says as well.
+// Adds a note on the whole campaign that its summary repeats.
 void tell(Dataset& data, std::string intervention);
 void tell_left_out(Dataset& data);
 

@@ -1,4 +1,4 @@
-// From files to a campaign.
+// Reads files into a campaign.
 #include "data/load.h"
 
 #include "data/leave_out.h"
@@ -7,7 +7,7 @@
 namespace frictab::data {
 
 Dataset load_dataset(const std::vector<std::string>& named, const DataOptions& options) {
-  DataOptions rest = options; // without what stands in the table of tests
+  DataOptions rest = options; // without the columns taken from the table of tests
   const Beside beside = load_beside(rest);
   const auto load = [&](const FilePlan& plan) { return load_part(plan, beside); };
   Dataset all = load_all(named, rest, load);

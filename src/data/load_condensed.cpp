@@ -1,4 +1,4 @@
-// Reads parts of files, condenses them, and reads them again where their rows are asked for.
+// Reads parts of files, condenses them, and reads them again on request.
 #include "data/load_condensed.h"
 
 #include <algorithm>
@@ -26,8 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Files that are read side by side hold no more than this together: what one takes in memory is a
-// few times its size.
+// Total size limit of files read in parallel: a file needs a few times its size in memory.
 constexpr std::uint64_t bytes_side_by_side = std::uint64_t{128} << 20;
 
 std::uint64_t size_of(const fs::path& path) {
@@ -36,7 +35,7 @@ std::uint64_t size_of(const fs::path& path) {
   return unknown ? 0 : bytes;
 }
 
-// Where a part stands in the campaign.
+// Position of a part in the campaign.
 struct PartNumber {
   std::size_t file, part;
   bool operator<(const PartNumber& other) const {
@@ -44,7 +43,7 @@ struct PartNumber {
   }
 };
 
-// The files of a campaign, read part by part as often as it takes.
+// The files of a campaign, which can be read part by part any number of times.
 class Campaign : public RowSource {
 public:
   Campaign(const std::vector<std::string>& named, const DataOptions& options)
@@ -56,7 +55,7 @@ public:
   const std::vector<std::string>& notes() const { return plans_.notes; }
   const Beside& beside() const { return beside_; }
 
-  // take(number, part) on any thread; faults of the files that have no part, by file.
+  // Calls take(number, part) on any thread; returns the faults that belong to no part, by file.
   using Take = std::function<void(PartNumber number, Part&& part)>;
   std::vector<FaultList> read_parts(const Take& take) const {
     std::vector<FaultList> faults(files_.size());
@@ -112,13 +111,13 @@ private:
     }
   }
 
-  DataOptions options_; // without what stands in the table of tests
+  DataOptions options_; // without the columns taken from the table of tests
   Beside beside_;
   std::vector<std::string> files_;
   FilePlans plans_;
 };
 
-// What the first look at a campaign has found so far.
+// Results of the first pass over a campaign.
 class FirstLook {
 public:
   FirstLook(const DataOptions& options, std::size_t blocks,
@@ -127,12 +126,12 @@ public:
         faults_(campaign_->files().size()) {
     while (is_auto() && campaign_->files().size() * blocks_ > most_blocks &&
            blocks_ > coarse_blocks)
-      blocks_ = fewer(); // each file has an experiment at least
+      blocks_ = fewer(); // each file has at least one experiment
   }
 
   Dataset held() {
     std::vector<FaultList> of_files;
-    while (!all_read(of_files)) // experiments so far had too many blocks
+    while (!all_read(of_files)) // repeats the pass if experiments had too many blocks
       blocks_ = fewer();
     for (auto& [number, found] : parts_)
       for (const Fault& fault : found.faults)
@@ -183,7 +182,8 @@ private:
     parts_.emplace(number, std::move(found));
   }
 
-  // data.drop may leave no row of some experiments, but of no file.
+  // Reports files without any row left; data.drop may remove all rows of an experiment, but not of
+  // a file.
   void tell_empty_files() {
     std::vector<std::size_t> rows(faults_.size(), 0);
     for (const auto& [number, found] : parts_)
@@ -207,7 +207,7 @@ private:
       }
       if (first) {
         all = std::move(found.blocks);
-        all.sources = {campaign_->files().front()}; // what a fault of the others says
+        all.sources = {campaign_->files().front()}; // named by faults of the others
         first = false;
         continue;
       }
@@ -229,7 +229,7 @@ private:
   }
 
   const DataOptions& options_;
-  std::size_t blocks_; // of an experiment
+  std::size_t blocks_; // per experiment
   std::shared_ptr<const Campaign> campaign_;
   std::mutex mutex_;
   std::size_t held_ = 0; // blocks so far
@@ -237,12 +237,12 @@ private:
   std::vector<FaultList> faults_; // by file
   CountedNotes notes_;            // of all parts
   std::vector<Implausible> implausible_;
-  Dataset without_rows_; // of parts of which nothing is left
+  Dataset without_rows_; // notes and counts of parts without rows
 };
 
-// ---- how many rows there are ----
+// ---- number of rows ----
 
-// A file's bytes over those of its lines, of which the first few thousand are read.
+// Estimates the rows of a text file from its size and the length of its first few thousand lines.
 double rows_of_text(const fs::path& path, std::uint64_t bytes) {
   std::ifstream in(path, std::ios::binary);
   std::string start(std::size_t{1} << 18, '\0');
@@ -254,7 +254,7 @@ double rows_of_text(const fs::path& path, std::uint64_t bytes) {
                           static_cast<double>(start.size());
 }
 
-// What is wrong with a file is told where it is read.
+// Number of rows by shape. Faults are ignored here and reported when the file is read.
 double rows_of_hdf5(const fs::path& path, const DataOptions& options) {
   try {
     FaultList ignored;

@@ -1,4 +1,4 @@
-// Map, gather experiments, join, compute, leave out, check; append.
+// Maps, gathers experiments, joins, computes, leaves out and checks one file; appends files.
 #include "data/load_part.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::filesystem::path path_of(const FilePlan& plan) {
 }
 
 std::string reading_words(const FilePlan& plan) {
-  std::error_code unknown; // what is no file is told by who reads it
+  std::error_code unknown; // reading the file reports the error
   const auto bytes = std::filesystem::file_size(path_of(plan), unknown);
   if (unknown) return "reading " + plan.file;
   return fmt::format("reading {} ({})", plan.file, human_bytes(static_cast<double>(bytes)));
@@ -33,7 +33,7 @@ std::string reading_words(const FilePlan& plan) {
 
 namespace {
 
-// A file's own rows and columns, by experiment, from part.raw.
+// Maps a file's own rows and columns from part.raw and groups them by experiment.
 void map_part(Part& part, const FilePlan& plan) {
   gather_experiments(part, map_columns(part.raw, plan.options, plan.label, part.faults),
                      plan.label);
@@ -70,7 +70,7 @@ void finish_part(Part& part, const DataOptions& options, const Beside& beside) {
   part.data.file_of.assign(part.data.experiments.size(), part.raw.file);
 }
 
-// What `load` makes of a part; its fault where it throws one.
+// The part returned by `load`, or an empty part with the fault it threw.
 template <class Load> Part loaded(const Load& load) {
   Part part;
   try {
@@ -83,7 +83,7 @@ template <class Load> Part loaded(const Load& load) {
   return part;
 }
 
-// Of the second set: what its files hold.
+// Reads one file of the second set.
 Part load_second_part(const FilePlan& plan) {
   return loaded([&](Part& part) {
     read_part(part, plan);
@@ -97,7 +97,7 @@ Part load_second_part(const FilePlan& plan) {
   });
 }
 
-// The files of data.join, read with its own keys.
+// Reads the files of data.join with its own keys.
 Dataset load_second(const DataOptions& options) {
   DataOptions own;
   own.base = options.base;
@@ -145,7 +145,7 @@ Beside load_beside(DataOptions& options) {
 
 namespace {
 
-// Of which no file has a row.
+// Tests of data.tests and data.join without a row in any file.
 std::vector<std::string> unused_tests(const Dataset& data, const Beside& beside) {
   std::vector<std::string> unused;
   const auto add = [&](const std::string& where, const std::string& name) {
@@ -212,11 +212,11 @@ Dataset one_campaign(std::vector<Part>& parts, const std::vector<std::string>& f
   CountedNotes counted;
   for (Part& part : parts)
     if (parts.size() > 1) counted.take(part);
-  std::size_t first = 0; // of which a row is left
+  std::size_t first = 0; // first part with a row left
   while (first + 1 < parts.size() && parts[first].data.rows() == 0)
     ++first;
   Dataset all = std::move(parts[first].data);
-  all.sources = {files[first]}; // what a fault of the others says
+  all.sources = {files[first]}; // named by faults of the others
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (i == first) continue;
     if (parts[i].data.rows() == 0) {

@@ -1,4 +1,4 @@
-// One file, or some experiments of it, on the way to a campaign; and several as one.
+// One file, or some experiments of it, as part of a campaign; and several parts combined.
 #pragma once
 
 #include <filesystem>
@@ -13,34 +13,36 @@
 
 namespace frictab::data {
 
-// What is brought to every file from elsewhere.
+// Data from elsewhere that are added to every file.
 struct Beside {
   std::optional<TestTable> tests;
   std::optional<Dataset> second; // of data.join
 };
 
-// Reads data.tests and data.join; takes out of the options what stands in the table of tests.
+// Reads data.tests and data.join; removes from the options the columns that the table of tests has.
 Beside load_beside(DataOptions& options);
 
-// Where a file lies, and what a message calls it where its rows find no room.
+// Path of a file, and its description in the message for exhausted memory.
 std::filesystem::path path_of(const FilePlan& plan);
 std::string reading_words(const FilePlan& plan);
 
-// A whole file: mapped, cut into experiments, computed, left out and checked. What is wrong is in
+// Reads a whole file: maps, cuts into experiments, computes, leaves out and checks. Faults are in
 // Part::faults.
 Part load_part(const FilePlan& plan, const Beside& beside);
-// The same of rows that are read already, `raw`: of some experiments of the file.
+// Processes rows that are already read, `raw`: some experiments of the file.
 Part load_part(io::CsvTable&& raw, const FilePlan& plan, const Beside& beside);
 
-// The campaign that these files make.
+// Combines these files into a campaign.
 Dataset load_all(const std::vector<std::string>& named, const DataOptions& options,
                  const std::function<Part(const FilePlan&)>& load);
 
-// Says what all files together leave: clocks, tests that stand beside the data and are in none of
-// them; takes the fingerprint. Throws InputError where data.join leaves no row.
+// Completes a campaign with results that need all files: clocks, and tests of data.tests or
+// data.join that no file has; computes the fingerprint. Throws InputError if data.join leaves no
+// row.
 void complete(Dataset& all, const DataOptions& options, const Beside& beside);
 
-// The faults of each file by line; those that several files have alike, of the first.
+// Throws the faults of each file by line; faults that several files share are reported for the
+// first one.
 void throw_faults(const std::vector<FaultList>& of_files);
 
 } // namespace frictab::data

@@ -25,14 +25,15 @@ namespace {
 
 const char* const experiment_column = "experiment";
 
-// "nan", "-Inf", "1e999".
+// True for "nan", "-Inf", "1e999".
 bool is_not_finite(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   return end != text.c_str() && *end == '\0' && !std::isfinite(value);
 }
 
-// A cell without a value: empty, or the word that spreadsheets and statistics programs put there.
+// True for a cell without a value: empty, or the word that spreadsheets and statistics programs
+// use.
 bool is_missing(const std::string& text) {
   const std::string word = lower_case(text);
   return word.empty() || word == "nan" || word == "na" || word == "n/a" || word == "#n/a" ||
@@ -73,7 +74,7 @@ public:
     const CsvColumn* column = is_cut_whole(options_) ? nullptr : experiment_source();
     if (!column) return {{0, ""}};
     std::size_t text = 0;
-    const std::string* last = nullptr; // of the row before, where it is text
+    const std::string* last = nullptr; // text of the row before; nullptr if it is a number
     for (std::size_t i = 0; i < raw_.rows(); ++i) {
       while (text < column->texts.size() && column->texts[text].row < i)
         ++text;
@@ -89,8 +90,9 @@ public:
   }
 
 private:
-  // Of a column that is taken by the name in front of a unit, also of one that nobody knows: among
-  // the other columns a quantity would be lost without a word. convert_unit tells such a unit.
+  // Name and unit of a column that is taken by its name before a unit, even an unknown unit;
+  // otherwise a quantity would silently end up among the other columns. convert_unit reports such a
+  // unit.
   io::HeaderName header_name(const std::string& text) const {
     const io::HeaderName known = io::read_header_name(text), any = io::split_header_name(text);
     if (any.name == text || known.name != text || is_named(text) || has_column(any.name))
@@ -99,7 +101,7 @@ private:
     return is_own || is_named(any.name) ? any : known;
   }
 
-  // In the job, by its whole name.
+  // True if the job names the column by its whole name.
   bool is_named(const std::string& name) const {
     const auto among = [&](const std::vector<std::string>& names) {
       return std::find(names.begin(), names.end(), name) != names.end();
@@ -123,8 +125,8 @@ private:
     return names;
   }
 
-  // The raw column a canonical name comes from; nullptr where it is not in the file. Adds a fault
-  // where it is asked for and absent, or ambiguous.
+  // The raw column of a canonical name; nullptr if it is not in the file. Adds a fault if it is
+  // requested and absent, or ambiguous.
   const CsvColumn* source(const std::string& canonical) {
     const auto mapped = options_.columns.find(canonical);
     if (mapped == options_.columns.end())
@@ -150,7 +152,7 @@ private:
     return nullptr;
   }
 
-  // By the whole name; where there is none, by the name in front of a unit.
+  // Finds a column by its whole name, or else by its name before a unit.
   const CsvColumn* by_name(const std::string& name) {
     const std::vector<std::size_t>& numbers = numbers_of(name);
     if (numbers.empty()) return nullptr;
@@ -168,7 +170,7 @@ private:
     return none;
   }
 
-  // The first few of a thousand.
+  // Lists the first few numbers.
   static std::string list(const std::vector<std::size_t>& numbers) {
     constexpr std::size_t shown = 20;
     const auto end = numbers.begin() + static_cast<long>(std::min(shown, numbers.size()));
@@ -176,7 +178,7 @@ private:
                        numbers.size() > shown ? ", ..." : "");
   }
 
-  // What can be wrong with a cell.
+  // Possible faults of a cell.
   enum class Cause { no_number, empty, word_for_empty, not_finite };
 
   // `what` follows the column's name and, in HDF5, the row.
@@ -190,7 +192,7 @@ private:
          cause == Cause::empty || cause == Cause::word_for_empty});
   }
 
-  // Whether the file has fractions: then data.decimal is the sign in front of them.
+  // True if the file has fractions: then data.decimal is their decimal sign.
   bool has_fractions() const {
     return std::any_of(raw_.columns.begin(), raw_.columns.end(), [](const CsvColumn& column) {
       return std::any_of(column.numbers.begin(), column.numbers.end(), [](double value) {
@@ -199,7 +201,8 @@ private:
     });
   }
 
-  // 1.341 beside 0,0024 is 1341; beside whole numbers it may be either.
+  // Remedy for a number that cannot be read: 1.341 in a file with 0,0024 is 1341; with whole
+  // numbers only, it may be either.
   std::string number_hint(const std::string& text) const {
     const auto looks_like = [&](char decimal) {
       double ignored = 0;
@@ -218,7 +221,7 @@ private:
     return pointed.empty() || (!grouped.empty() && has_fractions()) ? grouped : pointed;
   }
 
-  // All cells of a column as numbers; a fault for each that is none.
+  // All cells of a column as numbers; adds a fault for each non-numeric one.
   std::vector<double> numbers(const CsvColumn& column, const std::string& canonical) {
     for (const CsvColumn::Text& cell : column.texts)
       if (is_missing(cell.text))
@@ -234,7 +237,7 @@ private:
         ++text;
       const bool is_text = text < column.texts.size() && column.texts[text].row == i;
       if (is_text || std::isfinite(column.numbers[i])) continue;
-      if (std::isnan(column.numbers[i])) // all that HDF5 has for it
+      if (std::isnan(column.numbers[i])) // HDF5 marks missing values only by NaN
         no_value(i, 0, canonical, "NaN");
       else
         not_finite(i, 0, canonical, shortest(column.numbers[i]));
@@ -242,7 +245,7 @@ private:
     return taken(column);
   }
 
-  // Without a copy where no other quantity is taken from the same column.
+  // Moves the numbers out of the column, or copies them if another quantity needs them too.
   std::vector<double> taken(const CsvColumn& column) {
     if (uses_[&column]-- > 1) return column.numbers;
     return std::move(raw_.columns[std::size_t(&column - raw_.columns.data())].numbers);
@@ -250,7 +253,7 @@ private:
 
   void no_value(std::size_t row, std::size_t cell_column, const std::string& canonical,
                 const std::string& text) {
-    if (!options_.measured && is_measured(canonical)) return; // nothing to compare this row with
+    if (!options_.measured && is_measured(canonical)) return; // no measurement to compare with
     cell_fault(row, cell_column, canonical, text.empty() ? Cause::empty : Cause::word_for_empty,
                text.empty() ? "the cell is empty" : text + " stands for no value",
                "repair it, or data.missing = \"drop\" leaves such rows out");
@@ -278,7 +281,8 @@ private:
     out_.columns.push_back(std::move(mapped));
   }
 
-  // What the job says goes before what a file says; nobody shall believe the file was read.
+  // Adds a constant of the job, which overrides the file's column; a note reports that the column
+  // is not read.
   void add_constant(const Quantity& quantity, double value) {
     out_.columns.push_back(
         {quantity.name, quantity.unit, std::vector<double>(raw_.rows(), value), {}});
@@ -318,7 +322,7 @@ private:
       return;
     }
     const double area = from.area_mm2 > 0 ? from.area_mm2 : 1;
-    if (unit == wanted && area == 1) return; // the file's own bits
+    if (unit == wanted && area == 1) return; // keeps the file's own bits
     for (double& value : column.values)
       value = (*conversion)(value) / area;
     const std::string over =
@@ -327,8 +331,8 @@ private:
         fmt::format("{}: {} {}, taken as {}{}", quantity.name, unit, known, wanted, over));
   }
 
-  // Of a column that does not say its unit: a canonical name does, and so does one that ends with
-  // it.
+  // Records an assumed unit for a column without one; a canonical name states its unit, and so does
+  // a name that ends with it.
   void assume(const Quantity& quantity, const CsvColumn& raw, const std::string& wanted) {
     const std::string& name = headers_[std::size_t(&raw - raw_.columns.data())].name;
     if (wanted == "1" || find_quantity(name)) return;
@@ -344,7 +348,7 @@ private:
            "units that do: " + join(known, ", ");
   }
 
-  // The column that names the experiments; nullptr where the file or its intervals do.
+  // The column that names the experiments; nullptr if experiments are files or intervals.
   const CsvColumn* experiment_source() {
     if (options_.experiment == "file") return nullptr;
     const std::string name = experiment_column_of(options_);
@@ -412,13 +416,14 @@ private:
       if (options_.bystanders && !keep.count(column.name) && column.name != origin_column &&
           computed_from(options_, column.name).empty())
         continue;
-      if (by_name(column.name) != &column) continue; // a duplicate: the fault is told already
+      if (by_name(column.name) != &column) continue; // a duplicate, reported already
       check_case(column);
       add_bystander(column);
     }
   }
 
-  // Columns that the job says of the whole file or of its tests are kept, named or not.
+  // Accepts columns that the job gives for the whole file or its tests; these are kept even if not
+  // named.
   void check_elsewhere(const std::string& name) {
     if (options_.columns_beside.count(name) || options_.constants.count(name) ||
         options_.labels.count(name))
@@ -433,7 +438,8 @@ private:
                 suggest(name, known));
   }
 
-  // "TAU_R_MPA" would be one more column among which tracing looks for a cause of tau_R_MPa.
+  // Rejects a name that differs from a quantity only by case: as a separate column, "TAU_R_MPA"
+  // would be a candidate cause of tau_R_MPa in tracing.
   void check_case(const CsvColumn& column) {
     const std::string& name = headers_[std::size_t(&column - raw_.columns.data())].name;
     const std::string lower = lower_case(name);
@@ -448,8 +454,7 @@ private:
                                 quantity.name, column.name));
   }
 
-  // Columns without a name that hold something. Empty ones are what delimiters at the end of a line
-  // leave.
+  // Reports nameless columns with content. Empty ones come from delimiters at the end of a line.
   void tell_nameless() {
     std::vector<std::size_t> nameless;
     for (std::size_t i = 0; i < raw_.columns.size(); ++i) {
@@ -474,7 +479,7 @@ private:
     const auto numeric = static_cast<std::size_t>(std::count_if(
         raw.numbers.begin(), raw.numbers.end(), [](double value) { return !std::isnan(value); }));
     Column column{raw.name, "", {}, {}};
-    if (words > 0 && words >= (words + numeric) / 2) { // empty cells are neither
+    if (words > 0 && words >= (words + numeric) / 2) { // empty cells count as neither
       make_categorical(column, raw);
       if (missing > 0) tell_empty(raw.name, missing, ": a level of their own");
       out_.columns.push_back(std::move(column));
@@ -505,7 +510,7 @@ private:
     out_.notes.push_back(out_.counted_notes.back().text());
   }
 
-  // What the job says of the whole file: constants that are no quantities, and labels.
+  // Adds the job's values for the whole file: constants other than quantities, and labels.
   void add_same_for_all() {
     const auto add = [&](const std::string& name, double value, std::vector<std::string> levels) {
       if (find(name))
@@ -528,7 +533,7 @@ private:
       column.levels.push_back(level);
     }
     column.values.resize(raw_.rows());
-    const std::string* last = nullptr; // mostly the same again
+    const std::string* last = nullptr; // mostly the same text again
     for_each_text(raw, [&](std::size_t i, const std::string& cell) {
       const bool again = last && *last == cell;
       const auto found = again ? index.end() : index.find(cell);
@@ -538,12 +543,12 @@ private:
     forget(raw);
   }
 
-  // What a file's column held, once it is taken.
+  // Frees a file's column after it has been taken.
   void forget(const CsvColumn& raw) {
     raw_.columns[std::size_t(&raw - raw_.columns.data())] = {raw.name, raw.unit, {}, {}};
   }
 
-  // All cells in turn, numbers as they are written shortest.
+  // Passes all cells as text in turn, numbers in their shortest form.
   template <class Take> void for_each_text(const CsvColumn& raw, const Take& take) const {
     std::size_t text = 0;
     for (std::size_t i = 0; i < raw_.rows(); ++i)
@@ -558,11 +563,11 @@ private:
   const std::string& label_;
   FaultList& faults_;
   std::vector<io::HeaderName> headers_; // of each column
-  // Numbers, from 1, of the columns of a name.
+  // Column numbers, from 1, by name.
   std::unordered_map<std::string, std::vector<std::size_t>> whole_names_, bare_names_;
   MappedFile out_;
   std::set<const CsvColumn*> used_;
-  std::map<const CsvColumn*, std::size_t> uses_; // of its numbers, by quantities
+  std::map<const CsvColumn*, std::size_t> uses_; // number of quantities that use its numbers
   std::set<std::string> ambiguous_;
 };
 

@@ -1,4 +1,4 @@
-// Looks an input up among quantities and histories.
+// Finds an input among quantities and histories.
 #include "data/meaning.h"
 
 #include "data/derived.h"

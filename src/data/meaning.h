@@ -1,5 +1,5 @@
-// What an input of a law is: a canonical quantity, a history along the experiment, or a column as
-// it was recorded.
+// Meaning of a law's input: a canonical quantity, a history along the experiment, or a recorded
+// column.
 #pragma once
 
 #include <limits>
@@ -10,7 +10,7 @@ namespace frictab::data {
 struct Meaning {
   std::string unit = "1";
   std::string text = "as recorded";
-  double lowest = -std::numeric_limits<double>::infinity(); // smallest value that makes sense
+  double lowest = -std::numeric_limits<double>::infinity(); // smallest admissible value
   bool log_axis = false;                                    // default coordinate of its axis
   bool state = false; // canonical: laws of the registry may use it
 };

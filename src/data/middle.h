@@ -1,4 +1,4 @@
-// Order statistics of a few thousand numbers. Values have to be finite.
+// Order statistics of a few thousand numbers, which must be finite.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace frictab::data {
 
-// 0 for none.
+// Returns 0 for no values.
 inline double quantile_of(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   const auto at = std::lround(share * static_cast<double>(values.size() - 1));
@@ -17,7 +17,7 @@ inline double quantile_of(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(at)];
 }
 
-// Of an even number the mean of both in the middle, so that -median(x) is median(-x).
+// Averages the two middle values of an even number of values, so that median(-x) = -median(x).
 inline double median_of(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -26,7 +26,8 @@ inline double median_of(std::vector<double> values) {
   return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
-// Of an even number the upper one in the middle, so that it is a value that is there; NaN of none.
+// Takes the upper middle value of an even number of values, so that the result is one of them; NaN
+// for no values.
 inline double upper_median(std::vector<double> values) {
   if (values.empty()) return no_value;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -1,4 +1,4 @@
-// Reads the noise-free stress and lays it beside the rows it belongs to.
+// Reads the noise-free stress and assigns it to its rows.
 #include "data/oracle.h"
 
 #include <cmath>
@@ -26,7 +26,7 @@ const io::CsvColumn& needed(const io::CsvTable& table, const std::string& name) 
                    "`frictab twin --oracle` writes such files: experiment, row, tau_oracle_MPa");
 }
 
-// Cells of a column as text, whatever they look like.
+// Cells of a column as text, including numbers.
 std::vector<std::string> texts_of(const io::CsvColumn& column) {
   std::vector<std::string> texts(column.numbers.size());
   for (std::size_t i = 0; i < texts.size(); ++i)

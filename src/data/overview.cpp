@@ -1,4 +1,4 @@
-// Spans and means of each experiment.
+// Ranges and means of each experiment.
 #include "data/overview.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ double mean_of_ratio(const RatioSum& ratio) {
   return ratio.rows > 0 ? ratio.sum / ratio.rows : no_value;
 }
 
-// From what was kept of its rows.
+// Overview from the stored summary of its source rows.
 TestOverview overview_behind(const Dataset& data, const std::string& name,
                              const RowsOfExperiment& rows) {
   TestOverview test{name, rows.rows, {}, mean_of_ratio(rows.over_pressure), {}};

@@ -1,4 +1,4 @@
-// Rows of one file, gathered by experiment and left out.
+// Gathers the rows of one file by experiment, and removes rows.
 #include "data/part.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void gather_experiments(Part& part, MappedFile&& mapped, const std::string& labe
   const auto name_of = [&](std::size_t i) -> const std::string& {
     return mapped.experiment.empty() ? label : mapped.experiment[i];
   };
-  std::size_t current = 0; // rows of one experiment mostly follow each other
+  std::size_t current = 0; // index of the last experiment: its rows are mostly consecutive
   for (std::size_t i = 0; i < rows; ++i) {
     const std::string& name = name_of(i);
     if (i > 0 && name == name_of(i - 1)) {
@@ -86,7 +86,7 @@ void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none) {
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
       if (keep[i]) kept.push_back(i);
-    if (kept.size() == first.back()) { // nothing of it is left
+    if (kept.size() == first.back()) { // the experiment has no row left
       gone.push_back(data.experiments[e]);
       continue;
     }

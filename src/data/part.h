@@ -1,4 +1,4 @@
-// One file on its way to a campaign.
+// One file in preparation for a campaign.
 #pragma once
 
 #include "data/dataset.h"
@@ -14,21 +14,21 @@ struct Part {
   std::size_t raw_rows = 0;
   std::vector<std::size_t> row; // raw row
   bool measured_tau = true;
-  bool whole_file = true; // or some experiments of it
+  bool whole_file = true; // false: some experiments of it
   FaultList faults;
-  std::vector<MappedFile::CellFault> cell_faults;     // not told yet
+  std::vector<MappedFile::CellFault> cell_faults;     // not reported yet
   std::vector<MappedFile::CountedNote> counted_notes; // of data.notes
 
   Column* find(std::string_view name);
   Place header() const { return {raw.file, raw.header_line, 0}; }
   Place place(std::size_t i) const { return row_place(raw, row[i]); }
-  std::vector<std::string> raw_names() const; // of the file's columns
+  std::vector<std::string> raw_names() const; // names of the file's columns
 };
 
-// Notes that count rows, over several parts: those that say the same are one.
+// Notes with counts of rows, over several parts: equal notes are merged.
 class CountedNotes {
 public:
-  void take(Part& part); // out of the notes of its data
+  void take(Part& part); // removes them from the notes of its data
   void add(const CountedNotes& more);
   std::vector<std::string> texts() const; // of all rows of all parts
 
@@ -37,15 +37,15 @@ private:
   std::size_t raw_rows_ = 0;
 };
 
-// Orders rows so that each experiment is contiguous, in order of first appearance. `label` is the
-// experiment of a file that is one.
+// Orders rows so that each experiment is contiguous, in order of first appearance. `label` names
+// the experiment if the file is one.
 void gather_experiments(Part& part, MappedFile&& mapped, const std::string& label);
 
-// A note that counts, in the words around the count (MappedFile::CountedNote).
+// Adds a note with a count, as text around the count (MappedFile::CountedNote).
 void add_counted(Part& part, std::string before, std::string after, std::size_t rows);
 
-// The rows whose `keep` is not 0; an experiment without a row goes. With `if_none` a note names
-// those, and where no row is left at all, that is a fault in these words.
+// Keeps the rows whose `keep` is not 0; an experiment without a row is removed. With `if_none` a
+// note names those experiments, and if no row is left at all, adds a fault with this text.
 void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none);
 
 } // namespace frictab::data

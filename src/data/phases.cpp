@@ -1,4 +1,4 @@
-// Load, then speed, then strokes.
+// Determines the phases of load, then of speed, then strokes.
 #include "data/phases.h"
 
 #include <algorithm>
@@ -17,15 +17,16 @@ using Values = std::span<const double>;
 // Shares of the typical load, speed or path of a test.
 constexpr double unloaded_share = 0.05, full_share = 0.9, steady_share = 0.3, ramp_share = 0.15;
 constexpr double slow = 0.02, nearly_zero = 1e-3, turning_speed = 0.2, turning_path = 0.05;
-// A force that builds up the other way: over so much of the stroke's path, from half of its later
-// value to nearly all of it.
+// A force that builds up after a reversal: the largest share of the stroke's path for it, and the
+// shares of the later force at which it begins and ends.
 constexpr double longest_turn = 0.2, half_turned = 0.5, turned = 0.9;
-// A reading's step, and its scatter from row to row, over the typical speed.
+// Step of a reading, and its scatter from row to row, relative to the typical speed.
 constexpr double coarse_step = 1.0 / 3, noisy_speed = 0.3;
 constexpr std::size_t ramp_rows = 20, stroke_rows = 3, mean_rows = 5, few_values = 60;
-// Both directions occur: this share of the rows goes either way at this share of the speed.
+// A test has both directions if this share of the rows goes either way at this share of the speed.
 constexpr double either_way = 0.1, goes = 0.2;
-// Friction over load, beside that of the whole test: the same friction at a lower load.
+// Largest ratio of friction over load to that of the whole test at which it counts as the same
+// friction at a lower load.
 constexpr double same_friction = 2;
 
 std::vector<double> finite_values(Values values) {
@@ -42,14 +43,14 @@ std::vector<double> sizes(Values values) {
   return out;
 }
 
-// In the middle of what is more than `share` of nearly the largest.
+// Median of the values above `share` of nearly the largest.
 double typical_of(std::vector<double> values, double share) {
   const double least = share * quantile_of(values, 0.95);
   std::erase_if(values, [&](double x) { return !(x > least); });
   return median_of(std::move(values));
 }
 
-// Running median of five, of short tests as they are.
+// Running median of five; short tests stay unchanged.
 std::vector<double> median_of_five(Values values) {
   std::vector<double> out(values.begin(), values.end());
   constexpr std::size_t width = 5, half = width / 2;
@@ -64,7 +65,7 @@ std::vector<double> median_of_five(Values values) {
   return out;
 }
 
-// What is not finite, as what stands before it; `held` keeps what is new.
+// Replaces a non-finite value by the one before it; `held` stores the result if it differs.
 Values filled(Values values, std::vector<double>& held) {
   if (std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
     return values;
@@ -91,7 +92,7 @@ template <class Is> std::vector<Piece> pieces_where(std::size_t rows, const Is& 
 
 struct Mean {
   double value = 0, error = 0;
-  // A single row says nothing of its error.
+  // A single row has no known error.
   bool is_zero() const { return value == 0 || std::abs(value) < 2 * error; }
 };
 
@@ -112,7 +113,7 @@ class LoadPhases {
 public:
   LoadPhases(const TestSignals& test, TestPhases& out) : test_(test), load_(test.load), out_(out) {
     typical_ = typical_of(finite_values(load_), 0.5);
-    if (!(typical_ > 0) || load_.size() < 2 * mean_rows) return; // few rows are levels
+    if (!(typical_ > 0) || load_.size() < 2 * mean_rows) return; // a few rows are levels
     out.has_load = true;
     if (load_.size() >= ramp_rows) mark_ramps();
     mark_unloaded();
@@ -133,7 +134,8 @@ private:
     if (back <= longest) std::fill_n(out_.rows.end() - back, back, Phase::opening);
   }
 
-  // Where what rubs is more than half of what rubs under load, the load is what is wrong.
+  // Marks unloaded rows, except a low level with the usual coefficient. If friction there is more
+  // than half of that under load, the load reading is wrong.
   void mark_unloaded() {
     std::vector<double> ratios, frictions;
     for (std::size_t i = 0; i < test_.friction.size(); ++i)
@@ -166,7 +168,7 @@ private:
 
 // ---- speed ----
 
-// What a rig sets stays the same for rows on end; what it reads does not.
+// True for a set speed, which stays the same for many rows, unlike a measured one.
 bool is_held(Values speed) {
   std::size_t held = 0, moving = 0;
   for (std::size_t from = 0, i = 1; i <= speed.size(); ++i) {
@@ -180,7 +182,7 @@ bool is_held(Values speed) {
   return 2 * held > moving;
 }
 
-// Between neighbouring readings, where there are few of them.
+// Step between neighbouring readings if they take few values; else 0.
 double reading_step(Values speed) {
   std::vector<double> values = sizes(speed.first(std::min<std::size_t>(speed.size(), 5000)));
   std::sort(values.begin(), values.end());
@@ -194,8 +196,8 @@ double reading_step(Values speed) {
   return median_of(std::move(steps));
 }
 
-// Standard deviation of a reading about its neighbours' mean; of Gaussian noise the difference has
-// 1.22 times its standard deviation.
+// Standard deviation of a reading about its neighbours' mean; for Gaussian noise the difference has
+// 1.22 times the standard deviation of a reading.
 double row_scatter(Values speed) {
   std::vector<double> off;
   for (std::size_t i = 1; i + 1 < speed.size(); ++i)
@@ -210,7 +212,7 @@ SpeedReading reading_of(Values speed) {
   if (!(middle > 0)) return SpeedReading::still;
   if (is_held(speed)) return SpeedReading::usable;
   if (reading_step(speed) > coarse_step * middle) return SpeedReading::coarse;
-  // Of a speed that turns from row to row, without its sign.
+  // Uses magnitudes for a speed that changes sign from row to row.
   const double scatter = std::min(row_scatter(speed), row_scatter(sizes(speed)));
   return scatter > noisy_speed * middle ? SpeedReading::noisy : SpeedReading::usable;
 }
@@ -225,7 +227,7 @@ bool goes_both_ways(Values values, double reference) {
   return forward > either_way * n && backward > either_way * n;
 }
 
-// Rows between changes of sign; rows near zero go with those before.
+// Rows between changes of sign; rows near zero belong to the stroke before.
 std::vector<TestPhases::Stroke> strokes_of(Values values, double near_zero) {
   std::vector<TestPhases::Stroke> strokes;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -241,7 +243,7 @@ std::vector<TestPhases::Stroke> strokes_of(Values values, double near_zero) {
   return strokes;
 }
 
-// Of a path, over as many rows as its noise needs.
+// Speed of a path, over as many rows as its noise requires.
 std::vector<double> speed_of_path(Values path, Values time) {
   std::vector<double> speed(path.size());
   const std::size_t last = path.size() - 1;
@@ -263,7 +265,7 @@ public:
     if (!test.speed.empty()) out.speed = reading_of(test.speed);
     if (out.speed == SpeedReading::still) mark(0, rows, Phase::rest);
     if (out.speed == SpeedReading::usable) {
-      // One that turns from row to row is taken as it is.
+      // A speed that changes sign from row to row is not smoothed.
       const bool turns = row_scatter(test.speed) > noisy_speed * median_of(sizes(test.speed));
       speed_ = turns ? std::vector<double>(test.speed.begin(), test.speed.end())
                      : median_of_five(test.speed);
@@ -288,7 +290,7 @@ public:
   }
 
 private:
-  // A speed without its sign: then the force says which way, where it does not just scatter.
+  // Takes the direction of an unsigned speed from the force, unless that only scatters.
   void take_strokes_of_friction() {
     const std::vector<double> friction = median_of_five(test_.friction);
     const double reference = typical_of(sizes(friction), 0.1);
@@ -307,14 +309,14 @@ private:
     return static_cast<double>(between) > either_way * static_cast<double>(size_.size());
   }
 
-  // A slow level that is held slides; nothing that can be told from zero is at rest, but for what a
-  // speed cell shows at zero.
+  // Marks rest. A slow constant level is sliding; a speed within its error of zero is rest, and so
+  // is a small offset of the speed sensor.
   void mark_rest() {
     const bool wide = wide_range();
     for (const Piece& run : pieces_where(size_.size(), [&](std::size_t i) {
            return size_[i] < slow * typical_ || test_.speed[i] == 0;
          })) {
-      if (run.rows() < mean_rows && turns_in(run)) continue; // a stroke that ends, not a rest
+      if (run.rows() < mean_rows && turns_in(run)) continue; // the end of a stroke, not a rest
       const Values speed = test_.speed.subspan(run.begin, run.rows());
       const Mean mean = mean_with_error(speed);
       const bool constant =
@@ -336,8 +338,7 @@ private:
       if (out_.rows[i] != Phase::unloaded) out_.rows[i] = phase;
   }
 
-  // Along the stroke, from 0 to 1: of the path, else of what the speed sums up to, else of its
-  // rows.
+  // Progress along the stroke from 0 to 1, by the path, else by the summed speed, else by rows.
   std::vector<double> along(const TestPhases::Stroke& stroke) const {
     std::vector<double> way{0};
     for (std::size_t i = stroke.begin + 1; i < stroke.end; ++i)
@@ -373,7 +374,8 @@ private:
         out_.rows[i] = Phase::turning;
   }
 
-  // At the start of a stroke, from the force before the reversal to that of the stroke.
+  // Rows at the start of a stroke in which the force changes from its value before the reversal to
+  // that of the stroke.
   std::size_t rows_that_build_up(const TestPhases::Stroke& stroke,
                                  const std::vector<double>& way) const {
     if (test_.friction.empty()) return 0;

@@ -1,4 +1,4 @@
-// Each check is a function from a campaign to what it found.
+// Each check is a function from a campaign to its finding.
 #include "data/plausibility.h"
 
 #include <algorithm>
@@ -21,28 +21,29 @@ namespace frictab::data {
 
 namespace {
 
-// Above 1 rubber and clean metals in vacuum have been measured, gold up to 3.6 or so; below 0.001
-// nothing but a fluid film.
+// Coefficients above 1 have been measured for rubber and clean metals in vacuum, up to about 3.6
+// for gold; below 0.001 only for fluid films.
 constexpr double least_mu = 0.001, usual_mu = 1, largest_mu = 3.6;
-// Above every flow stress of a metal, and every contact that metals bear.
+// Above every flow stress of a metal, and every contact pressure that metals bear.
 constexpr double largest_pressure_MPa = 20000;
 constexpr double largest_psi = 100;
-// Between a stress and the forces that it comes from: what rounding and smoothing make.
+// Allowed ratio between a stress and the forces it comes from, due to rounding and smoothing.
 constexpr double same_coefficient = 1.1;
-// Steps of a path that go back now and then are no noise.
+// Backward steps of a path up to this share are not noise.
 constexpr double rare_share = 0.05;
-// A factor between two units of speed, not between two ways to measure it; over so many rows, of
-// which a noisy path goes back and forth and still gets on.
+// Smallest factor between two units of speed, larger than between two ways to measure it; checked
+// over enough rows for a noisy path to advance.
 constexpr double same_speed = 5;
 constexpr std::size_t path_rows = 100;
-// Noise lifts a stuck contact above its shear yield stress by less.
+// Noise lifts a stuck contact above its shear yield stress by less than this factor.
 constexpr double above_yield = 1.15;
 constexpr std::size_t stuck_rows = 20, clipped_rows = 10;
-// Of the load of a test: below, nothing is pressed; of its friction: an offset that matters.
+// Shares of a test's load below which nothing, or little, is pressed; smallest relevant offset as a
+// share of its friction.
 constexpr double no_load = 0.05, half_load = 0.5, offset_share = 0.1;
 constexpr std::size_t rows_without_contact = 10;
 
-// 0 for none.
+// Returns 0 for no values.
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   const auto place = values.begin() + std::ptrdiff_t(share * double(values.size()));
@@ -54,7 +55,7 @@ double median(std::vector<double> values) {
   return quantile(std::move(values), 0.5);
 }
 
-// Of rows with a coefficient: under load.
+// Coefficients of the rows under load.
 std::vector<double> coefficients(const Dataset& data, std::size_t begin, std::size_t end) {
   const auto tau = data.values("tau_R_MPa"), pressure = data.values("sigma_n_MPa");
   std::vector<double> mu;
@@ -92,8 +93,8 @@ Implausible no_friction(const Dataset& data) {
           "[data.columns]"};
 }
 
-// Friction where the load is exactly 0: a coefficient that no other check sees. (Noise around 0 is
-// friction of nothing.)
+// Finds friction where the load is exactly 0: its coefficient is undefined, so other checks miss
+// it. (Noise around 0 does not count as friction.)
 Implausible no_load_channel(const Dataset& data) {
   const auto tau = data.values("tau_R_MPa"), pressure = data.values("sigma_n_MPa");
   const double rubbing = offset_share * quantile({tau.begin(), tau.end()}, 0.9);
@@ -107,7 +108,7 @@ Implausible no_load_channel(const Dataset& data) {
       "data.drop = { sigma_n_MPa = { below = 1 } }"};
 }
 
-// Where a file gives the stress and both forces: eq. 1 holds between them.
+// Checks eq. 1 if a file gives the stress and both forces.
 Implausible forces(const Dataset& data) {
   if (!data.has("F_R_N") || !data.has("F_N_N")) return {};
   const auto friction = data.values("F_R_N"), normal = data.values("F_N_N"),
@@ -157,13 +158,13 @@ Implausible high_coefficient(const Dataset& data) {
 }
 
 Implausible no_coefficient(const Dataset& data) {
-  if (nothing_rubs(data)) return {}; // told already
+  if (nothing_rubs(data)) return {}; // reported already
   std::size_t rows = 0, tests = 0;
   std::string first;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const std::vector<double> mu = coefficients(data, data.first_row[e], data.first_row[e + 1]);
     const double mean = std::accumulate(mu.begin(), mu.end(), 0.0) / double(mu.size());
-    if (!(mean <= 0)) continue; // as of no rows under load
+    if (!(mean <= 0)) continue; // also without rows under load
     if (tests++ == 0)
       first = fmt::format("the mean of tau_R_MPa/sigma_n_MPa is {:.3g} in test '{}'", mean,
                           data.experiments[e]);
@@ -199,7 +200,8 @@ Implausible shear_yield(const Dataset& data) {
           "a flow stress in GPa or before hardening, or a shear stress in another unit?"};
 }
 
-// Against the path: one that was integrated from the speed agrees with its mean over each row.
+// Compares the speed with the path: a path integrated from the speed agrees with its mean over each
+// row.
 Implausible speed(const Dataset& data) {
   if (!data.has("s_mm") || !data.has("time_s") || !data.has("v_rel_mm_s")) return {};
   const auto path = data.values("s_mm"), time = data.values("time_s"),
@@ -230,7 +232,8 @@ Implausible speed(const Dataset& data) {
           "a speed in m/s, a path in m or um, a time in ms? `unit` where it is mapped"};
 }
 
-// Rows in pieces of `width` whose mean lies behind that of an earlier piece, by more than `by`.
+// Number of rows in pieces of `width` whose mean is below that of an earlier piece by more than
+// `by`.
 std::size_t rows_behind(std::span<const double> distance, std::size_t width, double by) {
   double farthest = -std::numeric_limits<double>::infinity();
   std::size_t behind = 0;
@@ -243,8 +246,9 @@ std::size_t rows_behind(std::span<const double> distance, std::size_t width, dou
   return behind;
 }
 
-// Of a test, by more than a usual step. Where many steps go back, noise may do it: then pieces are
-// compared, not rows; and where no clock says that rows are in order, nothing can be said.
+// Rows of a test that go back by more than a usual step. Many backward steps may be noise, so
+// pieces are compared instead of rows; without a clock to confirm the order of rows, nothing is
+// reported.
 std::size_t rows_behind(std::span<const double> distance, bool has_clock) {
   std::vector<double> steps;
   std::size_t back = 0;
@@ -259,9 +263,10 @@ std::size_t rows_behind(std::span<const double> distance, bool has_clock) {
                      median(std::move(steps)));
 }
 
-// A sliding distance since first contact only grows; a position goes back and forth.
+// Checks that s_mm only grows, as the distance since first contact does; a position goes back and
+// forth.
 Implausible path(const Dataset& data) {
-  if (!data.has("s_mm") || speed(data).most()) return {}; // told already
+  if (!data.has("s_mm") || speed(data).most()) return {}; // reported already
   std::size_t rows = 0, tests = 0;
   std::string first;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
@@ -286,7 +291,8 @@ Implausible surface_expansion(const Dataset& data) {
           "a surface expansion in percent? unit = \"%\" where it is mapped"};
 }
 
-// Whether the load or the speed changes over these rows: a measured stress would not stay the same.
+// True if the load or the speed changes over these rows, so that a measured stress would not stay
+// constant.
 bool something_changes(const Dataset& data, std::size_t begin, std::size_t end) {
   for (const char* name : {"sigma_n_MPa", "F_N_N", "v_rel_mm_s"}) {
     if (!data.has(name)) continue;
@@ -297,7 +303,7 @@ bool something_changes(const Dataset& data, std::size_t begin, std::size_t end) 
   return false;
 }
 
-// Rows of one test that hold one value.
+// Rows of one test with one value.
 struct Run {
   std::size_t test, begin, end;
   std::size_t rows() const { return end - begin; }
@@ -315,8 +321,8 @@ std::vector<Run> runs_of_one_value(const Dataset& data, std::span<const double> 
   return runs;
 }
 
-// Whether the rows of these runs' tests that are off their value go up and down from row to row, as
-// what is measured does and a nominal value does not.
+// True if the other rows of these runs' tests go up and down from row to row, as measured values do
+// and nominal values do not.
 bool scatters_beside(const Dataset& data, std::span<const double> values,
                      const std::vector<Run>& runs) {
   const double level = values[runs.front().begin];
@@ -334,9 +340,9 @@ bool scatters_beside(const Dataset& data, std::span<const double> values,
   return tests.size() > 1 && of >= clipped_rows && 5 * turns >= of;
 }
 
-// Where a channel stays at its largest or smallest value in several tests and at no value between
-// them: the end of an amplifier. A plateau is at another height in another test, or scatters; a
-// nominal or a coarse column stays at other values too. At 0 nothing is lost.
+// Finds a channel that stays at its largest or smallest value in several tests and at no value in
+// between: the end of an amplifier's range. A real plateau has another height in another test, or
+// scatters; a nominal or coarse column stays at other values too. At 0 nothing is lost.
 std::vector<Run> clipped_runs(const Dataset& data, std::span<const double> values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   std::vector<Run> at_low, at_high;
@@ -378,8 +384,8 @@ Implausible clipped_channel(const Dataset& data) {
   return out;
 }
 
-// Whether the rows of a test that are in none of its runs repeat the value before mostly: then the
-// channel is too coarse for what it measures, and may stand still honestly.
+// True if most rows of a test outside its runs repeat the value before: then the channel is too
+// coarse, and constant values are plausible.
 bool is_coarse(const Dataset& data, std::span<const double> values, const std::vector<Run>& runs,
                std::size_t test) {
   std::size_t repeats = 0, of = 0;
@@ -395,16 +401,16 @@ bool is_coarse(const Dataset& data, std::span<const double> values, const std::v
   return 2 * repeats > of;
 }
 
-// The same number again and again where others change: a channel that is stuck.
+// Finds a stuck channel: one number repeated while other columns change.
 Implausible stuck_channel(const Dataset& data) {
-  if (nothing_rubs(data)) return {}; // told already
+  if (nothing_rubs(data)) return {}; // reported already
   Implausible out;
   out.of = data.rows();
   std::string where;
   for (const char* name : {"tau_R_MPa", "F_R_N"}) {
     if (!data.has(name) || out.rows > 0) continue; // tau_R_MPa may come from F_R_N
     const auto values = data.values(name);
-    if (!clipped_runs(data, values).empty()) continue; // told already
+    if (!clipped_runs(data, values).empty()) continue; // reported already
     const std::vector<Run> runs = runs_of_one_value(data, values, stuck_rows);
     std::optional<std::size_t> test;
     bool coarse = false;
@@ -422,9 +428,9 @@ Implausible stuck_channel(const Dataset& data) {
   return out;
 }
 
-// The forces of one test, and what they are under load.
+// The forces of one test, and their values under load.
 struct Forces {
-  std::span<const double> normal, friction, speed; // speed is empty where it is unknown
+  std::span<const double> normal, friction, speed; // speed is empty if unknown
   double load = 0, rubbing = 0;
 
   Forces(const Dataset& data, std::size_t test) {
@@ -439,7 +445,7 @@ struct Forces {
     rubbing = median(under_load);
   }
 
-  // Rows in front of (or behind) the first (last) one with this share of the load.
+  // Rows before (or after) the first (last) one with this share of the load.
   std::pair<std::size_t, std::size_t> ends(bool front, double share) const {
     std::size_t begin = 0, end = normal.size();
     if (front)
@@ -463,8 +469,8 @@ Level level_of(std::span<const double> values) {
   return {middle, median(off)};
 }
 
-// What the friction force shows where nothing is pressed: off zero by more than scatter, and more
-// than any coefficient makes of what load is left.
+// Friction force without contact, if it is an offset: larger than its scatter, and larger than any
+// coefficient gives for the remaining load.
 double friction_offset(const Forces& forces, bool front) {
   const auto [begin, end] = forces.ends(front, no_load);
   if (end - begin < rows_without_contact) return 0;
@@ -476,8 +482,8 @@ double friction_offset(const Forces& forces, bool front) {
   return is_offset ? friction : 0;
 }
 
-// What the normal force shows where something slides and nothing rubs: a load that is at rest may
-// be honest.
+// Normal force while the contact slides without friction, if it is an offset; a load at rest may be
+// real.
 double normal_offset(const Forces& forces, bool front) {
   const auto [begin, end] = forces.ends(front, half_load);
   if (end - begin < rows_without_contact || forces.speed.empty()) return 0;
@@ -490,7 +496,8 @@ double normal_offset(const Forces& forces, bool front) {
   return is_offset ? normal : 0;
 }
 
-// Before or after contact a force is zero; where it is not, it is off by as much under load.
+// Finds force offsets: before or after contact a force should be zero, and an offset there is
+// present under load as well.
 Implausible force_offset(const Dataset& data) {
   if (!data.has("F_R_N") || !data.has("F_N_N")) return {};
   std::size_t rows = 0, tests = 0;
@@ -536,7 +543,7 @@ Implausible copied_test(const Dataset& data) {
   for (std::size_t e = 0; e < same.size(); ++e) {
     if (!same[e]) continue;
     rows += data.rows_behind(e);
-    if (*same[e] > e) continue; // the one that the others are copies of
+    if (*same[e] > e) continue; // the original of the copies
     if (copies++ == 0)
       first = fmt::format("test '{}' has the rows of test '{}', value by value",
                           data.experiments[e], data.experiments[*same[e]]);
@@ -548,11 +555,11 @@ Implausible copied_test(const Dataset& data) {
 
 // ---- rows that no rig can measure ----
 
-// See plausibility.h.
+// Limits of spikes, explained in plausibility.h.
 constexpr double spike_height = 1.5, spike_height_at_ends = 3, spike_scatter = 8;
 constexpr std::size_t spike_rows = 3, spike_window = 11, rows_of_end = 5;
 
-// Running medians of a test, its scatter about them, and its middle.
+// Running medians of a test, its scatter about them, and its overall median.
 struct Course {
   std::vector<double> middle;
   double scatter = 0, typical = 0;
@@ -571,7 +578,7 @@ struct Course {
   }
 };
 
-// Of the rows of one test; `place` of each in its file.
+// Spikes among the rows of one test; `place`: row of each in its file.
 std::vector<std::size_t> spikes_of(std::span<const double> tau, std::span<const double> pressure,
                                    std::span<const std::size_t> place) {
   std::vector<std::size_t> found;
@@ -603,8 +610,8 @@ std::vector<std::size_t> spikes_of(std::span<const double> tau, std::span<const 
   return found;
 }
 
-// Of a test, above which its own scatter from row to row does not reach. A test that is above a
-// limit as a whole has no rows that are: the checks above tell it.
+// Upper limit of a test's scatter from row to row. If a whole test is above a limit, none of its
+// rows stands out; the checks above report such a test.
 double end_of_noise(std::span<const double> tau) {
   constexpr double deviations = 4;
   const double middle = median({tau.begin(), tau.end()});
@@ -612,7 +619,7 @@ double end_of_noise(std::span<const double> tau) {
                                    : middle + deviations * Course(tau).scatter;
 }
 
-// They are left out as they are read; what is left has none.
+// Finds nothing: spikes are left out during reading.
 Implausible spike(const Dataset&) {
   return {};
 }
@@ -622,8 +629,8 @@ Implausible units_of_tests(const Dataset& data) {
   return mixed_units({&one, 1});
 }
 
-// What a check needs to see at once: rows that have what it looks at, whole tests of which it
-// counts all rows, or a whole campaign.
+// Data that a check needs at once: any rows with its columns; whole tests, all of whose rows it
+// counts; or a whole campaign.
 enum class Sees { rows, tests, campaign };
 
 struct Check {
@@ -662,14 +669,14 @@ const Implausible* counted_by(const Check& check, const std::vector<Implausible>
   return nullptr;
 }
 
-// Where rows are left out, what was counted before they were.
+// Result over the present rows, or the count made before rows were left out, if that is larger.
 Implausible found_in_rows(const Check& check, const Dataset& data) {
   Implausible found = check.find(data);
   const Implausible* const before = counted_by(check, data.counted);
   return before && before->rows > found.rows ? *before : found;
 }
 
-// Of a condensed campaign, what was counted before its rows went.
+// Result for a campaign; for a condensed one, the count made before its rows were discarded.
 Implausible found_by(const Check& check, const Dataset& data) {
   if (!data.condensed || check.sees == Sees::campaign) return found_in_rows(check, data);
   const Implausible* const counted = counted_by(check, data.condensed->implausible);
@@ -689,7 +696,7 @@ std::vector<Implausible> find_implausible(const Dataset& data) {
   std::vector<Implausible> found;
   bool rubs = true;
   for (const Check& check : checks) {
-    if (check.find == friction_coefficient && !rubs) continue; // told already
+    if (check.find == friction_coefficient && !rubs) continue; // reported already
     Implausible one = found_by(check, data);
     if (one.rows == 0) continue;
     if (check.find == no_friction) rubs = false;
@@ -719,7 +726,7 @@ void merge_implausible(const std::vector<Implausible>& more, std::vector<Implaus
       counted.push_back(one);
       continue;
     }
-    if (one.rows > known->rows) { // than of all so far
+    if (one.rows > known->rows) { // keeps the words of the part with most such rows
       known->what = one.what;
       known->hint = one.hint;
       known->certain = one.certain;
@@ -745,7 +752,7 @@ std::vector<ImpossibleRow> impossible_rows(const Dataset& data, std::span<const 
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const std::size_t begin = data.first_row[e], rows = data.first_row[e + 1] - begin;
     std::vector<char> is_found(rows, 0);
-    std::optional<double> usual; // coefficient, where it is asked for
+    std::optional<double> usual; // usual coefficient, if computed
     std::optional<double> noise_ends;
     const auto beyond_noise = [&](double x) {
       if (!noise_ends) noise_ends = end_of_noise(tau.subspan(begin, rows));
@@ -798,7 +805,7 @@ void tell(const Implausible& one, Dataset& data, const std::vector<std::string>&
     faults.add(
         place, text,
         fmt::format("{}; if it is right: data.allow_implausible = [\"{}\"]", one.hint, one.check));
-  else // what is told alone says what it may be
+  else // a finding that is only a note includes its hint
     data.implausible.push_back(one.certain && !is_allowed ? text + ": " + one.hint : text);
 }
 

@@ -1,4 +1,4 @@
-// The canonical quantities of the outside contract, one row each.
+// The canonical quantities of the public interface, one row each.
 #include "data/quantity.h"
 
 #include <limits>

@@ -1,4 +1,4 @@
-// Reads a data file of either format into named columns.
+// Reads a data file of any format into named columns.
 #include "data/raw.h"
 
 #include <cstdint>
@@ -29,7 +29,7 @@ std::string last_line(std::string text) {
   return text.substr(text.find_last_of('\n') + 1);
 }
 
-// A sheet as CSV, numbers as they are stored, whatever format they are shown in.
+// A sheet as CSV, with numbers as stored, independent of their display format.
 std::string sheet_text(const std::string& path, const std::string& named,
                        const std::string& sheet) {
   const std::string tool = "xlsx2csv";
@@ -44,7 +44,7 @@ std::string sheet_text(const std::string& path, const std::string& named,
   try {
     run_program(command, work.path() / "log");
   } catch (const std::runtime_error& error) {
-    const std::string said = error.what(); // the command, then the program's words
+    const std::string said = error.what(); // the command, then the program's output
     throw InputError({named, 0, 0},
                      sheet.empty() ? "is no workbook that xlsx2csv can read"
                                    : fmt::format("holds no sheet '{}' that can be read", sheet),
@@ -53,7 +53,7 @@ std::string sheet_text(const std::string& path, const std::string& named,
   return io::read_file(out);
 }
 
-// What columns may be called: as the job maps them, and by their canonical names.
+// Possible column names: those that the job maps, and the canonical ones.
 std::vector<std::string> wanted_names(const DataOptions& options) {
   std::vector<std::string> names = {"experiment"};
   for (const Quantity& quantity : quantities())
@@ -97,7 +97,7 @@ io::CsvFormat csv_format(const std::string& path, const DataOptions& options) {
   if (!options.wide.empty())
     format.also_wanted = [tests = test_columns(options.wide, options.wide_place)](
                              const std::string& name) { return tests.search(name).has_value(); };
-  if (is_workbook(path)) { // as xlsx2csv writes
+  if (is_workbook(path)) { // the dialect of xlsx2csv
     format.delimiter = ',';
     format.decimal = '.';
     format.thousands = 0;
@@ -107,11 +107,11 @@ io::CsvFormat csv_format(const std::string& path, const DataOptions& options) {
 
 namespace {
 
-// Text of more than this is not held beside its numbers: it is read in pieces of this.
+// Larger text is not kept in memory together with its numbers; it is read in pieces of this size.
 constexpr std::uint64_t large_text = std::uint64_t{32} << 20,
                         piece_of_text = std::uint64_t{1} << 20;
 
-// 0: it is read at once.
+// Returns 0 if the file is read in one piece.
 std::uint64_t bytes_of_large(const std::string& path) {
   std::error_code unknown;
   const auto bytes = std::filesystem::file_size(path, unknown);
@@ -123,7 +123,7 @@ io::CsvTable whole_of(io::CsvPieces& pieces, std::uint64_t bytes, FaultList& fau
   for (auto next = pieces.next(faults); !next.empty(); next = pieces.next(faults))
     for (io::CsvTable& piece : next)
       if (table.columns.empty()) {
-        table = std::move(piece); // as the others, but for a tenth
+        table = std::move(piece); // later pieces have the same size to within a tenth
         io::reserve(table, (bytes + bytes / 10) / piece_of_text * table.rows());
       } else {
         io::append(table, std::move(piece));

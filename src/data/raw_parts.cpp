@@ -1,4 +1,4 @@
-// Cuts what was read where an experiment ends.
+// Cuts the rows of a file where an experiment ends.
 #include "data/raw_parts.h"
 
 #include <fstream>
@@ -17,9 +17,9 @@ namespace frictab::data {
 
 namespace {
 
-// Enough rows to be worth a thread, few enough to be held many times over.
+// Enough rows to justify a thread, few enough for many parts in memory.
 constexpr std::size_t rows_of_a_part = 50'000;
-// Pieces of HDF5 files are larger than those of text: a process is started for each.
+// Ratio of HDF5 pieces to text pieces; they are larger because each starts a process.
 constexpr std::uint64_t hdf5_pieces = 8;
 
 class Cutter {
@@ -43,7 +43,7 @@ public:
       io::append(pending_, std::move(more));
   }
 
-  // All experiments but the last, which may go on; at the end of the file that one as well.
+  // All experiments except the last, which may continue; at the end of the file that one as well.
   std::vector<io::CsvTable> whole(bool at_end) {
     std::vector<io::CsvTable> parts;
     const std::size_t end = at_end || runs_.empty() ? pending_.rows() : runs_.back().first;
@@ -52,7 +52,7 @@ public:
       const std::size_t to = r < runs_.size() ? runs_[r].first : pending_.rows();
       if (to > end) break;
       if (to - from < rows_of_a_part && to != end) continue;
-      if (from == 0 && to == pending_.rows()) // no copy of a large experiment
+      if (from == 0 && to == pending_.rows()) // avoids a copy of a large experiment
         parts.push_back(std::move(pending_));
       else
         parts.push_back(io::rows_of(pending_, from, to));
@@ -103,7 +103,7 @@ void read_whole(const std::string& path, const std::string& named, const DataOpt
   take(cutter.whole(true));
 }
 
-// `next`: pieces in the order of the file, none at its end.
+// `next` returns pieces in the order of the file, and none at its end.
 void cut_pieces(const std::function<std::vector<io::CsvTable>()>& next, const DataOptions& options,
                 FaultList& faults, const TakeParts& take) {
   Cutter cutter(options);

@@ -1,4 +1,4 @@
-// Recordings by name, clock, and the course of friction over a running number.
+// Finds recordings by name, by clock, and by the course of friction over a running number.
 #include "data/recordings.h"
 
 #include <algorithm>
@@ -22,10 +22,10 @@ namespace {
 using Tests = std::vector<std::size_t>;
 using TestsByName = std::map<std::string, Tests>; // by the recording's name
 
-// Set by hand; how often they are wrong has not been measured.
+// Set by hand; their error rate has not been measured.
 constexpr double few_steps = 0.05;    // of a test's duration: a gap between intervals
-constexpr double mostly = 0.9;        // of successive tests go on from the one before
-constexpr double same_setting = 0.05; // of its mean: what was not set differently
+constexpr double mostly = 0.9;        // share of tests that continue the one before
+constexpr double same_setting = 0.05; // relative to its mean: a setting that was not changed
 constexpr std::size_t least_to_ask = 6;
 
 // ---- order ----
@@ -48,7 +48,7 @@ template <class T> void reorder(std::vector<T>& of_tests, const Tests& order) {
   of_tests = std::move(sorted);
 }
 
-// One column at a time: a campaign may fill half the memory.
+// Reorders one column at a time, because a campaign may fill half the memory.
 void sort_tests(Dataset& data) {
   Tests order(data.experiments.size());
   std::iota(order.begin(), order.end(), 0);
@@ -92,8 +92,9 @@ public:
     return tests;
   }
 
-  // Median gap between tests that follow each other beyond a row's usual step, in durations of a
-  // test; nothing where they do not, as where each starts at its own zero.
+  // Median gap between consecutive tests beyond the usual time step of a row, in durations of a
+  // test; nullopt if the tests do not follow each other, for example if each starts at its own
+  // zero.
   std::optional<double> gap(const Tests& tests) const {
     if (!time_ || tests.size() < 2) return {};
     std::vector<double> gaps, durations, steps;
@@ -133,8 +134,8 @@ std::optional<Numbered> last_number(const std::string& name) {
                   std::strtod(name.substr(first, last + 1 - first).c_str(), nullptr)};
 }
 
-// Tests in the order of their names, by stem; of which more than 70 % of the steps are 1, where
-// only a running number counts: levels (5, 50, 500) are none.
+// Tests by stem, in the order of their names. `running`: only stems with a running number, in which
+// more than 70 % of the steps are 1; levels (5, 50, 500) are excluded.
 TestsByName numbered(const Dataset& data, const std::vector<char>& taken, bool running) {
   std::map<std::string, std::vector<double>> numbers;
   TestsByName groups;
@@ -163,8 +164,8 @@ double mean_in_test(const Dataset& data, const Column& column, std::size_t test)
          static_cast<double>(end - first);
 }
 
-// Whether a state differs between these tests, or a recorded column that is neither their number
-// nor a reading of its own in each.
+// True if a state differs between these tests, or a recorded column other than their number and
+// readings that differ in each test.
 bool anything_set_differs(const Dataset& data, const Tests& tests) {
   for (const Column& column : data.columns) {
     const Quantity* quantity = find_quantity(column.name);
@@ -183,9 +184,9 @@ bool anything_set_differs(const Dataset& data, const Tests& tests) {
   return false;
 }
 
-// Von Neumann's ratio of the tests' coefficients in this order: 2 where they are independent,
-// towards 0 where they follow a smooth course. Below the value returned 1 % of independent ones
-// are, to normal approximation.
+// Von Neumann's ratio of the tests' coefficients in this order: 2 for independent tests, towards 0
+// for a smooth course. smooth_below() is its 1 % quantile for independent tests, in normal
+// approximation.
 double smoothness(const Dataset& data, const Tests& tests) {
   const Column &tau = *data.find("tau_R_MPa"), &sigma = *data.find("sigma_n_MPa");
   std::vector<double> mu;
@@ -204,7 +205,7 @@ double smooth_below(std::size_t tests) {
   return 2 * (1 - 2.33 / std::sqrt(static_cast<double>(tests)));
 }
 
-// ---- what is one recording ----
+// ---- recordings ----
 
 class RecordingFinder {
 public:
@@ -231,8 +232,7 @@ private:
     if (std::find(why_.begin(), why_.end(), why) == why_.end()) why_.push_back(why);
   }
 
-  // Value or level of a column in each test; none where there is no such column, or it varies
-  // within a test.
+  // Tests by the value or level of a column; nullopt if the column varies within a test.
   std::optional<TestsByName> by_column(const Column& column) const {
     TestsByName groups;
     for (std::size_t e = 0; e < all_.experiments.size(); ++e) {

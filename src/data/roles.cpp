@@ -1,4 +1,4 @@
-// The job's word first, then what the data show, then names.
+// Assigns roles by the job first, then by the data, then by names.
 #include "data/roles.h"
 
 #include <algorithm>
@@ -26,7 +26,8 @@ constexpr std::array<const char*, 11> role_words = {"",        "state",   "respo
                                                     "channel", "outcome", "label",    "order",
                                                     "clock",   "test",    "ignore"};
 
-// A column that a rig holds at few values within a test, for this many rows each, was set.
+// A column with at most most_held values within a test, each for at least rows_held rows, was set
+// by the rig.
 constexpr std::size_t most_held = 12, rows_held = 5;
 
 struct Given {
@@ -34,8 +35,8 @@ struct Given {
   std::string why;
 };
 
-// What columns are called that are no cause, whatever they hold. The first that fits counts;
-// `when`: of columns that are one value per test, of others, or of both.
+// Names of columns that cannot be causes, independent of their contents. The first match counts;
+// `when`: for columns with one value per test, for others, or for both.
 enum class When { any, per_test, within };
 struct NameRule {
   const char* pattern; // in lower case
@@ -60,11 +61,12 @@ constexpr NameRule name_rules[] = {
      When::per_test, Role::outcome},
 };
 
-// Names that speak of a reading of friction.
+// Names of readings of friction.
 constexpr const char* friction_names =
     "(^|[^a-z])(cof|mu|friction|torque|drag|shear|pull|f_?[xtr])([^a-z]|$)|reib|friction|torque";
 
-// In lower case, with _ for what is no letter or digit: "Mass loss [mg]" is mass_loss__mg_.
+// Matches names in lower case, with _ for every character other than letters and digits: "Mass loss
+// [mg]" is mass_loss__mg_.
 bool fits(const char* pattern, const std::string& name) {
   std::string plain = lower_case(name);
   for (char& c : plain)
@@ -80,7 +82,7 @@ Given role_by_name(const std::string& name, bool within) {
   return {};
 }
 
-// A column over all parts, as far as roles ask.
+// Summary of a column over all parts, as needed for roles.
 class Look {
 public:
   Look(std::span<Dataset* const> parts, const std::string& name) {
@@ -95,9 +97,9 @@ public:
   }
 
   std::size_t tests = 0, rows = 0, held = 0;
-  std::size_t filled_tests = 0; // text: that have a word
+  std::size_t filled_tests = 0; // tests with a text
   std::set<std::string> words;
-  std::set<double> values; // first ones of tests, and all while there are few
+  std::set<double> values; // first ones of tests, and all while they are few
   bool is_text = false, within = false;
   bool is_constant() const { return is_text ? words.size() <= 1 : values.size() <= 1; }
 
@@ -154,7 +156,7 @@ public:
   }
 
 private:
-  // By the job or by what a quantity is.
+  // Role given by the job or by the definition of a quantity.
   Given said_before_looking(const std::string& name) const {
     if (const auto said = options_.roles.find(name); said != options_.roles.end())
       return {said->second.role, said_by_job};
@@ -168,8 +170,8 @@ private:
     return by_formula(name);
   }
 
-  // What the job computes the friction from is the friction; what it computes a state from is the
-  // state.
+  // Role of a formula's input: columns from which the job computes friction are responses, those
+  // from which it computes a state are states.
   Given by_formula(const std::string& name) const {
     std::string friction, state;
     for (const std::string& canonical : computed_from(options_, name))

@@ -1,4 +1,4 @@
-// What each recorded column is to friction, before anything looks for causes among them.
+// Role of each recorded column with respect to friction, decided before any search for causes.
 #pragma once
 
 #include <span>
@@ -11,28 +11,27 @@
 
 namespace frictab::data {
 
-// As jobs and files write it: "setting".
+// Name in jobs and files: "setting".
 const char* role_name(Role role);
-// Those that [data.roles] may give, in the order of the enumeration.
+// Names of the roles that [data.roles] may give, in the order of the enumeration.
 std::vector<std::string> role_names();
 
-// Column::why where the job gives the role.
+// Column::why if the job gives the role.
 inline constexpr const char* said_by_job = "the job says so";
 
-// Whether what friction follows may be looked for in a column of this role.
+// True if a column of this role may be searched for causes of friction.
 bool may_be_cause(Role role);
-// The same, and of an order of tests, which a trace looks at in its own way.
+// True also for an order of tests, which a trace examines in its own way.
 bool may_be_searched(Role role);
-// Whether it may follow from friction, and is shown as a lead only.
+// True if the column may be caused by friction, and is shown only as a lead.
 bool may_follow_friction(Role role);
 
-// Whether a column says by its role, or by its name where none was decided, in which order tests
-// were made.
+// True if a column gives the order of tests, by its role, or by its name if no role was decided.
 bool is_order(const Column& column);
 
-// Sets role and why of every column, alike in all parts (training and validation of one campaign),
-// and adds a note to the first where a column belongs to the measured friction.
-// What the job says in options.roles holds; a name there that no column has is a fault.
+// Sets role and why of every column, equally in all parts (training and validation of one
+// campaign), and adds a note to the first part for a column that belongs to the measured friction.
+// Roles in options.roles take precedence; a name there that is not a column is a fault.
 void find_roles(std::span<Dataset* const> parts, const DataOptions& options, FaultList& faults);
 
 } // namespace frictab::data

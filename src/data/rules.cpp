@@ -1,4 +1,4 @@
-// The table.
+// The table of reading rules.
 #include "data/rules.h"
 
 namespace frictab::data {

@@ -1,14 +1,15 @@
-// What reading infers of its own accord from the data of strangers: what a column, a row, a test or
-// a campaign is taken for, what is done then, how the owner overrules it, and how often it was
-// called where there was nothing of the kind. `frictab explain rules` prints this table.
+// Rules by which reading interprets unknown data on its own: the kind of a column, row, test or
+// campaign, the consequence, the key that overrules it, and the false-call rate. `frictab explain
+// rules` prints this table.
 #pragma once
 
 #include <span>
 
 namespace frictab::data {
 
-// Calls in so many chances, all of them synthetic. tests/bench/reading_rates.py (100 campaigns of
-// the twin) and the tests that docs/measurements.md names measured them; of = 0: not measured.
+// False calls among a number of chances, all of them synthetic. Measured by
+// tests/bench/reading_rates.py (100 campaigns of the twin) and by the tests that
+// docs/measurements.md names; of = 0: not measured.
 struct FalseCalls {
   unsigned calls, of;
   const char* chances; // "columns"

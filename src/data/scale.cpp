@@ -1,4 +1,4 @@
-// Typical values of tests against what is usual, and against each other.
+// Compares typical values of tests with usual ranges, and with each other.
 #include "data/scale.h"
 
 #include <algorithm>
@@ -23,8 +23,9 @@ namespace {
 
 // ---- the table ----
 
-// Of the typical values of tests: from rock at plate rates to lead screws and traction machines,
-// from shear cells to cold forging. A unit is doubted outside of these, a value is not.
+// Usual range of a test's typical value: from rock at plate rates to lead screws and traction
+// machines, from shear cells to cold forging. Values outside raise doubt about the unit, not about
+// the value.
 struct Usual {
   const char* quantity;
   double low, high;
@@ -34,16 +35,16 @@ constexpr Usual usual_values[] = {{"sigma_n_MPa", 1e-3, 5000}, {"tau_R_MPa", 1e-
                                   {"T_contact_C", 10, 1300},   {"T_tool_C", 10, 1300},
                                   {"s_mm", 1e-3, 1e8},         {"time_s", 0.05, 1e6}};
 constexpr double usual_mu_low = 0.01, usual_mu_high = 0.8;
-// Of the normal stress over the flow stress: usual, and possible.
+// Ranges of the normal stress over the flow stress: usual, and possible.
 constexpr double usual_low_of_flow = 0.05, usual_high_of_flow = 10;
 constexpr double least_of_flow = 0.01, most_of_flow = 20;
 
-// What nothing reaches but a shot (345 m/s); grinding wheels run at 150 m/s.
+// Speed that only a bullet reaches (345 m/s); grinding wheels run at 150 m/s.
 constexpr double fastest_mm_s = 2e5;
 constexpr double coldest_C = -200, hottest_C = 1500;
 constexpr double kelvin_low = 270, room_in_kelvin = 330, kelvin = 273.15;
-// Of a test: 116 days; shorter than any impact. Short ones, and rows that follow each other as fast
-// as friction is hardly ever recorded, are told.
+// Limits of a test's duration: 116 days; shorter than any impact. Short tests, and rows at a rate
+// at which friction is hardly ever recorded, are reported.
 constexpr double longest_s = 1e7, shortest_s = 1e-6, short_s = 1e-3, fast_row_s = 2e-5;
 constexpr double longest_mm = 1e10;
 
@@ -75,13 +76,14 @@ namespace {
 
 // ---- typical values ----
 
-// How far a clock or a path runs, where a temperature starts, the middle of what else is above 0.
+// Duration of a clock or length of a path, start of a temperature, median of the positive values of
+// any other quantity.
 double typical(const Dataset& data, const std::string& name, std::size_t e) {
   if (!data.has(name)) return no_value;
   const auto all = data.values(name);
   const std::size_t begin = data.first_row[e], end = data.first_row[e + 1];
   if (name.starts_with("T_")) return all[begin];
-  std::vector<double> values; // enough of them
+  std::vector<double> values; // stops at enough values
   for (std::size_t i = begin; i < end; i += 1 + (end - begin) / 100)
     values.push_back(all[i]);
   values.push_back(all[end - 1]);
@@ -95,7 +97,7 @@ double typical(const Dataset& data, const std::string& name, std::size_t e) {
   return upper_median(std::move(above));
 }
 
-// A quantity, or a product of powers of several: "s_mm / v_rel_mm_s / time_s".
+// Value of a quantity, or of a product of powers of several: "s_mm / v_rel_mm_s / time_s".
 template <class Typical> double typical_of(const std::string& what, const Typical& typical) {
   double value = no_value;
   std::size_t at = 0;
@@ -124,7 +126,7 @@ Span span_of(const Dataset& data, const std::string& what) {
   return span;
 }
 
-// Three figures, without an exponent where one can be read without.
+// Three significant digits, without an exponent if it is readable without one.
 std::string shown(double x) {
   const double size = std::abs(x);
   if (size < 1000 || size >= 1e7) return fmt::format("{:.3g}", x);
@@ -138,7 +140,7 @@ std::string shown(const Span& span) {
   return low == high ? low : low + " to " + high;
 }
 
-// ---- units that nobody gave ----
+// ---- missing units ----
 
 const AssumedUnit* assumed(const Dataset& data, const std::string& quantity) {
   for (const AssumedUnit& one : data.assumed)
@@ -146,7 +148,7 @@ const AssumedUnit* assumed(const Dataset& data, const std::string& quantity) {
   return nullptr;
 }
 
-// What is read of a quantity, were it in another unit. (An area divides both alike.)
+// Range of a quantity if it were read in another unit. (An area divides both alike.)
 Span in_unit(const Span& read, const Conversion& how) {
   return {how(read.low), how(read.high)};
 }
@@ -156,7 +158,7 @@ std::string partner(const std::string& quantity) {
   return quantity == "F_R_N" ? "F_N_N" : quantity == "F_N_N" ? "F_R_N" : "sigma_n_MPa";
 }
 
-// What a unit decides, and whether a span of it is usual.
+// The quantity that a unit decides, and whether a range of it is usual.
 class Judged {
 public:
   Judged(const Dataset& data, const std::string& quantity) : what(quantity) {
@@ -189,7 +191,8 @@ private:
   bool divides_ = false;
 };
 
-// Path, speed and time agree, and the path was measured: only all of their units can be others.
+// True if path, speed and time agree and the path was measured: then only all of their units
+// together can differ.
 bool path_agrees(const Dataset& data) {
   const Span ratio = span_of(data, "s_mm / v_rel_mm_s / time_s");
   const bool integrated = std::any_of(data.notes.begin(), data.notes.end(), [](const auto& note) {
@@ -200,7 +203,8 @@ bool path_agrees(const Dataset& data) {
 }
 
 struct Others {
-  std::vector<std::string> units; // that would be usual, and what they give: "kN 500 to 2,050"
+  // Units that would be usual, with the resulting values: "kN 500 to 2,050".
+  std::vector<std::string> units;
   bool usual_as_read = false;
   Judged judged;
 };
@@ -223,15 +227,15 @@ Others others_of(const Dataset& data, const AssumedUnit& unit) {
   return out;
 }
 
-// Whether what this unit decides is asked for elsewhere, cancels, or is told by the coefficient:
-// one that is usual with the other force in the unit that it says.
+// True if the question about this unit is asked elsewhere, cancels, or is answered by a coefficient
+// that is usual with the other force in its stated unit.
 bool is_settled(const Dataset& data, const AssumedUnit& unit, const Others& others) {
   const std::string& quantity = unit.quantity;
   const AssumedUnit* const pressure = assumed(data, "sigma_n_MPa");
   const bool both_forces = assumed(data, "F_R_N") && assumed(data, "F_N_N");
   if (quantity == "F_R_N" || quantity == "F_N_N") return both_forces || others.usual_as_read;
   if (quantity == "tau_R_MPa") return pressure || others.usual_as_read;
-  // A force over an area: beside a friction force whose unit is known, the coefficient tells.
+  // For a force over an area together with a friction force of known unit, the coefficient decides.
   if (quantity == "sigma_n_MPa" && unit.unit == "N")
     return assumed(data, "F_N_N") && data.has("F_R_N") && !both_forces;
   if (!path_agrees(data)) return false;
@@ -250,19 +254,20 @@ std::string question(const AssumedUnit& unit, const Others& others) {
       unit.quantity, unit.column, unit.unit);
 }
 
-// ---- tests beside each other ----
+// ---- comparison of tests ----
 
-// A quantity, or the first over the others: how far it may vary between tests of one unit, how well
-// the odd ones have to come among the others, and from which factor on they are called odd, or are
-// certain to be.
+// A quantity, or the ratio of the first to the others, with its limits: most_span, its largest
+// variation between tests of one unit; margin, the allowed distance of converted tests from the
+// others; least_factor, the smallest factor between units that is reported; may_be_certain, whether
+// a factor can prove an error.
 struct Series {
   std::vector<const char*> of;
   double most_span, margin, least_factor;
   bool may_be_certain;
   std::string what() const { return fmt::format("{}", fmt::join(of, " / ")); }
 };
-constexpr double cannot_be_design = 900; // 1,000 but for rounding
-// Forces first: what is measured is told before the stresses that come from it.
+constexpr double cannot_be_design = 900; // 1,000, except for rounding
+// Forces first: a measured quantity is reported before the stresses computed from it.
 const Series all_series[] = {{{"F_N_N"}, 5, 2, cannot_be_design, true},
                              {{"F_R_N"}, 5, 2, cannot_be_design, true},
                              {{"sigma_n_MPa"}, 5, 2, cannot_be_design, true},
@@ -276,11 +281,12 @@ const Series all_series[] = {{{"F_N_N"}, 5, 2, cannot_be_design, true},
                              {{"v_rel_mm_s"}, 3, 1.3, cannot_be_design, false},
                              {{"s_mm"}, 3, 1.3, cannot_be_design, false},
                              {{"time_s"}, 3, 1.3, cannot_be_design, false}};
-// No design of one rig has levels as far apart as MPa and Pa: then others may span more.
+// No design of one rig has levels as far apart as MPa and Pa: at such a factor the others may span
+// more.
 constexpr double far_factor = 1e5, far_span = 100, far_margin = 10;
 
 struct Odd {
-  std::vector<std::size_t> tests; // of the places
+  std::vector<std::size_t> tests; // indices in `places`
   std::string unit;
   bool certain = false;
   Span own, others;
@@ -318,8 +324,8 @@ public:
     return best;
   }
 
-  // Levels of a design that become those of the others, to less than a percent each, by a factor
-  // that no design takes; far from the others, whose own steps are small.
+  // Finds levels of a design that agree with those of the others to less than a percent each after
+  // a factor that no design uses, far from the others and with small steps among them.
   std::optional<Odd> odd_by_levels(const char* quantity, const std::string& unit) const {
     constexpr double same = 0.007, far = 2.5, by_chance = 0.1;
     sort_by(quantity);
@@ -337,7 +343,7 @@ public:
         const double factor = convert(other, unit)->factor;
         const double decades = std::log10(factor);
         if (std::abs(decades - std::round(decades)) < 1e-6 || (factor < 1) != high) continue;
-        std::set<long> levels; // of the others, as steps of `same`
+        std::set<long> levels; // of the others, in steps of `same`
         for (const auto& [value, place] : others)
           levels.insert(std::lround(std::log(value) / same));
         const bool all = std::all_of(own.begin(), own.end(), [&](const auto& one) {
@@ -359,7 +365,8 @@ public:
 
   std::optional<Odd> in_kelvin(const char* quantity) const {
     sort_by(quantity);
-    std::size_t cut = 0; // the gap to kelvin, and the largest other one, in K
+    // Start of the kelvin values; the gap before them and the largest other gap, in K.
+    std::size_t cut = 0;
     double gap = 0, largest = 0;
     for (std::size_t i = 1; i < sorted_.size(); ++i)
       if (const double here = sorted_[i].first - sorted_[i - 1].first; here > gap) {
@@ -373,7 +380,7 @@ public:
     const Span own{sorted_[cut].first, sorted_.back().first},
         others{sorted_[0].first, sorted_[cut - 1].first};
     constexpr double near = 3, equal = 1, least_gap = 100, larger = 1.5, setting = 300, about = 1.6;
-    double off = 0; // from the nearest of the others
+    double off = 0; // largest distance to the nearest of the others
     for (std::size_t i = cut; i < sorted_.size(); ++i) {
       double nearest = own.high;
       for (std::size_t k = 0; k < cut; ++k)
@@ -384,7 +391,7 @@ public:
     if (off > near || !is_room || gap < least_gap || gap < larger * largest) return std::nullopt;
     Odd odd = side(cut, true, own, others, fmt::format("{} in K", quantity));
     if (!are_whole_files(odd)) return std::nullopt;
-    // A furnace at 300 degC is no room at 26.85.
+    // A furnace at 300 degC must not be read as a room at 26.85 degC (300 K).
     odd.certain = off < equal || own.high < setting - about || own.low > setting + about;
     return odd;
   }
@@ -409,7 +416,7 @@ private:
     return known[place];
   }
 
-  // The first value behind it; 0: fewer than three tests.
+  // Index of the first value after the largest gap; 0: fewer than three tests.
   std::size_t largest_gap() const {
     std::size_t cut = 0;
     for (std::size_t i = 1; sorted_.size() >= 3 && i < sorted_.size(); ++i)
@@ -426,8 +433,8 @@ private:
     return step;
   }
 
-  // Units in which the odd ones would be among the others, the place of the first in its list, and
-  // its factor.
+  // Units in which the odd tests would be among the others, the position of the first unit in its
+  // list, and its factor.
   static std::tuple<std::string, std::size_t, double>
   unit_between(const Series& series, const Span& own, const Span& others) {
     std::string text;
@@ -466,7 +473,8 @@ private:
     return std::binary_search(odd.tests.begin(), odd.tests.end(), place);
   }
 
-  // A file has one unit. Tests of the only file may have come from several.
+  // True if the odd tests are complete files, since a file has one unit. A single file may combine
+  // tests of several sources.
   bool are_whole_files(const Odd& odd) const {
     std::set<std::string> own, others;
     for (std::size_t i = 0; i < places.size(); ++i)
@@ -653,7 +661,7 @@ Implausible mixed_units(std::span<const Dataset* const> parts) {
 
 void ask_for_units(Dataset& data) {
   std::vector<std::string> asked;
-  std::set<std::string> quiet; // a force and its stress may be of one column
+  std::set<std::string> quiet; // a force and its stress may come from one column
   for (const AssumedUnit& unit : data.assumed) {
     const bool is_other = !unit.from_name.empty();
     const Others others = others_of(data, unit);

@@ -1,5 +1,4 @@
-// An experiment cut into shares of equal numbers of rows: of those behind the blocks where they are
-// condensed.
+// Cuts an experiment into shares of equal numbers of rows; for condensed data, of source rows.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +8,11 @@
 
 namespace frictab::data {
 
-// First held row of each of at most `parts` shares, and the end. A block is in one share.
+// First stored row of each of at most `parts` shares, and the end. A block is in one share.
 inline std::vector<std::size_t> equal_shares(const Dataset& data, std::size_t experiment,
                                              std::size_t parts) {
   const std::size_t begin = data.first_row[experiment], end = data.first_row[experiment + 1];
-  std::vector<std::size_t> before{0}; // rows before each held one, and all
+  std::vector<std::size_t> before{0}; // source rows before each stored row, and the total
   for (std::size_t i = begin; i < end; ++i)
     before.push_back(before.back() + static_cast<std::size_t>(data.row_weight(i)));
   std::vector<std::size_t> first;

@@ -1,4 +1,4 @@
-// Test by test; what only a campaign can say is said when it is complete.
+// Handles signs test by test, and decides campaign-wide questions when the campaign is complete.
 #include "data/signs.h"
 
 #include <algorithm>
@@ -22,22 +22,23 @@ namespace {
 
 using Values = std::span<const double>;
 
-// Rows of each direction for an offset of its own, and for one of the test.
+// Smallest number of rows per direction for an offset of a cycle, and of the test.
 constexpr std::size_t cycle_rows = 10, test_rows = 3;
-// A load of the other sign that is still none, of the typical one.
+// Load of the opposite sign that still counts as none, relative to the typical load.
 constexpr double still_unloaded = 0.05;
-// Rows without load that tell a zero.
+// Smallest number of rows without load that determine a zero.
 constexpr std::size_t unloaded_rows = 10;
-// Loads differ enough to tell a zero from friction; one of the two scatters so much less over the
-// tests; an offset that matters, of the friction.
+// other_load: smallest ratio of loads that distinguishes a zero from friction; clearly: ratio of
+// scatters over the tests that decides between the two; matters: smallest relevant offset as a
+// share of the friction.
 constexpr double other_load = 1.2, clearly = 0.5, matters = 0.02;
 
-// "\1v_rel_mm_s": no header holds such a character.
+// "\1v_rel_mm_s": a character that no header contains.
 std::string signed_name(const std::string& canonical) {
   return '\1' + canonical;
 }
 
-double finite_median(std::vector<double> values) { // NaN of none
+double finite_median(std::vector<double> values) { // NaN for no values
   std::erase_if(values, [](double x) { return !std::isfinite(x); });
   return values.empty() ? no_value : median_of(std::move(values));
 }
@@ -47,7 +48,7 @@ struct Middle {
   std::size_t rows = 0;
 };
 
-// The median and its standard error, were the rows Gaussian and independent.
+// The median and its standard error, assuming Gaussian and independent rows.
 Middle middle_with_error(const std::vector<double>& values) {
   Middle out{finite_median(values), 0, values.size()};
   std::vector<double> off;
@@ -72,7 +73,7 @@ Column direction_of(std::vector<double> values) {
   return {direction_column, "", std::move(values), {}, Role::setting, direction_why};
 }
 
-bool is_direction(const Column& column) { // and not a file's own
+bool is_direction(const Column& column) { // our own column, not a file's
   return column.name == direction_column && column.why == direction_why;
 }
 
@@ -84,7 +85,7 @@ public:
   TestFriction(std::span<double> friction, Values load, const TestPhases& test)
       : friction_(friction), load_(load), test_(test) {}
 
-  // What it was is written to `found`.
+  // Replaces friction by its magnitude; `found` receives its sign, zero and value without load.
   void take_magnitude(bool keeps_offset, SignedTest& found) {
     const auto unloaded = rows_where(friction_, 0, friction_.size(), [&](std::size_t i) {
       return test_.rows[i] == Phase::unloaded;
@@ -99,7 +100,7 @@ public:
   }
 
 private:
-  // Of one direction; of both: 0.
+  // Rows of one direction; 0: of both.
   std::vector<double> fitted(std::size_t begin, std::size_t end, int direction) const {
     std::vector<double> out;
     for (const TestPhases::Stroke& stroke : test_.strokes) {
@@ -112,7 +113,7 @@ private:
     return out;
   }
 
-  // Half of what the two directions differ by beyond their sign; none where rows are too few.
+  // Half of the difference between the magnitudes of both directions; nullopt for too few rows.
   std::optional<Middle> offset(std::size_t begin, std::size_t end, std::size_t least) const {
     const Middle forward = middle_with_error(fitted(begin, end, 1)),
                  backward = middle_with_error(fitted(begin, end, -1));
@@ -138,8 +139,8 @@ private:
     return true;
   }
 
-  // Per row. A cycle with too few rows has that of the one before; where none has enough, all have
-  // that of the test.
+  // Offset per row. A cycle with too few rows takes that of the cycle before; if no cycle has
+  // enough, all rows take that of the test.
   std::vector<double> by_cycle(double of_test) const {
     std::vector<double> out(friction_.size(), no_value);
     double last = no_value;
@@ -216,7 +217,7 @@ private:
       std::fill(direction_.begin() + static_cast<long>(part_.data.first_row[e] + stroke.begin),
                 direction_.begin() + static_cast<long>(part_.data.first_row[e] + stroke.end),
                 static_cast<double>(stroke.direction));
-    for (std::size_t f = friction_.size(); f-- > 0;) { // `found` is of the first
+    for (std::size_t f = friction_.size(); f-- > 0;) { // `found` describes the first
       found.zero.reset();
       TestFriction(values(friction_[f], e), values(load_, e), test)
           .take_magnitude(options_.force_zero == ForceZero::keep, found);
@@ -302,7 +303,7 @@ std::vector<const ForceOffset*> offsets_of(const Dataset& data) {
   return out;
 }
 
-// Standard deviation over the size of the mean.
+// Standard deviation over the magnitude of the mean.
 double relative_scatter(const std::vector<double>& values) {
   double mean = 0, squares = 0;
   for (const double x : values)
@@ -312,7 +313,7 @@ double relative_scatter(const std::vector<double>& values) {
   return std::sqrt(squares) / std::abs(mean);
 }
 
-// "1.9 to 2.1 N", and of one "2 N".
+// "1.9 to 2.1 N"; for a single value "2 N".
 std::string sizes_text(std::vector<double> values, const std::string& unit) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const std::string first = fmt::format("{:.3g}", *low), last = fmt::format("{:.3g}", *high);
@@ -432,7 +433,7 @@ void tell_signs(Dataset& data, ForceZero said) {
 
 namespace {
 
-// Tests that go one way each by their speed may still be told apart by the sign of their friction.
+// Tests with one direction each by their speed may still differ in the sign of their friction.
 void take_signs_of_friction(Dataset& data) {
   Column direction = direction_of(std::vector<double>(data.rows(), 1.0));
   std::map<std::string, int> sign;

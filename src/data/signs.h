@@ -1,12 +1,11 @@
-// Forces, speeds and stresses with a sign: what is fitted are magnitudes.
+// Signed forces, speeds and stresses: fits use magnitudes.
 //
-// One sign all along is a convention. Where a test goes both ways and its force changes sign with
-// the direction, the force cell's zero is the mean of the medians of both directions, cycle by
-// cycle (a cycle: a stroke and the one back), which is taken off before the magnitude is. What both
-// directions differ by is no zero but friction where it grows in proportion to the load over the
-// tests of a campaign: then it stays. Which way a row goes stands in the recorded column
-// `direction`
-// (+1, -1), where a campaign has both.
+// A constant sign is a convention. If a test goes both ways and its force changes sign with the
+// direction, the zero of the force cell is the mean of the medians of both directions, cycle by
+// cycle (a cycle: a stroke and the one back); it is subtracted before the magnitude is taken. A
+// difference between the directions that grows in proportion to the load over the tests of a
+// campaign is friction instead of a zero, and is kept. The recorded column `direction` (+1, -1)
+// gives the direction of each row if a campaign has both.
 #pragma once
 
 #include <span>
@@ -23,29 +22,29 @@ inline constexpr const char* direction_column = "direction";
 inline constexpr const char* direction_why =
     "which way the row goes, by the sign of speed or friction";
 
-// Beside a column that the job makes a magnitude of (a slope, a formula with abs) its values with
-// their sign, under a name that no file has.
+// Stores the signed values of a column of which the job takes the magnitude (a slope, a formula
+// with abs), under a name that no file has.
 void keep_signed(Part& part, const std::string& canonical, std::vector<double> values);
 void forget_signed(Part& part);
 
-// Loads that are negative all along in a test: compression is positive.
+// Changes the sign of loads that are negative throughout a test: compression is positive.
 void turn_loads(Part& part);
 
-// Phases of all rows; magnitudes of speed and friction, their `direction`, what was found in
-// data.signs. tau_R_MPa of forces follows them.
+// Returns the phases of all rows. Replaces speed and friction by their magnitudes, adds their
+// `direction`, records findings in data.signs, and recomputes tau_R_MPa from forces.
 std::vector<Phase> take_signs(Part& part, const DataOptions& options);
 
-// What the directions of a campaign's tests differ by.
+// Cause of the difference between the directions of a campaign's tests.
 enum class DirectionsDiffer { nowhere, by_zero, by_friction, cannot_tell };
 DirectionsDiffer directions_differ(const Dataset& data);
 
-// Notes of all this for a whole campaign.
+// Adds notes on signs for a whole campaign.
 void tell_signs(Dataset& data, ForceZero said);
 
-// A column `direction` of our own where only some of these have one: all that slides forward.
+// Adds our own column `direction` where only some of these datasets have one: +1 for all sliding.
 void add_direction(std::span<Dataset* const> all);
 
-// `direction` in all of these or in none: in none where it is the same in all rows.
+// Keeps `direction` in all of these datasets or in none: in none if it is the same in all rows.
 void settle_directions(std::span<Dataset* const> all);
 
 } // namespace frictab::data

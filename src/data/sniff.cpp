@@ -1,4 +1,4 @@
-// By trying: the dialect in which most cells are numbers under names that are none.
+// Guesses the dialect by trial: the one whose header is text and whose cells are mostly numbers.
 #include "data/sniff.h"
 
 #include <algorithm>
@@ -22,16 +22,16 @@ namespace frictab::data {
 
 namespace {
 
-// ---- what columns are called ----
+// ---- column names ----
 
 struct Names {
   const char* canonical;
   bool coefficient;
-  std::vector<std::string> whole; // the name is one of these
-  std::vector<std::string> part;  // or holds one of these
+  std::vector<std::string> whole; // complete names
+  std::vector<std::string> part;  // parts of names
 };
 
-// Lower case, without units, blanks for signs.
+// Known names in lower case, without units, with blanks for other characters.
 const std::vector<Names>& known_names() {
   static const std::vector<Names> all = {
       {"experiment",
@@ -97,9 +97,9 @@ std::string plain(const std::string& name) {
   return out;
 }
 
-// What a history output of Abaqus calls it: contact forces ("CFN2: Normal force ...", CFSM)
-// wherever they stand, and of a node ("V1 PI: PART-1-1 N: 1") velocities and temperatures. The
-// other components of a vector stay columns of their own.
+// Names in the history output of Abaqus: contact forces ("CFN2: Normal force ...", CFSM) anywhere,
+// and velocities and temperatures of a node ("V1 PI: PART-1-1 N: 1"). The other components of a
+// vector stay separate columns.
 std::string of_abaqus(const std::string& name) {
   const std::string word = name.substr(0, name.find(' '));
   const bool component =
@@ -113,7 +113,7 @@ std::string of_abaqus(const std::string& name) {
   return velocity ? "v_rel_mm_s" : "";
 }
 
-// 3: the canonical name; 2: a whole name; 1: part of one; 0: no such column.
+// 3: the canonical name; 2: a complete name; 1: part of one; 0: no such column.
 int likeness(const Names& names, const GuessedColumn& column) {
   if (column.name == names.canonical && !names.coefficient) return 3;
   const Quantity* quantity = find_quantity(names.canonical);
@@ -127,7 +127,7 @@ int likeness(const Names& names, const GuessedColumn& column) {
                      [&](const std::string& part) { return name.find(part) != name.npos; });
 }
 
-// Each name of a quantity goes to the column most like it, the first one of equals.
+// Assigns each quantity to the column with the greatest likeness, the first one of equals.
 void name_columns(std::vector<GuessedColumn>& columns) {
   for (int least = 3; least >= 1; --least)
     for (const Names& names : known_names()) {
@@ -166,7 +166,7 @@ bool is_number_column(const io::CsvColumn& column) {
   return all > empty && 10 * texts <= all - empty;
 }
 
-// Cells that are numbers, less those that are in the way.
+// Score of a dialect: numeric cells minus a penalty for text and faults.
 double worth(const io::CsvTable& table, std::size_t faults, const io::CsvFormat& format) {
   double sum = -10.0 * static_cast<double>(faults);
   std::size_t units = 0, unit_cells = 0;
@@ -183,7 +183,7 @@ double worth(const io::CsvTable& table, std::size_t faults, const io::CsvFormat&
   }
   if (!format.units_row) return sum;
   if (2 * units < std::max<std::size_t>(unit_cells, 1)) return -1;
-  // Units make a header as good as the names above them where every column has one.
+  // A units row that covers every column is preferred to a header that is equally good.
   constexpr double more_than_as_good = 0.5;
   return sum + more_than_as_good;
 }
@@ -217,8 +217,8 @@ public:
   }
 
   io::CsvFormat best;
-  io::CsvTable table;       // by the best
-  bool any_decimal = false; // it has whole numbers alone
+  io::CsvTable table;       // by the best dialect
+  bool any_decimal = false; // only whole numbers, so either decimal sign works
 
 private:
   void attempt(const io::CsvFormat& format) {
@@ -230,7 +230,7 @@ private:
       most_ = value;
       best = format;
       table = std::move(tried);
-    } catch (const InputError&) { // not so
+    } catch (const InputError&) { // not this dialect
     }
   }
 
@@ -277,8 +277,8 @@ std::vector<GuessedColumn> columns_of(const io::CsvTable& table) {
   return columns;
 }
 
-// Whether the header line is found by its names: no skip_rows is needed then, which differ from
-// file to file.
+// True if the names identify the header line: then skip_rows, which differs from file to file, is
+// not needed.
 bool is_found_by_names(std::string_view text, const GuessedFile& guess, const io::CsvTable& table,
                        io::CsvFormat format) {
   format.skip_rows = 0;
@@ -294,7 +294,7 @@ bool is_found_by_names(std::string_view text, const GuessedFile& guess, const io
   }
 }
 
-// Text as the number of its first row.
+// Replaces each text by the number of its first row.
 std::vector<double> levels_of(const io::CsvColumn& raw) {
   std::vector<double> levels = raw.numbers;
   std::map<std::string, double> known;
@@ -314,7 +314,7 @@ bool each_row_is_a_test(const GuessedFile& guess, const io::CsvTable& table) {
   return rows_look_like_tests(settings, table.rows());
 }
 
-// A column that numbers the rows names no test.
+// Rejects a column that numbers the rows as the name of a test.
 void check_experiment(GuessedFile& guess, const io::CsvTable& table) {
   for (GuessedColumn& column : guess.columns) {
     if (column.canonical != "experiment") continue;
@@ -397,7 +397,7 @@ Token token_of(const std::string& text) {
 
 struct CutName {
   std::vector<std::string> tokens;
-  std::string signs; // between them
+  std::string signs; // separators between them
 };
 
 CutName cut(const std::string& file) {
@@ -425,7 +425,7 @@ std::string as_pattern(const std::string& text) {
   return out;
 }
 
-// Numbers by their size, texts by their letters; not more than a line holds.
+// Sorts numbers by size, texts alphabetically; limited to one line.
 std::string list_of(const std::set<std::string>& values) {
   std::vector<std::string> list(values.begin(), values.end());
   const auto number = [](const std::string& text) {
@@ -443,7 +443,7 @@ std::string list_of(const std::set<std::string>& values) {
   return join(list, ", ");
 }
 
-// What stands at one place of all names.
+// The texts at one position of all names.
 class NamePlace {
 public:
   explicit NamePlace(const std::vector<std::string>& texts) : first_(texts.front()) {
@@ -457,7 +457,7 @@ public:
 
   bool differs() const { return values_.size() > 1; }
   bool has_empty() const { return values_.count("") > 0; }
-  // The number of a condition, as 20mm.
+  // True for the number of a condition with its unit, as 20mm.
   bool is_measured() const {
     return numbers_.count("") == 0 && units_.size() == 1 && !units_.begin()->empty();
   }
@@ -466,7 +466,7 @@ public:
   }
   std::string same() const { return as_pattern(first_); }
 
-  // As a named group of `letters`; measured ones are called after their unit as well.
+  // A named group of `letters`; for measured parts the unit is added to the name.
   std::string group(std::string name, const std::string& letters, GuessedNames& guess) const {
     if (is_measured()) name += "_" + *units_.begin();
     guess.parts.push_back({name, list_of(is_measured() ? numbers_ : values_)});
@@ -484,7 +484,7 @@ bool names_test(const GuessedNames& guess) {
                      [](const NamePart& part) { return part.group == "experiment"; });
 }
 
-// One place of the files' own names, the `number`th from 1.
+// Pattern for one position of the files' own names, the `number`th from 1.
 std::string part_of_name(const NamePlace& place, std::size_t number, std::size_t tests,
                          GuessedNames& guess) {
   const char* const letters = "[^_ /-]+";
@@ -495,7 +495,7 @@ std::string part_of_name(const NamePlace& place, std::size_t number, std::size_t
                      guess);
 }
 
-// The pattern of names that are cut alike; empty for others.
+// Pattern of names with the same parts; empty for others.
 std::string guess_parts(const std::vector<CutName>& names, GuessedNames& guess) {
   const CutName& first = names.front();
   if (std::any_of(names.begin(), names.end(),
@@ -512,14 +512,14 @@ std::string guess_parts(const std::vector<CutName>& names, GuessedNames& guess) 
     if (t > 0) pattern += as_pattern(first.signs.substr(t - 1, 1));
     pattern += part_of_name(place, t + 1, names.size(), found);
   }
-  // What tells the tests apart and nothing else: the file's own name does as well.
+  // A pattern that only distinguishes the tests is not needed: the file's own name does the same.
   if (found.parts.empty() || (found.parts.size() == 1 && names_test(found))) return "";
   guess.parts.insert(guess.parts.end(), found.parts.begin(), found.parts.end());
   return pattern;
 }
 
-// The pattern of the folders from the first one that differs, with a / behind each; empty where
-// they say nothing: all alike, at different depths, or one for each file.
+// Pattern of the folders from the first one that differs, each followed by a /; empty if they give
+// no information: all equal, at different depths, or one per file.
 std::string guess_folders(const std::vector<std::string>& files, GuessedNames& guess) {
   std::vector<std::vector<std::string>> folders;
   std::set<std::string> all;

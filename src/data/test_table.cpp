@@ -1,4 +1,4 @@
-// One row per experiment to one value per row.
+// Expands one row per experiment to one value per row.
 #include "data/test_table.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace frictab::data {
 
 namespace {
 
-// Mapped columns that stand in the table are taken from it, all others from the data files.
+// Takes mapped columns that the table has from it, and leaves all others to the data files.
 DataOptions take_over(DataOptions& options, const io::CsvTable& raw) {
   const auto is_here = [&](const std::string& name) {
     return std::any_of(raw.columns.begin(), raw.columns.end(), [&](const io::CsvColumn& column) {
@@ -64,7 +64,7 @@ TestTable read_test_table(DataOptions& options) {
 
 void add_test_columns(Part& part, const TestTable& table) {
   const Dataset& data = part.data;
-  std::vector<std::size_t> row; // of the table, for each experiment
+  std::vector<std::size_t> row; // row of the table for each experiment
   std::vector<std::string> missing, known;
   for (const std::string& name : data.experiments) {
     const auto found = table.row.find(name);

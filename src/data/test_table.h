@@ -18,13 +18,13 @@ struct TestTable {
 };
 
 // Reads data.tests in the dialect of [data]: experiment, quantities (with their units) and other
-// columns. Where [data.columns] maps a quantity to a column that stands here, `options` is left
-// without it: the data files need not have it. Throws InputError for faults and for a test that
-// stands there twice.
+// columns. Quantities that [data.columns] maps to a column of this table are removed from
+// `options`: the data files need not have them. Throws InputError for faults and for a test that
+// occurs twice.
 TestTable read_test_table(DataOptions& options);
 
-// The table's columns, for the rows of each experiment. A fault where an experiment is not in the
-// table, or a column is in both.
+// Adds the table's columns to the rows of each experiment. Adds a fault if an experiment is not in
+// the table, or a column is in both.
 void add_test_columns(Part& part, const TestTable& table);
 
 } // namespace frictab::data

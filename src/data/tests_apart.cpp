@@ -24,13 +24,14 @@ using Eigen::VectorXd;
 
 constexpr double false_rate = 0.05, least_factor = 1.5;
 constexpr Index spare = 5; // tests beyond the terms of the regression
-// Over the next test, in standard errors: of scatter with tails like Student's t of 4 degrees of
-// freedom one campaign in 40 has such a gap (2.5^-4).
+// Smallest ratio to the next test, in standard errors: with scatter like Student's t of 4 degrees
+// of freedom one campaign in 40 has such a gap (2.5^-4).
 constexpr double least_gap = 2.5;
-constexpr double least_sd = 0.02;       // of a term between tests: below, nothing was varied
-constexpr double most_leverage = 0.999; // of a test that alone has its state: nothing to compare
+constexpr double least_sd = 0.02; // of a term between tests; below, it was not varied
+// Leverage of a test with a unique state, which cannot be compared.
+constexpr double most_leverage = 0.999;
 
-// Per test; of rows under load that rub.
+// Median per test, transformed by `term`, over rows under load with friction.
 VectorXd middles_of_tests(const Dataset& data, const char* name, double (*term)(double)) {
   const auto values = data.values(name), tau = data.values("tau_R_MPa"),
              load = data.values("sigma_n_MPa");
@@ -48,7 +49,7 @@ double log_of_size(double x) {
   return std::log(std::abs(x) + 1e-12);
 }
 
-// Of unit spread, those that tests differ in most first.
+// Terms scaled to unit spread, in descending order of their variation between tests.
 std::vector<VectorXd> terms_of_tests(const Dataset& data) {
   std::vector<std::pair<double, VectorXd>> spread;
   const auto add = [&](const char* name, double (*term)(double)) {
@@ -82,7 +83,7 @@ VectorXd coefficients_of_tests(const Dataset& data) {
   return y;
 }
 
-// A regression over tests, in their order: how far each is off the fit of the others.
+// A regression over tests: the distance of each test from the fit of the others.
 class FitOfTests {
 public:
   FitOfTests(VectorXd y, MatrixXd x) : y_(std::move(y)), x_(std::move(x)), fit_(x_) {
@@ -97,7 +98,7 @@ public:
     return 1 - std::min(x_.row(i).dot(spread_ * x_.row(i).transpose()), most_leverage);
   }
   double off(Index i) const { return residual_(i) / rest(i); } // ln of its factor
-  double t(Index i) const {                                    // that, over its standard error
+  double t(Index i) const {                                    // off(i) over its standard error
     const double others = (residual_.squaredNorm() - residual_(i) * off(i)) / free();
     return std::abs(off(i)) / std::sqrt(std::max(others, 1e-16) / rest(i));
   }
@@ -107,7 +108,7 @@ public:
       most = std::max(most, t(i));
     return most;
   }
-  // Of a test that is none of them.
+  // t of a test that is not part of the fit.
   double t(double y, const VectorXd& x) const {
     const double variance = residual_.squaredNorm() / (free() + 1) * (1 + x.dot(spread_ * x));
     return std::abs(y - x.dot(coefficients_)) / std::sqrt(std::max(variance, 1e-16));
@@ -121,7 +122,7 @@ private:
   VectorXd coefficients_, residual_;
 };
 
-// Of these tests the one furthest off the fit of all others, if it is apart; else none.
+// Index of the test furthest from the fit of all others, if it is apart; else nullopt.
 std::optional<Index> worst_of(const FitOfTests& fit, Index tests) {
   std::optional<Index> worst;
   double least_p = false_rate;
@@ -168,7 +169,7 @@ std::vector<TestApart> find_tests_apart(const Dataset& data) {
   for (Index e = 0; e < y.size(); ++e)
     if (std::isfinite(y(e))) left.push_back(e);
   const std::size_t most = std::max<std::size_t>(1, left.size() / 10);
-  // As many as their number bears.
+  // Uses as many terms as the number of tests supports.
   const auto terms_of = [&](Index e, Index tests) {
     VectorXd x = VectorXd::Ones(std::clamp(tests - spare, Index(1), Index(terms.size()) + 1));
     for (Index c = 1; c < x.size(); ++c)
@@ -189,7 +190,8 @@ std::vector<TestApart> find_tests_apart(const Dataset& data) {
     apart.push_back({std::size_t(left[std::size_t(*worst)]), std::exp(fit.off(*worst))});
     left.erase(left.begin() + *worst);
   }
-  // Of long tails the last one is hardly further off than the next.
+  // Drops the last test unless it is clearly further off than the next: with long tails there is
+  // always a furthest test.
   while (!apart.empty()) {
     const Index last = Index(apart.back().test);
     const FitOfTests fit = fit_of(left);

@@ -1,4 +1,4 @@
-// Columns side by side to columns end to end.
+// Converts columns side by side to columns end to end.
 #include "data/wide.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using Groups = std::map<std::string, std::string>;
 
-// The columns of one test, by the name that their values get.
+// The columns of one test, by the name of their values.
 struct Test {
   std::string name;
   Groups groups;
@@ -70,7 +70,7 @@ private:
     std::string name = table_.columns[i].name;
     if (groups.count("experiment"))
       name = groups["experiment"];
-    else if (own != "value") // the same of all columns of a test
+    else if (own != "value") // shared by all columns of a test
       name = fmt::format("{}", fmt::join(values(groups), " "));
     groups.erase("experiment");
     auto test = std::find_if(tests_.begin(), tests_.end(),
@@ -92,7 +92,7 @@ private:
     return out;
   }
 
-  // Up to the last cell that holds anything.
+  // Number of rows up to the last non-empty cell.
   static std::size_t filled_rows(const io::CsvColumn& column) {
     std::size_t rows = column.numbers.size(), text = column.texts.size();
     while (rows > 0 && text > 0 && column.texts[text - 1].row == rows - 1 &&
@@ -103,7 +103,7 @@ private:
     return rows;
   }
 
-  // experiment, groups, values: in one order for all tests.
+  // experiment, groups, values: in the same order for all tests.
   std::vector<std::string> column_names() const {
     std::vector<std::string> out = {"experiment"};
     for (const auto& [name, text] : tests_.front().groups)
@@ -114,7 +114,7 @@ private:
     return out;
   }
 
-  // Of the first column of that name: a units row stands over each.
+  // Unit of the first column of that name, because a units row gives one for each column.
   std::string unit_of(const std::string& name) const {
     for (const Test& test : tests_)
       if (const auto found = test.columns.find(name); found != test.columns.end())

@@ -1,4 +1,4 @@
-// CSV text by experiment in parallel, HDF5 columns through the wrapper.
+// Formats CSV text by experiment in parallel; writes HDF5 columns through the wrapper.
 #include "data/write_dataset.h"
 
 #include <iterator>
