@@ -16,7 +16,7 @@
 namespace frictab::io {
 
 struct CsvFormat {
-  // 0: detected from the header line; ' ' = runs of blanks
+  // Delimiter; 0: detected from the header line; ' ' = runs of blanks
   char delimiter = 0;
   char decimal = '.';
   char thousands = 0;          // between groups of three digits; 0: none
@@ -39,7 +39,7 @@ public:
   struct Text {
     std::size_t row;
     const std::string& text; // cell text in UTF-8; empty for an empty cell
-    // column of its first byte in its line, from 1; 0 = unknown
+    // Column of its first byte in its line, from 1; 0 = unknown.
     std::size_t column = 0;
   };
   struct Iterator {
@@ -101,7 +101,7 @@ struct CsvTable {
   std::vector<std::size_t> line;     // physical line of each row
   std::vector<std::size_t> interval; // number of repeated header lines before each row
   CsvPassedOver passed_over;
-  // skipped lines in words: "the header line comes again 3 times"
+  // Skipped lines in words: "the header line comes again 3 times"
   std::vector<std::string> notes;
   std::size_t rows() const { return line.size(); }
 };

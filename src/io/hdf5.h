@@ -16,9 +16,9 @@ namespace frictab::io {
 
 // Storage of a dataset in the file.
 struct Hdf5Storage {
-  // values per chunk; 0: contiguous, or 65536 with a filter
+  // Values per chunk; 0: contiguous, or 65536 with a filter.
   std::size_t chunk = 0;
-  // deflate level 0..9, applied after a byte shuffle
+  // Deflate level 0..9, applied after a byte shuffle.
   std::size_t compress = 0;
   bool fletcher32 = false; // checksum per chunk, verified by every reader
   bool chunked() const { return chunk > 0 || compress > 0 || fletcher32; }
@@ -100,7 +100,7 @@ public:
   // Datasets of a group (a path from the root), sorted by name; the functions below take them as
   // GROUP/NAME.
   std::vector<std::string> datasets(const std::string& group = "/") const;
-  // groups of the root group, sorted by name
+  // Groups of the root group, sorted by name.
   std::vector<std::string> groups() const;
   // Other contents of a group ("/" = root): groups within a group, links to nothing, attributes of
   // many values.

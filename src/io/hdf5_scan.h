@@ -34,7 +34,7 @@ struct Hdf5Dataset {
 
 struct Hdf5Contents {
   std::map<std::string, Hdf5Dataset> datasets; // by path from the root
-  // "/" and the root's groups, by name
+  // Attributes of "/" and of the root's groups, by name.
   std::map<std::string, Hdf5Attributes> groups;
   std::map<std::string, std::vector<Hdf5Other>> others; // by the same names
   std::string fault, hint;                              // reason why the file cannot be read

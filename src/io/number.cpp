@@ -23,7 +23,7 @@ bool is_exponent(char c) {
 // The digits of a number and its power of ten.
 struct Digits {
   std::uint64_t mantissa = 0;
-  // digits of the mantissa without leading zeros; above 19 it has overflowed
+  // Digits of the mantissa without leading zeros; above 19 it has overflowed.
   int significant = 0;
   int scale = 0; // digits after the decimal sign
   int exponent = 0;
