@@ -1,4 +1,4 @@
-// Settings of tests against the means of their states.
+// Compares settings of tests with the means of their states.
 #include "trace/aliases.h"
 
 #include <algorithm>
@@ -20,12 +20,12 @@ using data::Role;
 
 namespace {
 
-constexpr double tied = 0.9;        // share of a state's variance between tests
-constexpr double held_share = 1e-3; // of its range: a number varies less within tests
-constexpr double same_value = 0.05; // of a level's tests: told as one value
+constexpr double tied = 0.9;        // minimum share of a state's variance between tests
+constexpr double held_share = 1e-3; // of its range: largest variation of a setting within a test
+constexpr double same_value = 0.05; // relative range of a level's tests that counts as one value
 constexpr std::size_t least_to_tell = 4;
 
-// Per test: of a column that tests hold. Empty where they do not.
+// Returns the setting of each test; empty if the column is not constant within tests.
 std::vector<double> setting_of(const Column& column, const Dataset& data) {
   const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
   const double allowed = column.levels.empty() ? held_share * (*high - *low) : 0;
@@ -33,7 +33,7 @@ std::vector<double> setting_of(const Column& column, const Dataset& data) {
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const double first = column.values[data.first_row[e]];
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
-      if (!(std::abs(column.values[i] - first) <= allowed)) return {}; // or it is not recorded
+      if (!(std::abs(column.values[i] - first) <= allowed)) return {}; // or not recorded
     values.push_back(first);
   }
   return values;
@@ -46,11 +46,11 @@ bool may_act(const Column& column, const TraceOptions& options) {
              options.ignore.end();
 }
 
-// A state of the law, as tests differ in it.
+// Test means of a state of the law.
 struct State {
   std::string name;
   std::vector<double> means; // per test
-  std::vector<double> at;    // the same, or their logarithms
+  std::vector<double> at;    // the means or their logarithms
 };
 
 std::vector<State> states_of(const Dataset& data, const models::Model& model) {
@@ -93,7 +93,7 @@ double squares_about(const std::vector<double>& values, double middle) {
   return sum;
 }
 
-using Levels = std::map<double, std::vector<double>>; // level: what its tests have
+using Levels = std::map<double, std::vector<double>>; // per level, the values of its tests
 
 Levels by_level(const std::vector<double>& setting, const std::vector<double>& values) {
   Levels levels;
@@ -102,7 +102,7 @@ Levels by_level(const std::vector<double>& setting, const std::vector<double>& v
   return levels;
 }
 
-// R^2 corrected for `used` means or lines.
+// R^2 corrected for the degrees of freedom of `used` means or lines.
 double corrected(double left, double all, std::size_t tests, std::size_t used) {
   if (!(all > 0) || tests <= used) return 0;
   return 1 - left / all * static_cast<double>(tests - 1) / static_cast<double>(tests - used);
@@ -125,7 +125,7 @@ double explained_by_one_line(const std::vector<double>& setting, const std::vect
   return xx > 0 ? corrected(yy - xy * xy / xx, yy, at.size(), 2) : 0;
 }
 
-// In the number or its logarithm.
+// R^2 of a straight line in the number or in its logarithm.
 double explained_by_line(const std::vector<double>& setting, const std::vector<double>& at) {
   std::vector<double> logarithms;
   for (const double value : setting)
@@ -135,7 +135,8 @@ double explained_by_line(const std::vector<double>& setting, const std::vector<d
   return std::max(plain, explained_by_one_line(logarithms, at));
 }
 
-// As a rig is set: "800" of 801.3, "1530" of 1532.
+// Rounds to two significant digits if that changes less than 1 %, else to three, as rigs are set:
+// "800" for 801.3, "1530" for 1532.
 std::string figure(double value) {
   if (value == 0) return "0";
   const double two = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1);

@@ -1,12 +1,12 @@
-// What the design of the tests ties to a state of the law: whether it acts, or the state, cannot be
-// told, and the law's parameters have taken it.
+// Columns that the design of the tests confounds with a state of the law: the data cannot show
+// which of the two acts, and the law's parameters have absorbed both.
 //
-// A label, or a number that tests hold, is tied to a state where its levels (of a number of many
-// values, a straight line in it or its logarithm) explain more than 90 % of how the state's mean
-// differs between tests (R^2, corrected for the number of levels). The standard error of its effect
-// is then more than three times what it is in a design that crosses the two: (1 - R^2)^-1/2. A
-// column with a level for more than half of the tests names tests. Not asked of states that the law
-// takes for its shear limit alone.
+// A label, or a number that is constant within tests, is confounded with a state if it explains
+// more than 90 % of the variance of the state's test means (R^2, corrected for the number of
+// levels; a number with many values explains by a straight line in it or in its logarithm). The
+// standard error of its effect is then more than three times that in a design that crosses the two:
+// (1 - R^2)^-1/2. Columns with a level for more than half of the tests are skipped as labels,
+// because they name tests. States that the law uses for its shear limit alone are not checked.
 #pragma once
 
 #include "trace/trace.h"

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t least_most = 8; // of an experiment that has so many rows
+constexpr std::size_t least_most = 8; // blocks that an experiment with enough rows always has
 
 std::size_t blocks_each(const data::Dataset& data) {
   const std::size_t tests = std::max<std::size_t>(data.experiments.size(), 1);

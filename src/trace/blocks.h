@@ -1,5 +1,5 @@
-// Rows of each experiment in blocks of neighbours: noise is correlated over many rows, so nothing
-// is lost, and everything costs a tenth.
+// Blocks of neighbouring rows of each experiment. Noise is correlated over many rows, so block
+// means lose no information and cost a tenth.
 #pragma once
 
 #include <span>
@@ -11,35 +11,37 @@
 
 namespace frictab::trace {
 
-// Up to so many experiments nothing is cut, and each has so many blocks at most.
+// Up to so many experiments, each may have the largest number of blocks.
 inline constexpr std::size_t uncut_experiments = 200, most_blocks = 40;
-inline constexpr std::size_t block_budget = uncut_experiments * most_blocks; // of all
+inline constexpr std::size_t block_budget = uncut_experiments * most_blocks; // of all experiments
 
 struct Blocks {
-  std::vector<std::size_t> first;     // per experiment its first block, then the number of blocks
-  std::vector<std::size_t> first_row; // per block its first row, then the number of rows
-  // Per block, where its middle lies in its experiment: -1/2 first row, 1/2 last row.
+  std::vector<std::size_t> first;     // per experiment its first block; last, the number of blocks
+  std::vector<std::size_t> first_row; // per block its first row; last, the number of rows
+  // Middle of each block in its experiment: -1/2 is the first row, 1/2 the last.
   Eigen::VectorXd position;
-  double usual_rows = 1;          // median of a block: what the noise model's white part belongs to
-  std::size_t most = most_blocks; // of an experiment
-  std::vector<double> weights;    // per row how many it stands for; empty: one each
+  double usual_rows = 1;          // median of a block; the noise model's white part refers to it
+  std::size_t most = most_blocks; // largest number per experiment
+  std::vector<double> weights;    // number of source rows that each row represents; empty: 1
 
   std::size_t count() const { return first.back(); }
   std::size_t experiments() const { return first.size() - 1; }
   double rows(std::size_t block) const;
-  // Per block, the mean of its rows.
+  // Returns the mean of the rows of each block.
   Eigen::VectorXd mean(std::span<const double> per_row) const;
-  // Per experiment, the mean of its blocks.
+  // Returns the mean of the blocks of each experiment.
   Eigen::MatrixXd experiment_means(const Eigen::MatrixXd& per_block) const;
 };
 
-// At most `most` blocks per experiment, all of about the same number of rows within it; an
-// experiment with fewer rows has a block for each.
+// Cuts each experiment into at most `most` blocks with about the same number of rows; an experiment
+// with fewer rows has one block per row.
 Blocks make_blocks(const data::Dataset& data, std::size_t most);
 
-// The same with 40, which one long experiment needs. Above 200 experiments the blocks of all share
-// a budget of 40 x 200, and an experiment keeps at least 8: what many experiments have in common
-// shows in the sum over them (docs/tracing.md).
+// The same with at most 40 per experiment, enough for a single long one. Above 200 experiments all
+// share a budget of 40 x 200 blocks, so that the work does not grow with their number, and each may
+// still have 8: 405 experiments have 19 each, 1,000 and more have 8. Structure that many
+// experiments share shows in the sum over them; waves or a run-in shorter than an eighth of the
+// stroke are detected less well.
 Blocks make_blocks(const data::Dataset& data);
 
 } // namespace frictab::trace

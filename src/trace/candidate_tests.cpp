@@ -1,4 +1,4 @@
-// Copies of a test in the middle of the campaign, its settings changed.
+// Copies a test near the middle of the campaign and changes its settings.
 #include "trace/candidate_tests.h"
 
 #include <algorithm>
@@ -17,8 +17,8 @@ using data::Dataset;
 namespace {
 
 constexpr std::size_t most_settings = 5; // 3^5 combinations
-constexpr std::size_t most_rows = 200;   // of a candidate: what is left out changes no decision
-constexpr double varied = 0.02;          // least range of a setting, of its mean
+constexpr std::size_t most_rows = 200;   // of a candidate; more would not change a decision
+constexpr double varied = 0.02;          // least range of a setting, relative to its mean
 
 bool is_state(const std::string& name) {
   return data::find_quantity(name) != nullptr;
@@ -46,14 +46,14 @@ bool is_constant_in_tests(const Dataset& data, const Column& column) {
   return true;
 }
 
-// Rounded to three digits: nobody sets a rig more finely.
+// Adds the value rounded to three digits, because nobody sets a rig more finely.
 void add_value(Setting& setting, double value) {
   const std::string text = fmt::format("{:.3g}", value);
   setting.values.push_back(std::stod(text));
   setting.text.push_back(text);
 }
 
-// What has to be set for a column to change; "" where nothing can be.
+// Settings by which a column can be changed; "" if there are none.
 std::vector<std::string> settings_that_change(const Dataset& data, const std::string& column) {
   if (column == "s_mm" || column == "time_s" || column == "psi" || column == "tau_R_MPa")
     return {"v_rel_mm_s", "sigma_n_MPa"};
@@ -66,12 +66,13 @@ struct Range {
   double width() const { return high - low; }
   Range widened() const {
     const double end = range_widened * width();
-    // What is never negative stays so, and what is positive does not come near 0.
+    // Non-negative quantities stay non-negative, and positive ones stay away from 0.
     return {low > 0 ? std::max(low - end, 0.5 * low) : low == 0 ? 0 : low - end, high + end};
   }
 };
 
-// Values that tests share: of a switch, of grades. No others can be set. Empty: it has many.
+// Values that several tests share, as of a switch or of grades; no others can be set. Empty if
+// there are many.
 std::vector<double> levels_of(std::vector<double> values) {
   constexpr std::size_t most_levels = 5, tests_each = 2;
   std::sort(values.begin(), values.end());
@@ -106,7 +107,7 @@ public:
   }
 
 private:
-  // The next combination, the last setting running fastest.
+  // Advances to the next combination, the last setting varying fastest.
   bool next(std::vector<std::size_t>& at) const {
     for (std::size_t s = at.size(); s-- > 0;) {
       if (++at[s] < built_.settings[s].values.size()) return true;
@@ -115,7 +116,7 @@ private:
     return false;
   }
 
-  // The test nearest to the medians of all numbers, in units of their ranges.
+  // Chooses the test nearest to the medians of all numbers, in units of their ranges.
   void choose_template() {
     std::vector<double> away(data_.experiments.size(), 0);
     for (const Column& column : data_.columns) {
@@ -203,7 +204,7 @@ private:
   std::size_t begin_ = 0, rows_ = 0;
 };
 
-// Whether it is the order of tests, which nobody sets: 1, 2, 3, ...
+// Whether the column is the order of tests (1, 2, 3, ...), which nobody sets.
 bool numbers_tests(const Column& column) {
   return column.name == "test_order" || column.name == "run_order" || column.name == "test_number";
 }

@@ -34,8 +34,10 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Rows = std::span<const double>;
 
-constexpr std::size_t most_in_pairs = 100; // columns of which every pair is a candidate
-constexpr std::size_t most_levels = 12;    // a text column with more names experiments
+// number of columns up to which every pair is a candidate
+constexpr std::size_t most_in_pairs = 100;
+// of a text column; one with more levels identifies experiments
+constexpr std::size_t most_levels = 12;
 
 bool is_constant(Rows values) {
   return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
@@ -59,7 +61,7 @@ bool varies_within(Rows values, const Dataset& data) {
   return false;
 }
 
-// Squared correlation; 0 where one of them does not vary.
+// Squared correlation; 0 if a column does not vary.
 double likeness(const VectorXd& a, const VectorXd& b) {
   const VectorXd x = a.array() - a.mean(), y = b.array() - b.mean();
   const double xy = x.dot(y), size = x.squaredNorm() * y.squaredNorm();
@@ -68,7 +70,8 @@ double likeness(const VectorXd& a, const VectorXd& b) {
 
 constexpr double the_same = 1 - 1e-9, much_alike = 0.98; // likeness
 
-// Multiples of the golden ratio: even, and never periodic. No column has this direction by chance.
+// Multiples of the golden ratio: evenly distributed and never periodic, so no column has this
+// direction by chance.
 VectorXd golden_direction(Index size) {
   VectorXd direction(size);
   double next = 0.5;
@@ -79,17 +82,17 @@ VectorXd golden_direction(Index size) {
   return direction.normalized();
 }
 
-// Where a column stands along that direction: columns that are the same stand together, so that of
-// a thousand others few are compared with it. The sign of a correlation does not count.
+// Position of a column along that direction. Identical columns have neighbouring positions, so each
+// column is compared with few of a thousand others. The sign of a correlation does not matter.
 double standing(const VectorXd& values, const VectorXd& direction) {
   const VectorXd x = values.array() - values.mean();
   const double size = x.norm();
   return size > 0 ? std::abs(direction.dot(x)) / size : 0;
 }
-// Unit vectors of columns that are the same are at most sqrt(1e-9) apart.
+// Maximum distance of such positions: unit vectors of identical columns differ by up to sqrt(1e-9).
 constexpr double together = 4e-5;
 
-// Leaves the values between two of them in that order.
+// Quantiles; partially sorts `all`: every value ends up between the quantiles around it.
 std::vector<double> quantiles_of(std::vector<double>& all) {
   constexpr std::size_t parts = 30;
   std::vector<double> at;
@@ -102,7 +105,7 @@ std::vector<double> quantiles_of(std::vector<double>& all) {
   return at;
 }
 
-// Median over experiments of their own range, relative to that of all.
+// Median of the ranges within experiments, relative to the range over all.
 double usual_reach(Rows values, const Dataset& data) {
   const auto range = [](Rows part) {
     const auto [low, high] = std::minmax_element(part.begin(), part.end());
@@ -176,7 +179,8 @@ private:
     return std::find(options_.ignore.begin(), options_.ignore.end(), name) != options_.ignore.end();
   }
 
-  // Only what was declared, or what says so by its name: files are often sorted by condition.
+  // Accepts only a declared order, or a column whose name gives one, because files are often sorted
+  // by condition.
   void find_order() {
     const Column* order = nullptr;
     int best = 0;
@@ -200,7 +204,8 @@ private:
     found_.order_column = order->name;
   }
 
-  // 0: it is none. A number counts the tests only where no two have the same.
+  // Rank of a column as the order of tests; 0: it gives none. A number qualifies only if no two
+  // tests share a value.
   int order_rank(const Column& column) const {
     if (!options_.order.empty()) return column.name == options_.order ? 1 : 0;
     if (!data::is_order(column) || varies_within(column.values, training_) ||
@@ -211,8 +216,8 @@ private:
     return values_of_tests(column, training_) == training_.experiments.size() ? 2 : 0;
   }
 
-  // Tests of one day, say: in an order that has nothing to do with their names, which often follow
-  // the conditions. (Experiments are sorted by name.)
+  // Orders tests with equal values, such as those of one day, at random instead of by name: names
+  // often follow the conditions. (Experiments are sorted by name.)
   void part_equals(std::vector<double>& order) const {
     std::vector<std::size_t> place(order.size());
     std::iota(place.begin(), place.end(), 0);
@@ -245,7 +250,7 @@ private:
     return true;
   }
 
-  // An error where the job names the column; else it is said that it is not used.
+  // Throws if the job names the column; else notes that the column is not used.
   void not_an_order(const Column& column, const std::string& why, const std::string& hint) {
     const std::string text = fmt::format("{}, the order of tests: {}", column.name, why);
     if (column.name == options_.order) throw InputError(options_.order_place, text, hint);
@@ -291,7 +296,8 @@ private:
     return !has_empty_cells(column, *in_validation->second);
   }
 
-  // What the measured stress comes from is told where it was read; channels and outcomes are leads.
+  // Sources of the measured stress are reported when the file is read; channels and outcomes become
+  // leads.
   bool left_out_by_role(const Column& column) {
     if (column.role == data::Role::response)
       found_.notes.push_back(fmt::format("{} belongs to the measured friction ({}){}", column.name,
@@ -299,8 +305,8 @@ private:
     return false;
   }
 
-  // Nothing is made up for a cell without a value, and rows are not left out for a column that may
-  // have nothing to do with friction.
+  // Skips columns with empty cells: no values are invented, and rows are not dropped for a column
+  // that may be irrelevant to friction.
   bool has_empty_cells(const Column& training, const Column& validation) {
     const std::size_t empty = count_empty(training.values) + count_empty(validation.values);
     if (empty == 0) return false;
@@ -310,7 +316,7 @@ private:
     return true;
   }
 
-  // The tool's wear, which may follow the order of tests.
+  // Whether the column is the declared tool wear, which may follow the order of tests.
   bool declared_wear(const std::string& name) const {
     return !options_.tool_distance.empty() &&
            (name == options_.tool_distance ||
@@ -326,7 +332,7 @@ private:
     column.values = blocks_.mean(values);
     std::vector<double> in_parts(values.begin(), values.end());
     column.tested = quantiles_of(in_parts);
-    column.spread = effects::spread_of(in_parts); // quicker than of values in any order
+    column.spread = effects::spread_of(in_parts); // faster here than on unsorted values
     column.within = varies_within(values, training_);
     column.two_values = has_two_values(values);
     column.reach = usual_reach(values, training_);
@@ -353,7 +359,7 @@ private:
            2 * values_of_tests(*column, training_) > training_.experiments.size();
   }
 
-  // The first column that is the same but for zero and scale; nullptr where there is none.
+  // First column that is identical up to offset and scale; nullptr if there is none.
   const CandidateColumn* twin_of(const VectorXd& values, double at) const {
     std::size_t first = found_.columns.size();
     for (auto near = standings_.lower_bound(at - together);
@@ -379,7 +385,7 @@ private:
     text.name = column.name;
     text.recorded = {column.name};
     text.levels = column.levels;
-    // A block of two levels belongs to the one it begins with.
+    // A block that spans two levels gets the level of its first row.
     text.values.resize(static_cast<Index>(blocks_.count()));
     for (std::size_t b = 0; b < blocks_.count(); ++b)
       text.values(static_cast<Index>(b)) = column.values[blocks_.first_row[b]];
@@ -414,17 +420,17 @@ private:
   const TraceOptions& options_;
   const VectorXd golden_;
   std::unordered_map<std::string_view, const Column*> validation_columns_;
-  std::multimap<double, std::size_t> standings_; // of found columns
+  std::multimap<double, std::size_t> standings_; // positions of the columns found
   Candidates found_;
 };
 
-// Each pair has a dozen shapes, each as long as the data: of a thousand columns they would fill the
-// memory, and nothing could stand out among half a million.
+// Each pair has a dozen shapes, each as long as the data. Pairs of a thousand columns would exhaust
+// memory, and no effect could be significant among half a million.
 bool pairs_every_column(const Candidates& candidates) {
   return candidates.columns.size() <= most_in_pairs;
 }
 
-// Whether a column may act together with others. Of histories only four may: the others nearly
+// Whether a column may act together with others. Among histories only four may: the others nearly
 // follow these, and each further column multiplies the pairs.
 bool may_act_with_others(const CandidateColumn& column) {
   const effects::Spread& s = column.spread;
@@ -453,7 +459,7 @@ Candidates find_candidates(const Dataset& training, const Dataset& validation, c
                                       "to {}; data.bystanders or trace.ignore leave some out){}",
                                       thousands(found.columns.size()), most_in_pairs,
                                       not_searched));
-  if (training.has("sigma_n_MPa")) { // which effects that are added fade with
+  if (training.has("sigma_n_MPa")) { // effects added to tau_R fade with it
     const auto sigma = training.values("sigma_n_MPa");
     found.by_symbol.try_emplace("sigma_n_MPa", blocks.mean(sigma));
     for (const double pressure : sigma)
@@ -462,7 +468,8 @@ Candidates find_candidates(const Dataset& training, const Dataset& validation, c
   }
   for (const std::string& name : inputs) {
     if (found.by_symbol.count(name)) continue;
-    const data::DerivedQuantity* history = data::find_derived(name); // one that nobody searches
+    // a history that is not searched
+    const data::DerivedQuantity* history = data::find_derived(name);
     found.by_symbol[name] = history ? blocks.mean(data::derive(*history, training, predicted))
                                     : blocks.mean(training.values(name));
   }
@@ -481,7 +488,7 @@ Cause joined_cause(const Cause& cause, std::size_t column, const Candidates& can
 
 namespace {
 
-// Columns that run side by side are one quantity: their product is a parabola.
+// Whether two columns are nearly collinear: they are one quantity, and their product is a parabola.
 bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
   return a.levels.empty() && b.levels.empty() && likeness(a.values, b.values) > much_alike;
 }
@@ -536,8 +543,8 @@ Eigen::MatrixXd state_means(const Candidates& candidates, const Blocks& blocks) 
 }
 
 bool one_factor_at_a_time(const Eigen::MatrixXd& states) {
-  constexpr double changed = 0.2; // of a state's range, from its median
-  constexpr double most = 0.05;   // of the tests, that change more than one state
+  constexpr double changed = 0.2; // fraction of a state's range, from its median
+  constexpr double most = 0.05;   // fraction of the tests that change more than one state
   if (states.cols() < 2 || states.rows() < 5) return false;
   Eigen::VectorXi count = Eigen::VectorXi::Zero(states.rows());
   for (Eigen::Index s = 0; s < states.cols(); ++s) {

@@ -1,4 +1,4 @@
-// Short list, penalised smooths under common noise, then closed forms.
+// Shortlist, penalised smooths under one noise model, then closed forms.
 #include "trace/choose_effect.h"
 
 #include <algorithm>
@@ -24,13 +24,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t fitted_rivals = 6; // of which a set is made
-constexpr double told_apart = 3;         // standard errors, by selected tests alone
-constexpr double per_complexity = 3;     // of -2 log likelihood, for a step from what is recorded
-// Of penalised log likelihood: where the data cannot tell sites apart, an effect acts on mu.
+constexpr std::size_t fitted_rivals = 6; // size of the shortlist from which a set is made
+constexpr double told_apart = 3;         // standard errors, on selected tests only
+// cost in -2 log likelihood per step away from recorded columns
+constexpr double per_complexity = 3;
+// Costs of sites in penalised log likelihood: where the data cannot distinguish sites, an effect
+// acts on mu.
 constexpr std::array<double, sites.size()> site_margins = {0.0, 0.5, 1.5, 0.25};
 constexpr std::size_t forms_tried = 8;  // at each site
-constexpr std::size_t forms_on_all = 3; // of those, where they were fitted to selected tests first
+constexpr std::size_t forms_on_all = 3; // of those, if fitted to selected tests first
 
 // One way to explain the residual, linear in its coefficients.
 struct Option {
@@ -43,8 +45,8 @@ struct Option {
 
 using Options = std::vector<Option>;
 
-// Per block and amplitude, what tau_R changes; not whitened. (Made where it is used: of all options
-// together it would fill the memory.)
+// Derivatives of tau_R by the amplitudes, per block, not whitened. (Computed when needed: for all
+// options together they would exhaust memory.)
 MatrixXd basis_of(const Search& search, const PlacedEffect& effect) {
   return search.sensitivities()[site_of(effect)].asDiagonal() *
          amplitude_basis(effect, search.candidates.by_symbol);
@@ -57,7 +59,7 @@ Option option_of(const Cause& cause, PlacedEffect effect) {
   return {cause, std::move(effect), penalty, {}, 0};
 }
 
-// Fits all options under the same noise model, so that they can be compared.
+// Fits all options under the same noise model, so that they are comparable.
 void fit_options(const Search& search, const NoiseModel& noise, Options& options) {
   const Campaign& campaign = search.campaign();
   const Whitener whitener(noise, search.last().predicted, campaign.blocks, campaign.nuisance);
@@ -110,7 +112,7 @@ std::vector<Rival> rivals_of(const Search& search, const Campaign& campaign, con
   return rivals;
 }
 
-// By how many standard errors over tests the first is likelier (Vuong 1989).
+// Difference of log likelihood in standard errors over tests (Vuong 1989).
 double sureness(const Rival& first, const Rival& other) {
   const VectorXd difference = first.log_likelihood - other.log_likelihood;
   const auto n = static_cast<double>(difference.size());
@@ -118,8 +120,9 @@ double sureness(const Rival& first, const Rival& other) {
   return difference.sum() / std::max(scatter * std::sqrt(n / (n - 1)), 1e-300);
 }
 
-// Leaves the first and what the selected tests cannot tell from it: what a few hundred tests tell
-// apart this clearly, all of them tell apart all the more, and no set would hold it.
+// Keeps the first option and those that the selected tests cannot distinguish from it. An option
+// that a few hundred tests separate this clearly, all tests separate even more clearly, so it
+// cannot be in a set.
 void drop_told_apart(const Search& search, const NoiseModel& noise, Options& options) {
   if (options.size() < 2) return;
   const std::vector<Rival> fits = rivals_of(search, selected(search.campaign()), options, noise);
@@ -134,7 +137,7 @@ void drop_told_apart(const Search& search, const NoiseModel& noise, Options& opt
 
 namespace {
 
-// A text column comes first among a cause's columns.
+// Whether the cause has a text column, which comes first.
 bool starts_with_text(const Cause& cause, const Candidates& candidates) {
   return !candidates.columns[cause.columns[0]].levels.empty();
 }
@@ -171,7 +174,8 @@ std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>
   Options options;
   for (const Suspect& suspect : suspects)
     options.push_back(option_of(suspect.cause, suspect.effect));
-  // One noise model for all, fitted with the first in: what it explains is no noise.
+  // Fits one noise model for all options, with the first one's effect included; otherwise that
+  // effect would count as noise.
   std::vector<PlacedEffect> effects = search.last().effects;
   std::vector<Cause> causes = search.last().causes;
   effects.push_back(plain_effect(search, suspects.front().cause));
@@ -181,7 +185,7 @@ std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>
                                .noise;
   fit_options(search, noise, options);
   sort_options(options);
-  Options best; // of each cause
+  Options best; // best option of each cause
   for (Option& option : options)
     if (std::none_of(best.begin(), best.end(),
                      [&](const Option& o) { return o.cause == option.cause; }) &&
@@ -196,8 +200,8 @@ std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>
 
 namespace {
 
-// The residual of the law without the effect `index`, all else as fitted: what any other form of
-// that effect has to explain.
+// Residual of the law without the effect `index`, everything else as fitted: the signal that any
+// other form of that effect has to explain.
 VectorXd to_explain(const Search& search, const Rival& winner, std::size_t index) {
   const PlacedEffect& effect = winner.effects[index];
   const VectorXd& sensitivity = search.sensitivities()[site_of(effect)];
@@ -205,7 +209,8 @@ VectorXd to_explain(const Search& search, const Rival& winner, std::size_t index
   return search.campaign().measured - winner.predicted + sensitivity.cwiseProduct(change);
 }
 
-// A start for each form and site, and how well its best shape of the grid does: larger is better.
+// Start values of a form at a site, and the signal that its best grid shape explains (larger is
+// better).
 struct Start {
   PlacedEffect effect;
   double explained;
@@ -220,7 +225,7 @@ public:
     append_columns(known, search.trained());
     for (std::size_t i = 0; i < winner.effects.size(); ++i) {
       const VectorXd& sensitivity = search.sensitivities()[site_of(winner.effects[i])];
-      // None: with the effects found since, its site no longer changes tau_R anywhere.
+      // Empty if, with the effects found since, its site no longer changes tau_R anywhere.
       if (i != index && sensitivity.size() > 0)
         append_columns(known, sensitivity.asDiagonal() *
                                   amplitude_basis(winner.effects[i], search.candidates.by_symbol));
@@ -271,7 +276,7 @@ private:
       starts.push_back(std::move(start));
   }
 
-  // With the stiffness that the residual asks for.
+  // Adds the smooth with the stiffness that the residual requires.
   void add_smooth(std::size_t site, std::vector<Start>& starts) const {
     Option option = option_of(cause_, smooth_effect(s_, cause_, sites[site]));
     if (!option.effect.form->penalty) return; // a text column has one form
@@ -312,8 +317,8 @@ std::vector<Rival> fit_forms(const Campaign& campaign, const Rival& winner, std:
   return rivals;
 }
 
-// Leaves the starts whose fits to the selected tests promise most on all: the log likelihood grows
-// with the number of tests, what parameters cost does not. They start from those fits.
+// Keeps the starts whose fits to the selected tests promise most on all tests, and continues from
+// those fits. The log likelihood grows with the number of tests, the costs of parameters do not.
 void keep_promising(double share, std::size_t index, std::vector<Start>& starts,
                     const std::vector<Rival>& fits) {
   std::vector<std::size_t> order(starts.size());
@@ -336,7 +341,7 @@ void keep_promising(double share, std::size_t index, std::vector<Start>& starts,
 
 std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::size_t index) {
   if (search.sensitivities()[site_of(winner.effects[index])].size() == 0)
-    return {winner}; // with the others in, its site changes nothing any more
+    return {winner}; // with the other effects in the law, its site no longer has an influence
   std::vector<Start> starts = FormStarts(search, winner, index).run();
   std::map<effects::ActsOn, std::size_t> tried;
   std::erase_if(starts, [&](const Start& start) {

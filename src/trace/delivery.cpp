@@ -1,4 +1,5 @@
-// Nested cross-validation decides how many effects there are; validation may add to them, and veto.
+// Nested cross-validation decides how many effects are delivered; validation tests may add some and
+// veto others.
 #include "trace/delivery.h"
 
 #include <algorithm>
@@ -27,9 +28,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double unlikely_share = 1e-3; // of the mean square that is left: R^2 above 0.999
-constexpr double apart_level = 1e-3;    // p-value at which validation is another world
-constexpr double hardly = 0.2;          // of the training rows' spread of a column
+// of the mean square, remaining after the effects: R^2 above 0.999
+constexpr double unlikely_share = 1e-3;
+constexpr double apart_level = 1e-3; // p-value below which validation tests differ as a whole
+constexpr double hardly = 0.2;       // of a column's spread over the training rows
 
 class Deliverer {
 public:
@@ -41,7 +43,7 @@ public:
     if (d_.findings.empty() && !in_.searched.empty() && s_.order.found) judge_by_folds();
     if (!d_.findings.empty()) {
       judge_by_folds();
-      drop_losses(); // first: one of them would speak against all
+      drop_losses(); // first, because a single one would reject all
       const NestedErrors::Gain gain = d_.nested.gain(weights_);
       const bool pays = gain.error > 0 && (s_.pays || gain.error > gain.error_se);
       t_.nested = {d_.nested.folds,
@@ -88,7 +90,7 @@ private:
     return all;
   }
 
-  // The law with these findings, under the weights chosen.
+  // Takes the law with these findings, under the chosen weights.
   void take(std::vector<std::size_t> findings) {
     d_.findings = std::move(findings);
     d_.baseline = weighted(s_.base);
@@ -101,7 +103,7 @@ private:
     if (weights_ == 1) weigh_alike();
   }
 
-  // Errors on tests left out, of the law that is taken; weights are chosen by them.
+  // Computes errors of the current law on left-out tests and chooses weights by them.
   void judge_by_folds() {
     if (!judge_) judge_.emplace(s_);
     d_.nested = judge_->errors(offered_);
@@ -114,7 +116,7 @@ private:
     return calibrate::metrics(errors.sums, 0, in_.seed).mae_MPa;
   }
 
-  // What a finding that was judged gains on tests left out.
+  // Gain of a finding on left-out tests.
   double nested_gain(std::size_t finding) const {
     const NestedErrors::Weighted& errors = d_.nested.weighted[weights_];
     const auto at = std::find(judged_.begin(), judged_.end(), finding) - judged_.begin();
@@ -128,7 +130,7 @@ private:
     return is_in_product(s_.findings[finding].rival.causes.back().columns, columns);
   }
 
-  // Effects without which left-out tests are predicted better, the worst first.
+  // Removes effects without which left-out tests are predicted better, the worst first.
   void drop_losses() {
     while (d_.findings.size() > 1) {
       std::size_t worst = 0;
@@ -148,7 +150,7 @@ private:
     }
   }
 
-  // All rows alike; effects that nothing is left of then are no longer in the law.
+  // Weighs all rows equally, and removes effects that vanish then.
   void weigh_alike() {
     FittedAlike alike = fit_rows_alike(s_.campaign(), d_.rival);
     d_.rival = std::move(alike.rival);
@@ -166,7 +168,8 @@ private:
                               in_.seed);
   }
 
-  // What a lead would gain; not told where the stress of a history of itself does not settle.
+  // Fills the errors of a lead; leaves them unknown if the stress of a history of itself does not
+  // converge.
   void add_errors(Lead& lead, const Rival& without, const Rival& with) const {
     const auto mae = [&](const Rival& rival) {
       const auto predicted = calibrate::predict(s_.model_of(rival), in_.training);
@@ -195,7 +198,7 @@ private:
     return calibrate::error_sums(in_.validation, calibrate::predict(in_.fit.model, in_.validation));
   }
 
-  // What `with` gains against `without` on the same tests.
+  // Gain of `with` compared with `without` on the same tests.
   Difference gained(const std::vector<calibrate::ErrorSums>& with,
                     const std::vector<calibrate::ErrorSums>& without) const {
     const calibrate::LawErrors laws[] = {{"after", with}, {"before", without}};
@@ -203,16 +206,16 @@ private:
     return compared.pairs.empty() ? Difference{} : compared.pairs.front().mae;
   }
 
-  // Left-out tests leave it open (do not speak against it with 95 % confidence), and validation
-  // tests are predicted better with as much.
+  // Whether left-out tests are inconclusive (not against the effects with 95 % confidence) and
+  // validation tests are predicted better with 95 % confidence.
   bool shown_by_validation() const {
     const NestedErrors::Gain left_out = d_.nested.gain(weights_);
     if (left_out.error < -2 * left_out.error_se) return false;
     return gained(on_validation(d_.rival), on_validation(d_.baseline)).interval.low > 0;
   }
 
-  // Takes out, the worst first, effects without which the validation tests are predicted better;
-  // the last only where that is clear.
+  // Removes effects without which the validation tests are predicted better, the worst first; the
+  // last one only if that is significant.
   void drop_contradicted() {
     d_.gain_MPa.clear();
     if (!by_validation()) {
@@ -246,7 +249,7 @@ private:
     drop_contradicted();
   }
 
-  // On the validation tests, or on left-out ones.
+  // Compares errors on the validation tests or on left-out ones.
   void compare_errors() {
     const bool nested = !by_validation() && d_.nested.folds > 0;
     if (nested)
@@ -271,9 +274,9 @@ private:
     t_.improvement = gained(with, without);
   }
 
-  // Number, from 1, of the first effect of a column that was read and not set, where the effects
-  // leave less than any friction law does of what tests scatter: then it is more likely to be the
-  // friction once more. 0: none.
+  // Returns the number, counted from 1, of the first effect of a column that was read rather than
+  // set, if the effects leave less of the scatter of tests than any friction law does: the column
+  // is then more likely another reading of the friction. 0: none.
   std::size_t too_good() const {
     if (d_.findings.empty()) return 0;
     const double before = t_.before.validation.rmse_MPa, after = t_.after.validation.rmse_MPa;
@@ -289,7 +292,7 @@ private:
                        [&](std::size_t c) { return s_.candidates.columns[c].is_reading; });
   }
 
-  // Why a finding is not delivered.
+  // Reason why a finding is not delivered.
   struct Against {
     std::string why;
     bool contradicted = false; // by the validation tests
@@ -305,13 +308,13 @@ private:
             true, true};
   }
 
-  // Against the law as the calibration stage handed it on: effects must also make up for what the
-  // weights of the trace may have made worse.
+  // Gain compared with the law from the calibration stage: effects must also outweigh what the
+  // weights of the trace may have worsened.
   Difference against_calibrated() const {
     return gained(on_validation(d_.rival), calibrated_on_validation());
   }
 
-  // The same effects with all rows alike.
+  // Retries the same effects with equal weights for all rows.
   void try_plain_weights() {
     weights_ = 1;
     d_.baseline = weighted(s_.base);
@@ -329,7 +332,7 @@ private:
         false, true};
   }
 
-  // Validation tests that hardly vary a column cannot show what it does.
+  // Names columns that the validation tests hardly vary, so that they cannot show their effect.
   std::string not_varied(const std::vector<std::string>& columns) const {
     std::string names;
     for (const std::string& name : columns) {
@@ -340,7 +343,7 @@ private:
     return names.empty() ? "" : "; the validation tests hardly vary " + names;
   }
 
-  // Over rows; of a text column, whether it varies.
+  // Standard deviation over rows; for a text column, whether it varies.
   static double spread_of(const data::Column& column) {
     const auto [least, most] = std::minmax_element(column.values.begin(), column.values.end());
     if (!column.levels.empty()) return *most > *least;
@@ -415,7 +418,7 @@ private:
   const TraceInput& in_;
   Trace& t_;
   Delivery d_;
-  Rival offered_;                   // with the findings, before rows weigh alike
+  Rival offered_;                   // with the findings, before equal weights
   std::vector<std::size_t> judged_; // findings of the law that the folds judged
   std::optional<NestedJudge> judge_;
   std::size_t weights_ = 0;
@@ -450,7 +453,7 @@ ValidationShift shift_of(const TestGains& seen, const TestGains& unseen, double 
   const auto square = [](const VectorXd& x) { return (x.array() - x.mean()).square().sum(); };
   const double own = square(unseen.gain) / (n - 1);
   const double of_law = square(seen.gain) / free;
-  // What the uncertainty of the fitted parameters adds, taken for the same as in training.
+  // Contribution of the uncertainty of the fitted parameters, assumed the same as in training.
   const double open = of_law * std::max(1.0, freedom) / tests;
   const double se = std::sqrt(std::max(own, of_law) / n + open);
   const double shift = unseen.gain.mean() - seen.gain.mean();

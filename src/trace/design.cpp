@@ -1,4 +1,4 @@
-// Information of every candidate test, and the exchange that finds the best few.
+// Information of every candidate test, and the exchange algorithm that finds the best few.
 #include "trace/design.h"
 
 #include <algorithm>
@@ -24,12 +24,14 @@ constexpr std::size_t least_tests = 3, most_tests = 6;
 constexpr std::size_t most_rivals = 4;
 constexpr double wanted = 0.8;     // probability
 constexpr double two_sided = 1.96; // 5 %
-constexpr double tiny = 1e-9;      // of a parameter's information: what nothing tells of is kept
-constexpr double costs_nothing = 0.97;    // of the standardised amplitude, for one setting fewer
-constexpr double hopeless = 60;           // tests that nobody would run for it
-constexpr double least_probability = 0.1; // of a few tests that are worth running
+constexpr double tiny = 1e-9; // of a parameter's information: regularises parameters without any
+// of the standardised amplitude, that a design with one setting fewer must keep
+constexpr double costs_nothing = 0.97;
+constexpr double hopeless = 60;           // number of tests that nobody would run
+constexpr double least_probability = 0.1; // of success, for which a few tests are worth running
 
-// What tau_R changes, per block, with each parameter that all rivals share, and with each rival.
+// Derivatives of tau_R, per block, by each parameter that all rivals share, and by each rival's
+// amplitude.
 class Directions {
 public:
   Directions(const Search& search, const std::vector<const Rival*>& rivals)
@@ -37,7 +39,7 @@ public:
 
   std::size_t shared() const { return rivals_[0]->parameters.size() - last_count(*rivals_[0]); }
 
-  // Information of each test about all of them, in that order.
+  // Returns each test's information about all of them, in that order.
   std::vector<MatrixXd> information(const data::Dataset& data) const {
     const Blocks blocks = make_blocks(data, search_.blocks.most);
     const Rival& first = *rivals_[0];
@@ -113,8 +115,8 @@ public:
     if (settings.empty()) return {};
     Plan plan = best_plan(settings);
     if (rivals_.size() == 1 && probability(plan.before) >= wanted)
-      return {}; // the data would show it already, were it as large as fitted
-    // One setting fewer is an easier design.
+      return {}; // the data would show it already, if it were as large as fitted
+    // Prefers a design with fewer settings if it is nearly as good.
     for (std::size_t s = settings.size(); s-- > 0 && settings.size() > 1;) {
       std::vector<Setting> fewer = settings;
       fewer.erase(fewer.begin() + static_cast<long>(s));
@@ -131,9 +133,9 @@ public:
 private:
   struct Plan {
     CandidateTests candidates;
-    std::vector<std::size_t> tests; // of the candidates
+    std::vector<std::size_t> tests; // indices of candidates
     double amplitude = 0;           // standardised, with those tests
-    double before = 0;              // and without them
+    double before = 0;              // standardised, without them
   };
 
   std::vector<std::string> recorded() const {
@@ -159,12 +161,13 @@ private:
     return plan;
   }
 
-  // Of the campaign, and of each candidate; all parameters in units in which they are comparable.
+  // Adds the information of the campaign and of each candidate, with all parameters scaled to
+  // comparable units.
   void add_information(const CandidateTests& candidates) {
     const std::vector<MatrixXd> tests = directions_.information(search_.input.training);
     known_ = std::accumulate(tests.begin() + 1, tests.end(), tests.front());
     each_ = directions_.information(candidates.data);
-    for (MatrixXd& m : each_) // where the law has no value nothing is learned
+    for (MatrixXd& m : each_) // tests where the law has no value carry no information
       if (!m.allFinite()) m.setZero();
     const auto shared = static_cast<Index>(directions_.shared());
     VectorXd scale = known_.diagonal();
@@ -191,7 +194,7 @@ private:
     return sum;
   }
 
-  // Of the rivals' amplitudes, with what the shared parameters take off it.
+  // Information about the rivals' amplitudes, after elimination of the shared parameters.
   MatrixXd of_rivals(const MatrixXd& all) const {
     const auto shared = static_cast<Index>(directions_.shared());
     const Index count = all.rows() - shared;
@@ -204,11 +207,12 @@ private:
 
   double log_det(const std::vector<std::size_t>& tests) const {
     MatrixXd left = of_rivals(information(tests));
-    left.diagonal().array() += 1; // an amplitude is of the order of 1, whatever the data say
+    left.diagonal().array() += 1; // prior: an amplitude is of the order of 1
     return left.ldlt().vectorD().array().max(1e-300).log().sum();
   }
 
-  // Greedy, then one test at a time against all candidates, until none of them is better.
+  // Chooses tests greedily, then exchanges one at a time for the best candidate until nothing
+  // improves.
   std::vector<std::size_t> exchange(std::size_t tests) const {
     std::vector<std::size_t> design;
     while (design.size() < tests) {
@@ -240,8 +244,8 @@ private:
     return best != before;
   }
 
-  // Amplitude of 1 over its standard error: of the only rival; else beside each of the others, and
-  // each of them beside the first: the least of all.
+  // Amplitude of 1 over its standard error: for a single rival its own; for several the least over
+  // all pairs of the first with another, each adjusted for the other.
   double amplitude(const MatrixXd& all) const {
     const MatrixXd left = of_rivals(all);
     if (left.rows() == 1) return std::sqrt(std::max(left(0, 0), 0.0));
@@ -262,7 +266,7 @@ private:
   Design in_words(const Plan& plan) const {
     Design design;
     if (plan.tests.empty() || !std::isfinite(plan.amplitude)) return design;
-    // Information grows in proportion to the number of tests like these.
+    // Information is proportional to the number of such tests.
     const double each = (plan.amplitude * plan.amplitude - plan.before * plan.before) /
                         static_cast<double>(plan.tests.size());
     const double target = limit() + gsl_cdf_ugaussian_Pinv(wanted);
@@ -289,8 +293,8 @@ private:
   std::vector<const Rival*> rivals_;
   double threshold_;
   Directions directions_;
-  MatrixXd known_;             // information, of the campaign
-  std::vector<MatrixXd> each_; // and of every candidate test
+  MatrixXd known_;             // information of the campaign
+  std::vector<MatrixXd> each_; // information of every candidate test
 };
 
 } // namespace
@@ -304,8 +308,8 @@ Design design_tests(const Search& search, const std::vector<const Rival*>& rival
 
 namespace {
 
-// A cause that takes the finding's columns and one more has the finding as a special case, so that
-// no test can decide for one and against the other.
+// Whether a cause has all columns of another, which is then its special case, so that no test can
+// decide for the smaller and against the larger.
 bool contains(const Cause& larger, const Cause& smaller) {
   return std::all_of(smaller.columns.begin(), smaller.columns.end(), [&](std::size_t column) {
     return std::find(larger.columns.begin(), larger.columns.end(), column) != larger.columns.end();
@@ -341,8 +345,8 @@ Design design_for_lead(const Search& search, const effects::PlacedEffect& effect
 
 namespace {
 
-// Of a setting, the two values that are the furthest apart, and what the gain of a test differs by
-// between them: by a line through all tests, of text by the levels' means.
+// The two values of a setting that are furthest apart, and the difference of a test's gain between
+// them: by a line through all tests or, for text, by the means of levels.
 struct Ends {
   std::size_t low = 0, high = 0; // values of the setting
   double apart = 0;
@@ -354,7 +358,7 @@ Ends ends_by_line(const Setting& setting, const VectorXd& x, const VectorXd& gai
   return {0, setting.values.size() - 1, std::abs(slope) * (x.maxCoeff() - x.minCoeff())};
 }
 
-// A level without a training test (all of its tests are held out) has no mean and is left out.
+// Leaves out levels without a training test (all of theirs are held out), which have no mean.
 Ends ends_by_level(const Setting& setting, const VectorXd& x, const VectorXd& gain) {
   std::vector<std::pair<double, std::size_t>> means; // with the level's index in the setting
   for (std::size_t level = 0; level < setting.values.size(); ++level) {
@@ -368,7 +372,7 @@ Ends ends_by_level(const Setting& setting, const VectorXd& x, const VectorXd& ga
 } // namespace
 
 Design design_in_turn(const Search& search, const Cause& cause, double scatter) {
-  constexpr std::size_t least = 4; // two of each
+  constexpr std::size_t least = 4; // two of each value
   Design design;
   if (cause.is_joint()) return design;
   const CandidateColumn& column = search.candidates.columns[cause.columns[0]];

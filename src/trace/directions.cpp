@@ -1,4 +1,4 @@
-// Sensitivities by differences, splines of what was chosen.
+// Sensitivities by finite differences; splines of fitted effects.
 #include "trace/directions.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Straight lines between seven values of a quantity: what any form of it could be.
+// Piecewise linear functions with seven knots: they span any form of the quantity.
 MatrixXd hat_functions(const VectorXd& x) {
   constexpr int knot_count = 7;
   std::vector<double> sorted(x.data(), x.data() + x.size());

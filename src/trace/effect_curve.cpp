@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 constexpr std::size_t curve_points = 61;
 constexpr std::size_t bins = 5; // partial residuals per experiment
 
-// x of a plot: along the first column.
+// Positions of the curve along the first input.
 std::vector<double> plot_positions(const effects::PlacedEffect& effect) {
   std::vector<double> x;
   const effects::EffectInput& input = effect.inputs[0];
@@ -32,7 +32,7 @@ std::vector<double> plot_positions(const effects::PlacedEffect& effect) {
   return x;
 }
 
-// Along x; the other inputs towards their upper ends.
+// Factor along x; the other inputs are fixed at three quarters of their ranges.
 FactorOnRows factor_along(const effects::PlacedEffect& effect, const std::vector<double>& x) {
   std::vector<std::vector<double>> columns{x};
   for (std::size_t i = 1; i < effect.inputs.size(); ++i)

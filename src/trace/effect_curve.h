@@ -6,7 +6,7 @@
 
 namespace frictab::trace {
 
-// `parameter`: index of the effect's first one among the rival's parameters.
+// Evaluates the curve. `parameter`: index of the effect's first one among the rival's parameters.
 EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
                          const Sensitivities& sensitivities, std::size_t effect,
                          std::size_t parameter, const Eigen::MatrixXd& covariance);

@@ -34,7 +34,7 @@ FactorOnRows factor_on_rows(const effects::PlacedEffect& effect,
 
 VectorXd std_errors(const MatrixXd& slope, const MatrixXd& covariance) {
   VectorXd errors(slope.rows());
-  // (A parameter that does not act in a row may be as little known as it likes.)
+  // (A parameter that does not act in a row may have an unknown error.)
   for (Index i = 0; i < slope.rows(); ++i) {
     double variance = 0;
     for (Index a = 0; a < slope.cols(); ++a)

@@ -1,4 +1,4 @@
-// Two t-tests per column: a lead needs no search.
+// Two t-tests per column; a lead does not need a search.
 #include "trace/followers.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ double p_of_t(double t, double degrees) {
   return std::isfinite(t) ? 2 * gsl_cdf_tdist_Q(std::abs(t), degrees) : 1;
 }
 
-// Per block less the mean of its test.
+// Subtracts the mean of each test.
 VectorXd within_tests(const Blocks& blocks, VectorXd x) {
   for (std::size_t e = 0; e < blocks.experiments(); ++e) {
     const auto first = static_cast<Index>(blocks.first[e]);

@@ -1,5 +1,5 @@
-// Columns that were measured along with friction, or known only after it: what goes with the
-// residual there may follow from it, so it is a lead and never an effect.
+// Columns that were measured along with friction or are known only after it. If they correlate with
+// the residual, they may be its consequence, so each is a lead and never an effect.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,10 @@
 
 namespace frictab::trace {
 
-// Leads of channels and outcomes (data/roles.h) that go with what `rival` leaves, strongest first:
-// within tests by one score per test, between tests by their means, each a t-test; p-values are
-// those of all that was looked at together (Bonferroni), up to trace.alpha.
+// Returns channels and outcomes (data/roles.h) that correlate with the residual of `rival`,
+// strongest first: within tests by one score per test, between tests by test means, each with a
+// t-test. The p-values are corrected for all comparisons (Bonferroni); leads have at most
+// trace.alpha.
 std::vector<Lead> leads_that_may_follow(const Search& search, const Rival& rival);
 
 } // namespace frictab::trace

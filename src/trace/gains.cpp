@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double least_ratio = 1e-3; // of the law's stress: what a logarithm is taken of
+constexpr double least_ratio = 1e-3; // of the law's stress: least argument of the logarithm
 
 double median_of(std::vector<double> x) {
   const auto middle = x.begin() + static_cast<long>(x.size() / 2);
@@ -36,7 +36,7 @@ TestGains test_gains(const data::Dataset& data, std::span<const double> predicte
   const auto measured = data.values("tau_R_MPa");
   const std::size_t tests = data.experiments.size();
   TestGains out{VectorXd(static_cast<Index>(tests)), VectorXd(static_cast<Index>(tests))};
-  std::vector<double> per_row; // variance of a mean times its rows
+  std::vector<double> per_row; // variance of a mean times the number of its rows
   std::vector<std::size_t> unknown;
   for (std::size_t e = 0; e < tests; ++e) {
     const std::size_t rows = data.first_row[e + 1] - data.first_row[e];
@@ -80,7 +80,7 @@ TestGains test_gains(const data::Dataset& data, std::span<const double> predicte
 double scatter_between(const VectorXd& gain, const VectorXd& variance, const MatrixXd& known) {
   const double free = static_cast<double>(gain.size() - orthonormal(known).cols());
   if (free < 1) return 0;
-  const auto excess = [&](double scatter) { // above 0: there is more scatter than that
+  const auto excess = [&](double scatter) { // positive if the scatter is larger than that
     const VectorXd w = (scatter + variance.array() + 1e-18).inverse().sqrt();
     return squares_left(w.cwiseProduct(gain), w.asDiagonal() * known) - free;
   };

@@ -1,4 +1,4 @@
-// A test's gain: how far its friction lies from a law as a whole.
+// Gain of a test: how far its friction as a whole lies from a law.
 #pragma once
 
 #include <span>
@@ -9,16 +9,16 @@
 
 namespace frictab::trace {
 
-// Per test, the mean of ln(measured / law) over its rows, and the variance of that mean, from means
-// of at most ten parts of the test.
+// Mean of ln(measured / law) over the rows of each test, and the variance of that mean, estimated
+// from means of at most ten parts of the test.
 struct TestGains {
   Eigen::VectorXd gain;
   Eigen::VectorXd variance;
 };
 TestGains test_gains(const data::Dataset& data, std::span<const double> predicted);
 
-// Scatter between tests beyond what `variance` says (Paule and Mandel 1982), variance; 0: none.
-// `known`: tests x directions that explain some of it.
+// Variance between tests beyond `variance` (Paule and Mandel 1982); 0: none. `known`: tests x
+// directions that explain part of the scatter.
 double scatter_between(const Eigen::VectorXd& gain, const Eigen::VectorXd& variance,
                        const Eigen::MatrixXd& known);
 

@@ -53,7 +53,7 @@ MatrixXd gram(const Eigen::Ref<const MatrixXd>& columns) {
   double sum[tall * wide];
   for (Index first = 0; first < columns.rows(); first += part_rows) {
     const Index rows = std::min(part_rows, columns.rows() - first);
-    // Beyond the last column stands the last one again, whose products are not used.
+    // Past the end, repeats the last column; those products are not used.
     const auto column = [&](Index c) { return columns.col(std::min(c, count - 1)).data() + first; };
     for (Index i = 0; i < count; i += tall)
       for (Index j = 0; j < std::min(i + tall, count); j += wide) {

@@ -18,14 +18,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double farthest_factor = 5; // between measured friction and the law's
-constexpr double same_site = 0.995;   // correlation of what two sites can change
-constexpr double same_shape = 0.97;   // of shapes of which one is tried
+constexpr double farthest_factor = 5; // largest ratio between measured friction and the law's
+constexpr double same_site = 0.995;   // correlation of the derivatives at two sites
+constexpr double same_shape = 0.97;   // correlation of shapes of which only one is tried
 constexpr int walk_waves = 8;
-// Few terms are tried on more flips, which cost little there and leave less to chance.
+// Few terms are tried on more flips: cheap, and more precise p-values.
 constexpr std::size_t flips_of_terms = 500000, most_flips = 4999;
-constexpr double least_own = 0.02; // of a column's information, beside the parameters of the law
-constexpr double imitated = 0.5;   // of the variance of a history's means of tests, by states
+// share of a column's information that the law's parameters must leave
+constexpr double least_own = 0.02;
+// share of the variance of a history's test means that states explain
+constexpr double imitated = 0.5;
 
 class Campaigner {
 public:
@@ -71,8 +73,8 @@ public:
   }
 
 private:
-  // Change of ln tau_R where a factor at a site changes by 1, per block. The first site is that at
-  // which an effect is looked for; others only where they say something else.
+  // Derivative of ln tau_R by the factor at each site, per block. The first site is that at which
+  // an effect is searched; others are used only where their derivatives differ.
   void find_sites() {
     const Sensitivities& all = s_.sensitivities();
     const std::size_t first = all[on_both].size() > 0 ? on_both : on_mu;
@@ -99,7 +101,7 @@ private:
            differs_between_tests(s_.candidates.columns[cause.columns[0]]);
   }
 
-  // A text needs a level that some tests share and others have not.
+  // A text column needs a level that several tests share.
   bool differs_between_tests(const CandidateColumn& column) const {
     if (!column.between) return false;
     std::map<double, std::size_t> tests; // by value
@@ -145,7 +147,7 @@ private:
     TermBasis basis;
     const effects::PlacedEffect* effect;
   };
-  // What a smooth curve sees badly: a threshold near an end, a step, a narrow hump.
+  // Shapes that a smooth curve represents poorly: a threshold near an end, a step, a narrow hump.
   std::vector<SharpShape> sharp_shapes(const Cause& cause) const {
     std::vector<SharpShape> all;
     for (const GridShape& shape : shapes_[cause.columns[0]]) {
@@ -179,7 +181,8 @@ private:
     parts_.push_back(modes_.of(changes));
   }
 
-  // A history whose means of tests follow from the states: between tests it would stand for these.
+  // Whether the cause contains a history whose test means follow from the states: between tests it
+  // would stand in for them.
   bool is_imitated(const Cause& cause) const {
     return std::any_of(cause.columns.begin(), cause.columns.end(),
                        [&](std::size_t c) { return imitated_[c] != 0; });
@@ -201,7 +204,7 @@ private:
     }
   }
 
-  // Cosines of the order of tests, the k-th of standard deviation 1/k, at each site.
+  // Adds cosines of the order of tests at each site, the k-th with standard deviation 1/k.
   void add_walk() {
     MatrixXd waves = order_functions(s_.candidates.order, walk_waves);
     for (Index k = 0; k < waves.cols(); ++k)
@@ -269,7 +272,7 @@ private:
     return all;
   }
 
-  // Per block, of ln tau_R.
+  // Change of ln tau_R, per block.
   VectorXd change_of(std::size_t term, const VectorXd& coefficients) const {
     const auto site = std::find_if(sites_.begin(), sites_.end(),
                                    [&](const auto& one) { return one.first == site_of_[term]; });
@@ -304,11 +307,11 @@ private:
   const TermMaker maker_;
   const VectorXd floor_;
   std::vector<std::pair<std::size_t, VectorXd>> sites_;
-  std::vector<std::vector<GridShape>> shapes_; // per column: of those that move in tests
+  std::vector<std::vector<GridShape>> shapes_; // per column that varies within tests
   std::vector<char> imitated_;                 // per column
   std::vector<Cause> causes_;                  // per term
   std::vector<std::size_t> site_of_;
-  std::vector<const effects::PlacedEffect*> shape_of_; // of one shape alone; else null
+  std::vector<const effects::PlacedEffect*> shape_of_; // for terms of a single shape; else null
   JointOffer offer_;
   std::vector<JointTerm> terms_;
   std::vector<MatrixXd> parts_;

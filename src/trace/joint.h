@@ -7,22 +7,22 @@
 
 namespace frictab::trace {
 
-// A term that was found, in words of the campaign.
+// A term that was found, as a cause of the campaign.
 struct JointFinding {
   Cause cause;
   double p_value = 1;
-  std::vector<Suspect> suspects; // itself, then what comes near it, best first
+  std::vector<Suspect> suspects; // the cause itself, then near ones, best first
 };
 
 struct JointResult {
-  std::vector<JointFinding> found;   // that are kept
-  std::vector<JointFinding> dropped; // did not pay beside the others
-  std::vector<JointFinding> unsure;  // few tests, which scatter more than others, carry it
-  // What would be found if nothing followed the order of tests; none where nothing seems to.
+  std::vector<JointFinding> found;   // those that are kept
+  std::vector<JointFinding> dropped; // did not improve predictions in addition to the others
+  std::vector<JointFinding> unsure;  // dominated by a few tests that scatter more than others
+  // Findings without a walk over the order of tests in the noise; empty where no walk is needed.
   std::vector<JointFinding> without_walk;
   Leftover leftover;
-  std::vector<CauseFold> folds; // none: nothing was found
-  bool pays = false;            // on tests left out
+  std::vector<CauseFold> folds; // empty: nothing was found
+  bool pays = false;            // improves predictions of left-out tests
 };
 
 JointResult find_jointly(const Search& search);

@@ -1,4 +1,4 @@
-// Folds, removal, and whether it pays.
+// Cross-validation of the terms that were found, and backward elimination.
 #include "trace/joint_choice.h"
 
 #include <algorithm>
@@ -18,12 +18,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t most_folds = 10;
-constexpr double one_setting = 0.25;              // of a standard deviation of each state
+// standard deviations of each state within which tests have one setting
+constexpr double one_setting = 0.25;
 constexpr double pays_its_place = 1;              // standard errors of the score
 constexpr double freedom_of_score = 4;            // of Student's t
 constexpr std::uint64_t fold_stream = 0x666f6c64; // "fold"
 
-// Per test: the error, and the score.
+// Per test, the error and the score.
 using Errors = MatrixXd;
 
 class Chooser {
@@ -97,7 +98,7 @@ private:
     }
   }
 
-  // A set of the terms found, fitted again without each fold.
+  // Errors of some of the terms found, refitted without each fold.
   Errors held(const std::vector<std::size_t>& terms, const std::vector<TermSize>& sizes) const {
     Errors errors(static_cast<Index>(modes_.tests()), 2);
     parallel_for(small_.size(), [&](std::size_t f) {
@@ -108,7 +109,7 @@ private:
   }
 
   void keep_what_pays(JointChoice& choice) const {
-    std::vector<std::size_t> terms(path_.fit.terms.size()); // numbers in found_
+    std::vector<std::size_t> terms(path_.fit.terms.size()); // indices in found_
     std::iota(terms.begin(), terms.end(), 0);
     std::vector<TermSize> sizes = path_.fit.sizes;
     choice.kept = path_.steps;
@@ -120,7 +121,7 @@ private:
       return std::find(terms.begin(), terms.end(), number) - terms.begin();
     };
     for (;;) {
-      std::vector<double> worth(choice.kept.size()); // standard errors of the score
+      std::vector<double> worth(choice.kept.size()); // in standard errors of the score
       std::vector<Errors> without(choice.kept.size());
       for (std::size_t i = 0; i < choice.kept.size(); ++i) {
         std::vector<std::size_t> others = terms;
@@ -158,15 +159,15 @@ private:
     return is_in_product(columns[i], columns);
   }
 
-  const JointData& data_; // not weighted: what is left out is judged as it is
-  const JointData found_; // of the terms that were found alone
+  const JointData& data_; // not weighted, as left-out tests are judged without weights
+  const JointData found_; // only the terms that were found
   const Modes& modes_;
   const JointOffer& o_;
   const JointPath& path_;
   const ByClass variance_;
-  std::vector<std::vector<char>> kept_; // per fold, tests
+  std::vector<std::vector<char>> kept_; // per fold, the tests kept
   std::vector<std::vector<std::size_t>> out_;
-  std::vector<std::unique_ptr<JointModel>> small_; // of found_
+  std::vector<std::unique_ptr<JointModel>> small_; // for found_
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-// Normal equations from products of columns, and likelihood ratios of terms beside them.
+// Normal equations from products of columns, and likelihood ratios of terms added to a fit.
 #include "trace/joint_model.h"
 
 #include <algorithm>
@@ -17,13 +17,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Sizes that a search tries, and a fit of what is in: in ln of friction.
+// Sizes tried by a search and by a fit of the terms that are in, in ln of friction.
 constexpr double coarse_sizes[] = {0, 0.02, 0.1, 0.5};
 constexpr double fine_sizes[] = {0, 0.008, 0.015, 0.03, 0.06, 0.12, 0.25, 0.5, 1};
 constexpr double least_variance = 1e-9;
-constexpr double least_freedom = 3; // a class with less takes the variance of the one before it
-constexpr double least_left = 1e-6; // of a class's squares, that a term may leave
-constexpr double ridge = 1e-8;      // of the law's own directions, which may be one another
+// a class with fewer degrees of freedom takes the variance of the class before it
+constexpr double least_freedom = 3;
+constexpr double least_left = 1e-6; // least share of a class's squares that a term may leave
+constexpr double ridge = 1e-8;      // of the law's own directions, which may be collinear
 
 double sum_of(const ByClass& weight, const ByClass& value) {
   double sum = 0;
@@ -39,7 +40,7 @@ VectorXd spread_of(const JointTerm& term, TermSize size) {
   return spread;
 }
 
-// I + D C D, factored.
+// Cholesky factor of I + D C D, where D holds the spreads and C the normal matrix.
 Eigen::LLT<MatrixXd> information_of(const MatrixXd& normal, const VectorXd& spread) {
   MatrixXd information = spread.asDiagonal() * normal * spread.asDiagonal();
   const double slack = 1e-9 * information.cwiseAbs().maxCoeff();
@@ -161,7 +162,7 @@ std::vector<const JointModel::Cross*> JointModel::crosses_of(const JointFit& fit
   return all;
 }
 
-// Calls take(cross products with all columns, column of these, place among the fit's columns).
+// Calls take(cross products with all columns, column of these, position among the fit's columns).
 template <class Take> void JointModel::for_columns(const JointFit& fit, const Take& take) const {
   const std::vector<const Cross*> crosses = crosses_of(fit);
   std::size_t part = 0;
@@ -196,7 +197,7 @@ JointFit JointModel::solve(const std::vector<std::size_t>& terms,
   fit.terms = terms;
   fit.sizes = sizes;
   fit.variance = variance;
-  std::vector<double> spread; // of the terms' columns
+  std::vector<double> spread; // standard deviations of the terms' columns
   for (Index i = 0; i < data_.law; ++i)
     fit.columns.push_back(i);
   for (std::size_t t = 0; t < terms.size(); ++t) {
@@ -251,7 +252,7 @@ JointFit JointModel::solve(const std::vector<std::size_t>& terms,
 
 ByClass JointModel::estimated_noise(const JointFit& fit) const {
   ByClass variance = fit.variance;
-  double before = 0; // variance of the class in front
+  double before = 0; // variance of the previous class
   for (std::size_t c = 0; c < mode_classes; ++c) {
     const auto rows = static_cast<double>(data_.first[c + 1] - data_.first[c]);
     if (rows == 0) continue;
@@ -290,18 +291,19 @@ JointFit JointModel::tuned(const JointFit& from, const Moments& moments) const {
   return fit(from.terms, sizes, from.variance, moments, 2);
 }
 
-// The columns of a fit, Z.
+// Quantities of a fit with columns Z.
 struct JointModel::Beside {
   const JointFit& fit;
-  ByClass weight, free;                                // degrees of freedom that are left
-  std::vector<std::pair<const Cross*, Index>> columns; // where products with each column stand
-  std::array<MatrixXd, mode_classes> product;          // Z' Z
+  ByClass weight, free; // free: remaining degrees of freedom
+  // per column of Z, its products with all columns
+  std::vector<std::pair<const Cross*, Index>> columns;
+  std::array<MatrixXd, mode_classes> product; // Z' Z
 };
 
-// The columns of a term, X, beside those of a fit.
+// Products of a term's columns X with those of a fit, Z.
 struct JointModel::OfTerm {
   std::array<MatrixXd, mode_classes> cross; // X' Z
-  MatrixXd turned;                          // X' W Z K: what the fit explains of X, as Z' columns
+  MatrixXd turned; // X' W Z K, so that Z K Z' W X is the part of X that the fit explains
 };
 
 ByClass JointModel::counted(const Beside& with, const JointTerm& term) {
@@ -351,7 +353,7 @@ std::array<MatrixXd, mode_classes> JointModel::own_products(const Beside& beside
 
 namespace {
 
-// Of one term beside a fit, and responses, a row each.
+// A term added to a fit, for several responses (residuals r of the fit), one row each.
 struct TermOnResponses {
   const JointTerm& term;
   const ByClass &weight, &free;
@@ -380,7 +382,7 @@ struct TermOnResponses {
   }
 
   struct Likeliest {
-    Eigen::ArrayXd gain; // 0: none gains
+    Eigen::ArrayXd gain; // 0: no size gains
     std::vector<TermSize> size;
 
     void consider(TermSize tried, const std::vector<Index>& rows, const Eigen::ArrayXd& gains) {
@@ -392,14 +394,14 @@ struct TermOnResponses {
     }
   };
 
-  // Of the sizes of a grid, per response: that of the straight part alone, then of the bent part
-  // without it and beside it.
+  // Finds the likeliest size on a grid, per response: first that of the straight part alone, then
+  // that of the bent part without the straight one and with its likeliest size.
   template <std::size_t count> Likeliest likeliest(const double (&grid)[count]) const {
     const Index responses = squares.rows();
     std::vector<Index> all(static_cast<std::size_t>(responses));
     std::iota(all.begin(), all.end(), 0);
     Likeliest best{Eigen::ArrayXd::Zero(responses), std::vector<TermSize>(all.size())};
-    std::vector<std::vector<Index>> by_straight(count); // responses that it is likeliest for
+    std::vector<std::vector<Index>> by_straight(count); // responses for which it is likeliest
     by_straight[0] = all;
     if (term.straight > 0) {
       Eigen::ArrayXXd gain(responses, static_cast<Index>(count) - 1);
@@ -422,8 +424,8 @@ struct TermOnResponses {
     return best;
   }
 
-  // Gain of log likelihood by a size, the noise estimated with the term, per response. Columns
-  // whose spread is 0 take no part.
+  // Gain of log likelihood by a size, with the noise estimated together with the term, per
+  // response. Columns with spread 0 are excluded.
   Eigen::ArrayXd gains(TermSize size) const {
     const Index begin = size.straight > 0 ? 0 : term.straight,
                 count = (size.bent > 0 ? term.count : term.straight) - begin;
@@ -451,7 +453,7 @@ struct TermOnResponses {
 
 } // namespace
 
-// The likeliest of the sizes of a grid.
+// Finds the likeliest size on a grid.
 template <class Grid>
 JointModel::Ratio JointModel::likeliest(const Beside& with, const Left& left,
                                         const Moments& moments, std::size_t term, ByClass weight,
@@ -467,7 +469,7 @@ JointModel::Ratio JointModel::likeliest(const Beside& with, const Left& left,
                     of.cross[c] * with.fit.coefficients - of.turned * left[c])
                        .transpose();
     one.squares(0, column) = with.fit.squares[c];
-    if (!(with.fit.squares[c] > 0)) weight[c] = 0; // nothing is left there
+    if (!(with.fit.squares[c] > 0)) weight[c] = 0; // no residual in that class
   }
   one.add_up();
   const auto best = one.likeliest(grid);
@@ -515,13 +517,13 @@ JointModel::information(const JointFit& fit, const std::vector<std::size_t>& ter
   return all;
 }
 
-constexpr Index at_once = 250; // responses, whose numbers stay near the processor
+constexpr Index at_once = 250; // responses at a time, so that their numbers stay in the cache
 
 MatrixXd JointModel::ratios_of(const JointFit& fit, const MatrixXd& responses,
                                const std::vector<std::size_t>& terms) const {
   const Beside with = beside(fit);
   const MatrixXd z = data_.columns(Eigen::all, fit.columns);
-  std::array<MatrixXd, mode_classes> of_fit; // responses x Z: r' Z
+  std::array<MatrixXd, mode_classes> of_fit; // responses x columns of Z: r' Z
   Eigen::ArrayXXd squares(responses.cols(), static_cast<Index>(mode_classes));
   for (std::size_t c = 0; c < mode_classes; ++c) {
     const Index begin = data_.first[c], rows = data_.first[c + 1] - begin;

@@ -1,17 +1,18 @@
-// One regression for everything that a law may lack.
+// One regression for everything that a law may lack:
 //
 //   y = ln(measured / law) = G theta + sum of terms X_j b_j + noise
 //
-// y, G and X are the modes of tests (modes.h), so that what is constant within tests and what
-// changes within them stand in one regression, each with its own noise: a variance for each class
-// of modes. G is a constant and d ln(law)/d parameters, free: what recalibration could do is no
-// effect. The coefficients b_j of a term (terms.h) are normal with mean 0; the standard deviations
-// of its straight and of its bent columns are its size, in ln of friction, found by likelihood. So
-// a term that says nothing has size 0, and a bent one takes as many degrees of freedom as it needs:
-// a penalised mixed model (Wood 2017, chapters 4 and 6), fitted by restricted likelihood.
+// y, G and X are expressed in the modes of tests (modes.h). Structure between tests and within
+// tests is therefore estimated in one regression, each with its own noise: one variance per class
+// of modes. G holds a constant and d ln(law)/d parameters; its coefficients are unpenalised,
+// because structure that recalibration could remove is not an effect. The coefficients b_j of a
+// term (terms.h) are normal with mean 0. The standard deviations of its straight and of its bent
+// columns are its size, in ln of friction, and are estimated by likelihood. A term without
+// information thus has size 0, and a bent one takes as many degrees of freedom as it needs: a
+// penalised mixed model (Wood 2017, chapters 4 and 6), fitted by restricted likelihood.
 //
-// Whatever is asked of the rows are products of columns, class by class: they are made once, and a
-// fit costs the cube of the coefficients that are in it.
+// All sums over rows are products of columns, class by class. They are computed once, so a fit
+// costs only the cube of its number of coefficients.
 #pragma once
 
 #include <array>
@@ -32,31 +33,32 @@ struct TermSize {
 };
 
 struct JointTerm {
-  Eigen::Index first = 0, straight = 0, count = 0; // columns; the straight ones in front
-  // A ratio counts what it explains within tests alone: between them others imitate it.
+  Eigen::Index first = 0, straight = 0, count = 0; // columns; the straight ones first
+  // The likelihood ratio counts only the explained structure within tests, because other columns
+  // imitate the term between tests.
   bool within = false;
 };
 
-// Rows are modes, the classes one behind the other.
+// Response and columns of the regression. Rows are modes, sorted by class.
 struct JointData {
   Eigen::VectorXd response;
-  Eigen::MatrixXd columns; // of the law, then of the terms
+  Eigen::MatrixXd columns; // the law's, then the terms'
   Eigen::Index law = 0;
   std::vector<JointTerm> terms;
   std::array<Eigen::Index, mode_classes + 1> first{};
   std::vector<std::size_t> test;
 
-  // Rows of the tests that are kept.
+  // Keeps only the rows of some tests.
   JointData part(const std::vector<char>& keep_test) const;
-  // Of some terms alone, numbered as they stand there.
+  // Keeps only some terms, renumbered in that order.
   JointData with_terms(const std::vector<std::size_t>& some) const;
-  // Every row times its own factor.
+  // Multiplies every row by its own factor.
   JointData weighted(const Eigen::VectorXd& factor) const;
 };
 
 using ByClass = std::array<double, mode_classes>;
 
-// All that a response has to say.
+// Sufficient statistics of a response.
 struct Moments {
   Eigen::MatrixXd along; // columns x classes: X' y
   ByClass squares{};     // y' y
@@ -66,11 +68,11 @@ struct JointFit {
   std::vector<std::size_t> terms;
   std::vector<TermSize> sizes;
   ByClass variance{};
-  std::vector<Eigen::Index> columns; // that have a coefficient
+  std::vector<Eigen::Index> columns; // those with a coefficient
   Eigen::VectorXd coefficients;
-  Eigen::MatrixXd inverse;   // of the normal equations
-  ByClass squares{};         // that are left
-  ByClass used{};            // degrees of freedom
+  Eigen::MatrixXd inverse;   // of the matrix of the normal equations
+  ByClass squares{};         // residual sums of squares
+  ByClass used{};            // degrees of freedom spent
   double log_likelihood = 0; // restricted
 
   bool has(std::size_t term) const;
@@ -81,39 +83,41 @@ public:
   explicit JointModel(JointData data);
 
   const JointData& data() const { return data_; }
-  std::vector<Moments> moments(const Eigen::MatrixXd& responses) const; // modes x responses
+  // of responses: modes x responses
+  std::vector<Moments> moments(const Eigen::MatrixXd& responses) const;
   const Moments& of_data() const { return of_data_; }
   Eigen::VectorXd residual(const JointFit& fit) const;
 
-  // Coefficients at these sizes and variances.
+  // Estimates coefficients at given sizes and variances.
   JointFit solve(const std::vector<std::size_t>& terms, const std::vector<TermSize>& sizes,
                  const ByClass& variance, const Moments& moments) const;
-  // The same with the noise estimated, `rounds` times in turn; from the response's own size where
-  // no variance is given (all 0).
+  // The same with the noise estimated, in `rounds` alternations, starting from `variance` or, where
+  // that is 0, from the response's own mean square.
   JointFit fit(const std::vector<std::size_t>& terms, const std::vector<TermSize>& sizes,
                const ByClass& variance, const Moments& moments, int rounds) const;
-  // Each size again given the others, on a fine grid, then the noise.
+  // Re-estimates each size given the others on a fine grid, then the noise.
   JointFit tuned(const JointFit& fit, const Moments& moments) const;
 
-  // The likeliest size of a term beside a fit, and the gain of log likelihood over none, the noise
-  // estimated with it: what a large effect explains is no noise to hide behind.
+  // Likeliest size of a term added to a fit, and the gain of log likelihood compared with size 0.
+  // The noise is estimated with the term: otherwise a large effect would count as noise.
   struct Ratio {
     double value = 0;
     TermSize size;
   };
   std::vector<Ratio> ratios(const JointFit& fit, const Moments& moments,
                             const std::vector<std::size_t>& terms) const;
-  // Of one term on a fine grid, by all that it explains.
+  // The same for one term on a fine grid, always counting structure between tests too.
   Ratio fine_ratio(const JointFit& fit, const Moments& moments, std::size_t term) const;
-  // Responses x terms, gains alone. `responses`: modes x responses, beside the fit.
+  // Gains alone, responses x terms. `responses`: modes x responses, residuals of the fit.
   Eigen::MatrixXd ratios_of(const JointFit& fit, const Eigen::MatrixXd& responses,
                             const std::vector<std::size_t>& terms) const;
 
-  // Of the columns of a term in one class of modes.
+  // Sum of squares of a term's columns in one class of modes.
   double squares(std::size_t term, std::size_t mode_class) const {
     return own_[term][mode_class].trace();
   }
-  // Of a straight coefficient of a term, on average: alone, and beside the fit.
+  // Mean information about a straight coefficient of a term: with no other columns, and with those
+  // of the fit.
   struct Information {
     double alone = 0, beside = 0;
   };
@@ -129,7 +133,8 @@ private:
   std::array<Eigen::MatrixXd, mode_classes> products_of(const JointFit& fit) const; // Z' Z
   ByClass weights(const JointFit& fit) const;
   ByClass estimated_noise(const JointFit& fit) const;
-  // What is needed beside a fit: of it, of a term, and of what it leaves of a response (Z' r).
+  // Intermediate results for adding terms to a fit: those of the fit, of one term, and of the
+  // residual of a response (Z' r).
   struct Beside;
   struct OfTerm;
   using Left = std::array<Eigen::VectorXd, mode_classes>;
@@ -140,7 +145,8 @@ private:
   template <class Grid>
   Ratio likeliest(const Beside& beside, const Left& left, const Moments& moments, std::size_t term,
                   ByClass weight, const Grid& grid) const;
-  // X~' X~ by class, X~ the columns of a term less what those of the fit explain of them.
+  // X~' X~ by class, where X~ is the part of a term's columns X that the fit's columns do not
+  // explain.
   std::array<Eigen::MatrixXd, mode_classes> own_products(const Beside& beside, const OfTerm& of,
                                                          std::size_t term) const;
 

@@ -1,4 +1,4 @@
-// Steps forward, judged by flips.
+// Forward selection of terms, judged by sign flips and permutations.
 #include "trace/joint_search.h"
 
 #include <algorithm>
@@ -22,26 +22,28 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t longest_look = 3, most_terms = 8, leads_shown = 12;
-// Levels of the two rounds, in trace.alpha: what is found also has to predict tests left out, so
-// that false alarms stay rarer than trace.alpha all the same (docs/measurements.md).
+// Levels of the two rounds in units of trace.alpha. Their sum exceeds 1, but findings must also
+// predict left-out tests, which keeps false alarms rarer than trace.alpha (docs/measurements.md).
 constexpr std::array<double, 2> shares_of_alpha = {1, 0.5};
-constexpr double of_look_ahead = 0.5; // of the level of its round
-constexpr Index few_flips = 49;       // of a look-ahead, and no more where its p-value on these
-constexpr double far_from_rare = 0.2; // is above that
-constexpr double rare_enough = 2;     // thresholds, from which on the likelihood alone decides
-constexpr double walk_ratio = 2;      // log likelihood ratio from which a walk is part of the noise
-constexpr double near_share = 0.7;    // of a log likelihood ratio
+constexpr double of_look_ahead = 0.5; // in units of its round's level
+constexpr Index few_flips = 49;       // of a look-ahead, which ends here if its p-value
+constexpr double far_from_rare = 0.2; // exceeds this
+// multiple of the threshold above which the likelihood alone decides
+constexpr double rare_enough = 2;
+constexpr double walk_ratio = 2;   // log likelihood ratio above which a walk is part of the noise
+constexpr double near_share = 0.7; // of a log likelihood ratio
 constexpr std::size_t most_near = 12;
 constexpr std::size_t most_unsure = 6;
 constexpr double tail_freedom = 4; // of Student's t, of the modes of a test in one class
 constexpr int weight_rounds = 3;
-constexpr double free_size = 1;     // of a coefficient that is hardly held: friction doubles
-constexpr double found_with = 0.84; // standard errors above a threshold: 80 %
+constexpr double free_size = 1;     // size for a coefficient with a weak penalty: friction doubles
+constexpr double found_with = 0.84; // standard errors above a threshold, for a probability of 80 %
 constexpr std::uint64_t joint_stream = 0x6a6f696e74; // "joint"
 
-constexpr double same_ratio = 1e-6; // relative, of ratios that differ by rounding
+constexpr double same_ratio = 1e-6; // relative difference of ratios that differ by rounding
 
-// With so many values of mean 1 that a ratio's tail has in theory beside those seen.
+// Weight of the theoretical tail of a likelihood ratio (mean excess 1), as a number of values added
+// to those observed.
 constexpr double theory_counts = 5;
 
 Rarity rarity_of(VectorXd values) {
@@ -50,7 +52,7 @@ Rarity rarity_of(VectorXd values) {
   std::nth_element(values.begin(), values.end() - count, values.end());
   Rarity rarity;
   rarity.from = std::max(values(values.size() - count), 0.0);
-  double above = 0, excess = 0; // of few tests many flips are the same but for rounding
+  double above = 0, excess = 0; // with few tests many flips are equal up to rounding
   for (const double value : values)
     if (value > rarity.from || (value > 0 && value > (1 - same_ratio) * rarity.from)) {
       ++above;
@@ -61,7 +63,8 @@ Rarity rarity_of(VectorXd values) {
   return rarity;
 }
 
-// What is exceeded at this level by values from a Gumbel law with their mean and scatter.
+// Value exceeded with probability `level` under a Gumbel distribution with the mean and scatter of
+// the values.
 double gumbel_quantile(const VectorXd& values, double level) {
   const double mean = values.mean(), sd = std::sqrt((values.array() - mean).square().mean());
   return mean - sd * std::sqrt(6.0) / std::numbers::pi *
@@ -73,7 +76,7 @@ double rank_of(double value, const VectorXd& among) {
          static_cast<double>(among.size() + 1);
 }
 
-// The value that a share `level` of all, the data counted, reach.
+// Value that a share `level` of all values reach, the data counted as one of them.
 double threshold_of(const VectorXd& flipped, double level) {
   std::vector<double> sorted(flipped.begin(), flipped.end());
   std::sort(sorted.begin(), sorted.end(), std::greater<>());
@@ -81,27 +84,27 @@ double threshold_of(const VectorXd& flipped, double level) {
   return sorted[static_cast<std::size_t>(std::max(rank, 0L))];
 }
 
-// From one fit on: what enters next, and after it.
+// Greedy path of terms from a fit on.
 struct Ahead {
   std::vector<std::size_t> terms;
   std::vector<TermSize> sizes;
-  std::vector<double> ratios, gains; // gains: of log likelihood over the start
+  std::vector<double> ratios, gains; // gains: of log likelihood over the start of the path
 };
 
 class Walker {
 public:
-  // Causes that are `out` do not enter.
+  // Causes in `out` may not enter.
   Walker(const JointModel& model, const JointOffer& offer, const std::vector<std::size_t>& out)
       : m_(model), o_(offer), out_(out) {}
 
   JointFit start() const { return with_walk(m_.fit({}, {}, {}, m_.of_data(), 4), m_.of_data()); }
 
-  // Terms in, without the walk.
+  // Number of terms in the fit, without the walk.
   std::size_t count(const JointFit& fit) const {
     return fit.terms.size() - (o_.walk && fit.has(*o_.walk));
   }
 
-  // Terms that may enter in a round; none of a cause that is in.
+  // Terms that may enter in a round; excludes causes that are already in.
   std::vector<std::size_t> open(const JointFit& fit, std::size_t round, bool sharp = true) const {
     std::vector<char> parent = o_.in_law;
     for (const std::size_t t : fit.terms)
@@ -126,7 +129,7 @@ public:
     return footing.of_cause[o_.cause[term]].of(footing.of_term[term].of(ratio));
   }
 
-  // The place of the rarest of ratios; where all are rare, of the greatest.
+  // Index of the rarest ratio; if several exceed the limit of rarity, of the largest one.
   std::size_t rarest(const Footing& footing, const std::vector<std::size_t>& terms,
                      const std::vector<double>& ratios) const {
     std::size_t best = 0;
@@ -140,7 +143,7 @@ public:
     return best;
   }
 
-  // A greedy path of so many terms; of the first one, where it is known.
+  // Follows a greedy path of `depth` terms, the first one given if known.
   Ahead ahead(const JointFit& from, const Moments& moments, const Footing& footing,
               std::size_t round, std::size_t depth, bool sharp,
               std::optional<std::size_t> first = {}) const {
@@ -170,7 +173,7 @@ public:
     return path;
   }
 
-  // With the first terms of a path, sizes and noise found again.
+  // Adds the first terms of a path, and re-estimates sizes and noise.
   JointFit taken(const JointFit& from, const Ahead& path, std::size_t terms) const {
     std::vector<std::size_t> in = from.terms;
     std::vector<TermSize> sizes = from.sizes;
@@ -201,13 +204,14 @@ private:
   const std::vector<std::size_t>& out_;
 };
 
-// t-test of the last column beside the others, under any unequal scatter of the rows (HC3).
+// Two-sided p-value of the last column given the others, with errors robust to unequal variances of
+// the rows (HC3).
 double p_by_hc3(const VectorXd& y, const MatrixXd& columns) {
   const MatrixXd q = orthonormal(columns.leftCols(columns.cols() - 1));
   VectorXd own = columns.rightCols(1);
   own -= q * (q.transpose() * own).eval();
   const auto free = static_cast<double>(y.size() - q.cols() - 1);
-  if (free < 2 || own.norm() < 1e-9) return 0; // no test can say it
+  if (free < 2 || own.norm() < 1e-9) return 0; // no test is possible
   own.normalize();
   const VectorXd left = y - q * (q.transpose() * y);
   const double along = own.dot(left);
@@ -217,11 +221,12 @@ double p_by_hc3(const VectorXd& y, const MatrixXd& columns) {
   return 2 * gsl_cdf_tdist_Q(std::abs(along) / std::sqrt(variance + 1e-300), free);
 }
 
-// Weights of a fit's residuals, not weighted themselves.
+// Weights of the modes from unweighted residuals of a fit.
 VectorXd root_weights(const JointData& data, const VectorXd& residual, const ByClass& variance) {
   VectorXd roots = VectorXd::Ones(residual.size());
   for (std::size_t c = 0; c < mode_classes; ++c) {
-    std::map<std::size_t, std::pair<double, double>> of_test; // squares over variance; modes
+    // sum of squares over variance; number of modes
+    std::map<std::size_t, std::pair<double, double>> of_test;
     for (Index i = data.first[c]; i < data.first[c + 1]; ++i) {
       auto& [squares, count] = of_test[data.test[static_cast<std::size_t>(i)]];
       squares += residual(i) * residual(i) / variance[c];
@@ -266,7 +271,7 @@ private:
     return root_weights(data_, residual, fit.variance);
   }
 
-  // Weights, and the fit under them, after a term has entered.
+  // Recomputes the weights, and the fit under them, after a term has entered.
   void weigh_again() {
     flips_.resize(0, 0);
     by_chance_.clear();
@@ -276,7 +281,8 @@ private:
         model_->fit(path_.fit.terms, path_.fit.sizes, path_.fit.variance, model_->of_data(), 2);
   }
 
-  // Residuals with the signs of whole units flipped, a column per flip.
+  // Residuals with the signs of whole units flipped and, if each test is a unit, the gains
+  // permuted; one column per flip.
   MatrixXd flipped(const JointFit& fit) {
     const JointData& data = model_->data();
     const VectorXd residual = model_->residual(fit);
@@ -290,7 +296,7 @@ private:
         one = random.below(2) == 0 ? -1 : 1;
       for (Index i = 0; i < residual.size(); ++i)
         flips(i, f) = residual(i) * sign[s_.units[data.test[static_cast<std::size_t>(i)]]];
-      if (units < s_.units.size()) continue; // kin resemble each other
+      if (units < s_.units.size()) continue; // tests of a unit resemble each other
       std::vector<Index> drawn(static_cast<std::size_t>(data.first[1]));
       std::iota(drawn.begin(), drawn.end(), 0);
       random.shuffle(std::span(drawn));
@@ -313,7 +319,8 @@ private:
     return flips;
   }
 
-  // Flips beside a fit, and on them the ratios of terms, for as long as it stays the same.
+  // Draws flips for a fit and computes the ratios of terms on them; both are reused until the fit
+  // changes.
   void draw(const JointFit& fit, const std::vector<std::size_t>& terms) {
     if (flips_.size() == 0) flips_ = flipped(fit);
     std::vector<std::size_t> missing;
@@ -366,11 +373,12 @@ private:
     return true;
   }
 
-  // Whether what a term explains of the tests' means is sure alone, however each test scatters.
+  // Whether the part that a term explains of the test means is significant if every test has its
+  // own variance.
   bool holds(const JointFit& fit, std::size_t term) const {
     const JointData& data = model_->data();
     for (std::size_t c = 1; c < mode_classes; ++c)
-      if (model_->squares(term, c) > 0) return true; // not of means alone
+      if (model_->squares(term, c) > 0) return true; // it also explains other modes
     const Index tests = data.first[1];
     MatrixXd columns = data.columns.topLeftCorner(tests, data.law);
     std::vector<std::size_t> terms = fit.terms; // this one last
@@ -388,7 +396,7 @@ private:
     return p_by_hc3(data.response.head(tests), columns) < s_.alpha;
   }
 
-  // Also the largest of each flip.
+  // Also returns the largest rarity of each flip.
   Footing footing_of(const std::vector<std::size_t>& terms, VectorXd& largest) const {
     const std::size_t causes = *std::max_element(o_.cause.begin(), o_.cause.end()) + 1;
     Footing footing{std::vector<Rarity>(o_.cause.size()), std::vector<Rarity>(causes)};
@@ -422,7 +430,7 @@ private:
     Looked looked{walker.ahead(fit, model_->of_data(), footing, 0, depth, false), 0, 1};
     const Index most = std::min(flips_.cols(), static_cast<Index>(s_.look_ahead));
     MatrixXd gains(0, static_cast<Index>(depth));
-    for (const Index count : {std::min(few_flips, most), most}) { // few tell what is far from rare
+    for (const Index count : {std::min(few_flips, most), most}) { // few flips suffice to reject
       const Index known = gains.rows();
       gains.conservativeResize(count, Eigen::NoChange);
       look_at(fit, footing, known, gains);
@@ -434,7 +442,7 @@ private:
     return looked;
   }
 
-  // What paths gain on flips, from this one on.
+  // Computes the gains of paths on the flips from number `from` on.
   void look_at(const JointFit& fit, const Footing& footing, Index from, MatrixXd& gains) const {
     const Walker walker = this->walker();
     const std::vector<std::size_t> terms = walker.open(fit, 0, false);
@@ -447,7 +455,7 @@ private:
         ratios.push_back(by_chance_.at(term)(at));
       const Ahead path = walker.ahead(fit, moments[f], footing, 0, gains.cols(), false,
                                       terms[walker.rarest(footing, terms, ratios)]);
-      for (Index k = 0; k < gains.cols(); ++k) // a path that ends gains no more
+      for (Index k = 0; k < gains.cols(); ++k) // a path that ends gains nothing more
         gains(at, k) =
             path.gains.empty()
                 ? 0
@@ -456,7 +464,7 @@ private:
   }
 
   static void judge(const MatrixXd& gains, double level, Looked& looked) {
-    std::vector<Rarity> rarity; // of the gains of so many terms
+    std::vector<Rarity> rarity; // one per length of a path
     VectorXd largest = VectorXd::Zero(gains.rows());
     for (Index k = 0; k < gains.cols(); ++k) {
       rarity.push_back(rarity_of(gains.col(k)));
@@ -474,7 +482,7 @@ private:
     looked.p_value = rank_of(strongest, largest);
   }
 
-  // Terms that come near one that is in, all others being in as well.
+  // Terms that come near one that is in, with all others in the fit.
   std::vector<std::size_t> rivals_of(std::size_t term) const {
     const JointModel& m = *model_;
     std::vector<std::size_t> in = path_.fit.terms;
@@ -497,8 +505,8 @@ private:
     return names;
   }
 
-  // Standard errors z that one coefficient needs to pass: of f degrees of freedom, the log
-  // likelihood ratio of one column of its likeliest size is about
+  // Standard errors z that one coefficient needs to pass. With f degrees of freedom, the log
+  // likelihood ratio of one column at its likeliest size is about
   //   (f ln(1 + z^2/f) - 1)/2 - ln z.
   double threshold_of_term(const JointFit& fit, const Footing& footing, std::size_t term,
                            double rarity) const {
@@ -511,7 +519,7 @@ private:
     return z;
   }
 
-  // Degrees of freedom of the noise in the classes in which a term moves.
+  // Degrees of freedom of the noise in the classes in which a term varies.
   double freedom_of(const JointFit& fit, std::size_t term) const {
     double free = 0;
     for (std::size_t c = 0; c < mode_classes; ++c)
@@ -532,9 +540,9 @@ private:
     }
     path_.left.p_value = std::min(path_.left.p_value, p);
     const auto ratios = m.ratios(fit, m.of_data(), terms);
-    std::map<std::size_t, std::size_t> best; // by cause: place of its rarest term
+    std::map<std::size_t, std::size_t> best; // per cause, the index of its rarest term
     std::vector<double> own(terms.size());
-    // By likelihood where so few tests tell nothing of what is rare.
+    // By likelihood if there are too few tests to estimate rarity.
     const auto before = [&](std::size_t a, std::size_t b) {
       return s_.take ? own[a] > own[b] : ratios[a].value > ratios[b].value;
     };
@@ -570,7 +578,7 @@ private:
     std::vector<std::size_t> terms = from.terms;
     std::vector<TermSize> sizes = from.sizes;
     terms.push_back(term);
-    sizes.push_back({free_size, size.bent}); // few tests would shrink it
+    sizes.push_back({free_size, size.bent}); // with few tests an estimated size would shrink it
     const JointFit fit = model_->fit(terms, sizes, from.variance, model_->of_data(), 1);
     const JointTerm& own = model_->data().terms[term];
     VectorXd all = VectorXd::Zero(own.count);
@@ -589,10 +597,10 @@ private:
         terms.push_back(term);
     if (terms.empty()) return;
     const auto information = model_->information(fit, terms);
-    std::vector<double> needed; // standard errors
+    std::vector<double> needed; // in standard errors
     for (std::size_t i = 0; i < terms.size(); ++i) {
       const double threshold = threshold_of_term(fit, footing, terms[i], rarity);
-      // The noise is not known either: as of a noncentral t.
+      // The noise is estimated too, so the distribution is a noncentral t.
       needed.push_back(threshold + found_with * std::sqrt(1 + threshold * threshold /
                                                                   (2 * freedom_of(fit, terms[i]))));
       const auto& [alone, beside] = information[i];
@@ -608,7 +616,7 @@ private:
   const JointData& data_;
   const JointOffer& o_;
   const JointSettings& s_;
-  std::unique_ptr<const JointModel> model_; // under the weights of the path
+  std::unique_ptr<const JointModel> model_; // under the path's weights
   JointPath path_;
   MatrixXd flips_;                            // modes x flips
   std::map<std::size_t, VectorXd> by_chance_; // ratios on them, by term

@@ -1,33 +1,36 @@
-// Which terms does the residual of a law follow, more than any would by chance? (joint_model.h)
+// Search for the terms that the residual of a law follows more than by chance (model:
+// joint_model.h).
 //
-// Terms enter one by one. By chance: if there is no effect, the signs of whole tests' residuals are
-// arbitrary, and which test has which gain is as well (but for tests that are kin). Signs are
-// flipped and gains exchanged 999 times (few terms: up to 4,999), what is in is taken out again and
-// each class of modes brought to its size, and every term is tried on each. A term's likelihood
-// ratio counts by how rarely flips reach it: their largest tenth, and an exponential tail behind
-// them, as ratios have. The best term of a cause counts by how rarely the best term of that cause
-// does, so that neither many shapes nor many rows make a cause likelier; the best cause is compared
-// with the best cause of every flip. So the p-value holds for everything that was tried, with no
-// normality assumed.
+// Terms enter one by one. Null hypothesis: without an effect the signs of whole tests' residuals
+// are arbitrary, and so is the assignment of gains to tests (unless several tests form a unit, as
+// these resemble each other). The null distribution therefore comes from 999 copies of the residual
+// (few terms: up to 4,999) with flipped signs and permuted gains. From each copy the directions of
+// the current fit are projected out, each class of modes is rescaled to its size, and every term is
+// tried on it. A term's likelihood ratio is converted to its rarity among the flips: empirical up
+// to their largest tenth, with an exponential tail beyond, as likelihood ratios have. The best term
+// of a cause is converted in the same way by the best term of that cause on each flip, so that
+// neither many shapes nor many rows favour a cause. The best cause is compared with the best cause
+// of every flip. The p-value thus holds for everything that was tried, and does not assume
+// normality.
 //
-// Columns that hide each other show only together: where no term passes, the path of up to three
-// terms, the noise estimated anew at each, is compared with the same path on 199 flips (on 49 where
-// a fifth of these reach it), its threshold, at half the level, from the tail of a Gumbel law
-// through them.
+// Columns that mask each other show only together. So where no term passes, the path of up to three
+// terms, with the noise re-estimated at each step, is compared with the same path on 199 flips (49
+// are enough where its p-value on those exceeds 0.2). Its threshold, at half the level, is the
+// quantile of a Gumbel distribution fitted to the flips.
 //
-// A history whose means of tests follow from the states could stand for these between tests: it
-// enters by what it explains within tests alone (JointTerm::within), and then counts as a whole.
+// A history whose test means follow from the states could stand in for the states between tests. It
+// enters by what it explains within tests (JointTerm::within) and counts in full afterwards.
 //
-// First come columns alone, products of states, and slopes of factors in these; then products with
-// an input of the law or with a column that is in, and columns that these uncover, at half the
-// level.
+// The first round offers single columns, products of states, and slopes of factors in states. The
+// second round, at half the level, offers products with an input of the law or with a column that
+// has entered, and columns that these uncover.
 //
-// Neither flips nor exchanges know that the few tests of a level may scatter more than the others.
-// So what is constant within tests also has to hold alone where each test may scatter as it likes
-// (HC3: MacKinnon and White 1985).
+// Sign flips and permutations do not account for the few tests of a level scattering more than the
+// others. So a term that is constant within tests must also be significant with standard errors
+// that allow every test its own variance (HC3: MacKinnon and White 1985).
 //
-// What is left when nothing more enters is told by the same numbers: the terms that are the rarest,
-// and from which size on a column would have been found with a probability of 80 %.
+// When no more terms enter, the same flips give the rarest remaining terms, and the size from which
+// on a column would have been found with a probability of 80 %.
 #pragma once
 
 #include <cstdint>
@@ -42,9 +45,10 @@ struct JointOffer {
   std::vector<std::size_t> cause;                // per term, from 0
   std::vector<std::vector<std::size_t>> columns; // per term, of the candidates
   std::vector<char> first;                       // per term: offered before products
-  std::vector<char> sharp;                       // per term: one shape of a cause; not looked ahead
-  std::vector<char> in_law;                      // per candidate
-  // A walk over the order of tests: part of the noise where the likelihood wants it, never offered.
+  std::vector<char> sharp;  // per term: one shape of a cause; skipped by the look-ahead
+  std::vector<char> in_law; // per candidate
+  // Random walk over the order of tests: part of the noise where the likelihood favours it, never
+  // offered as a term.
   std::optional<std::size_t> walk;
 };
 
@@ -52,34 +56,36 @@ struct JointSettings {
   double alpha = 0.02; // family-wise, of all rounds
   std::size_t flips = 999, look_ahead = 199;
   std::uint64_t seed = 1;
-  std::vector<std::size_t> units; // per test: which change sign together
-  bool take = true;               // false: only what is left is told
+  std::vector<std::size_t> units; // per test: tests of one unit change sign together
+  bool take = true;               // false: nothing enters; only `left` is filled
 };
 
 struct JointStep {
   std::size_t term = 0;
   double ratio = 0;              // log likelihood ratio when it entered
-  double p_value = 1;            // over everything that was tried then
-  std::vector<std::size_t> near; // terms that come near it beside all others, best first
+  double p_value = 1;            // over everything that was tried in that step
+  std::vector<std::size_t> near; // terms that would explain almost as much in its place, best first
 };
 
-// How rare a value is among those of flips: minus the logarithm of the share that reach it.
+// Rarity of a value among those of the flips: minus the logarithm of the share that reach it.
 struct Rarity {
-  double from = 0, share = 1, mean = 1; // that share reaches `from`, and exceeds it by so much
+  // `share` of the flips reach `from`, exceeding it by `mean` on average
+  double from = 0, share = 1, mean = 1;
   double of(double value) const;
   double value_at(double rarity) const; // the inverse
 };
 
-// Of ratios: by term, then by cause.
+// Scales that convert likelihood ratios to rarities, by term and then by cause.
 struct Footing {
   std::vector<Rarity> of_term, of_cause;
-  double enough = 0; // so rare that the likelihood decides between such terms
+  double enough = 0; // rarity above which the likelihood ratio decides between terms
 };
 
-// What a fold needs to walk as far as all tests did, without a threshold of its own.
+// Record by which a fold repeats the search over as many terms as on all tests, without a threshold
+// of its own.
 struct JointRecord {
   std::array<std::size_t, 2> lengths{};         // terms that entered in each round
-  std::vector<std::size_t> unsure;              // causes that do not hold under unequal scatter
+  std::vector<std::size_t> unsure;              // causes that fail with unequal variances
   std::array<std::vector<Footing>, 2> footings; // of each step
 };
 
@@ -87,15 +93,15 @@ struct JointRecord {
 struct JointLead {
   std::size_t term = 0;
   double p_value = 1;
-  double threshold = 0; // standard errors of one coefficient, from which on it would have entered
+  double threshold = 0; // standard errors of one coefficient from which on it would have entered
   TermSize size;
-  Eigen::VectorXd coefficients; // as estimated; of all its columns
+  Eigen::VectorXd coefficients; // estimates for all its columns
 };
 
 // A single column that did not enter, by its straight part.
 struct JointSeen {
   std::size_t term = 0;
-  double own = 0;  // of the information of its coefficient, what those of the law leave
+  double own = 0;  // share of its coefficient's information that the law's columns leave
   double size = 0; // coefficient that would have been found with a probability of 80 %
 };
 
@@ -103,27 +109,30 @@ struct JointLeft {
   double p_value = 1;           // of the strongest
   std::vector<JointLead> leads; // strongest first
   std::vector<JointSeen> seen;
-  double smallest_half = 0; // coefficient of +-1 in two halves of the tests, that would be found
+  double smallest_half = 0; // coefficient of +-1 on two halves of the tests that would be found
 };
 
 struct JointPath {
   JointFit fit;
-  Eigen::VectorXd weights; // roots, per mode: small where a test scatters far more than others
-  std::vector<JointStep> steps, unsure; // unsure: few tests that scatter more carry it
+  // square roots, per mode: small where a test scatters far more than others
+  Eigen::VectorXd weights;
+  std::vector<JointStep> steps, unsure; // unsure: dominated by a few tests that scatter more
   JointRecord record;
   JointLeft left;
 };
 
-// One wild test decides nothing: each test has a weight in each class of modes, by its squares
-// beside those of others, as for noise with the tails of Student's t (4 degrees of freedom).
-// Weights depend on sizes alone, so that flipped signs change none.
+// Runs the search. So that one outlying test cannot decide, each test has a weight in each class of
+// modes by its sum of squares relative to the variance of the class, as for noise with the tails of
+// Student's t (4 degrees of freedom). Weights depend on magnitudes only, so flipping signs changes
+// none.
 JointPath search_jointly(const JointData& data, const JointOffer& offer,
                          const JointSettings& settings);
 
-// The same path, chosen anew, on some of the tests.
+// Repeats the search on some of the tests: as many terms in each round as recorded, chosen from
+// these tests alone.
 JointPath walk_again(const JointModel& part, const JointOffer& offer, const JointRecord& record);
 
-// The law alone; with the walk where the likelihood wants it.
+// Fits the law without terms; with the walk where the likelihood favours it.
 JointFit law_alone(const JointModel& model, const JointOffer& offer);
 
 } // namespace frictab::trace

@@ -1,4 +1,4 @@
-// Programs bound to blocks, and their weighted fits.
+// Programs bound to blocks, and noise-weighted fits.
 #include "trace/law_on_blocks.h"
 
 #include <algorithm>
@@ -94,7 +94,7 @@ VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd& jaco
 
 namespace {
 
-// Above so many blocks a step is tried without derivatives first.
+// Above this number of blocks, a step is first tried without derivatives.
 constexpr auto many_blocks = static_cast<Index>(block_budget);
 
 class BlockSolver {
@@ -112,7 +112,7 @@ public:
     for (int i = 0; i < end_.most_steps && damping < 1e8; ++i) {
       std::vector<double> next = step(here, damping);
       if (measured_.size() > many_blocks &&
-          !(cost_at(next) < here.cost)) { // no derivatives of a step refused
+          !(cost_at(next) < here.cost)) { // saves the derivatives of rejected steps
         damping *= 8;
         continue;
       }
@@ -133,8 +133,7 @@ public:
   }
 
 private:
-  // Where a fit stands: whitened residual, then whitened derivatives, and what a step from there
-  // solves.
+  // State of a fit: whitened residual and derivatives (`all`), and the normal equations.
   struct Point {
     std::vector<double> parameters;
     double cost = 0;
@@ -185,10 +184,10 @@ private:
                                                        : std::numeric_limits<double>::infinity();
   }
 
-  // Whether a block that had friction at the start has none: such a step is refused.
+  // Whether a block that had friction at the start has none, in which case the step is rejected.
   bool loses_friction(const VectorXd& tau) const { return (positive_ && tau.array() <= 0).any(); }
 
-  // What steps of any damping share.
+  // Computes the parts of a step that do not depend on the damping.
   void prepare(Point& here) const {
     const auto jacobian = here.all.rightCols(here.all.cols() - 1);
     here.normal = gram(jacobian);
@@ -203,7 +202,8 @@ private:
     MatrixXd normal = from.normal;
     VectorXd gradient = from.gradient;
     const auto& bounds = law_.parameters();
-    for (std::size_t p = 0; p < bounds.size(); ++p) { // a bound that the step would cross holds it
+    // fixes a parameter at the bound that the step would cross
+    for (std::size_t p = 0; p < bounds.size(); ++p) {
       const auto i = static_cast<Index>(p);
       const bool held = (from.parameters[p] <= bounds[p].lower && gradient(i) < 0) ||
                         (from.parameters[p] >= bounds[p].upper && gradient(i) > 0) ||

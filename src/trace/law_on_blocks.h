@@ -1,11 +1,11 @@
-// A law, with or without effects, on the blocks of a campaign: predictions, Jacobians and fits
-// weighted by the noise model.
+// Predictions, Jacobians and noise-weighted fits of a law, with or without effects, on the blocks
+// of a campaign.
 //
 // The trace stage fits hundreds of laws, so it fits them to block means (some 40 per experiment)
 // instead of rows. A fit minimises
 //   |V^-1/2 (measured - tau(p))|^2 + p' S p
-// within the bounds of the parameters p, by Levenberg-Marquardt: V is the noise model's covariance
-// (noise.h), S the roughness of smooth effects times their stiffness.
+// within the bounds of the parameters p, by Levenberg-Marquardt. V is the noise model's covariance
+// (noise.h), S the roughness matrix of smooth effects times their stiffness.
 #pragma once
 
 #include <map>
@@ -26,8 +26,8 @@ using BlockColumns = std::map<std::string, Eigen::VectorXd>;
 class LawOnBlocks {
 public:
   // smooth_MPa: min(a, b) in the law becomes (a + b - sqrt((a - b)^2 + smooth_MPa^2))/2 where it
-  // depends on parameters (0: it stays). With the kink the derivative by a limit is 0 in every row
-  // below that limit, and a fit would never move it. `columns` must outlive the object.
+  // depends on parameters (0: unchanged). With the kink, the derivative by a limit is 0 in every
+  // row below that limit, and a fit would never move it. `columns` must outlive the object.
   LawOnBlocks(const models::Law& law, const models::Conventions& conventions,
               const BlockColumns& columns, double smooth_MPa = 0);
 
@@ -49,24 +49,25 @@ struct BlockFit {
   double cost = 0; // sum of squared whitened residuals
 };
 
-// When a fit ends.
+// Stopping rule of a fit.
 struct FitEnd {
-  double enough = 1e-11; // a step that gains less than this share of the cost is the last
-  int most_steps = 60;   // tried
+  double enough = 1e-11; // the last step is one that reduces the cost by less than this share
+  int most_steps = 60;   // accepted or not
 };
 
-// (p - centre)' matrix (p - centre) is added to the sum of squares; empty: nothing, or about 0.
+// Adds (p - centre)' matrix (p - centre) to the sum of squares. Empty matrix: no penalty; empty
+// centre: 0.
 struct Penalty {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd centre;
 };
 
-// The fit described above. `penalty`: S (empty: none). `weight`: per block, applied behind the
-// whitening (empty: 1). A step that turns a positive stress into none is refused: where tests
-// scatter as a whole, a law of no friction at all is off by few standard deviations, and the fit
-// could go there. (calibrate/fit.h has another solver, whose parameters agree with these to five
-// digits. It is not used here because the noise of the folds depends on the digits behind, and with
-// it the nested log score, by up to 3 %.)
+// Runs the fit described above. `penalty`: S. `weight`: per block, applied after whitening (empty:
+// 1). Steps that make a positive stress non-positive are rejected: where tests scatter as a whole,
+// a law without friction is only a few standard deviations off, and the fit could go there. (The
+// solver in calibrate/fit.h agrees to five digits of the parameters. It is not used here because
+// the noise of the folds depends on the remaining digits, and with it the nested log score, by up
+// to 3 %.)
 BlockFit fit_blocks(const LawOnBlocks& law, const Eigen::VectorXd& measured,
                     const Whitener& whitener, std::vector<double> start,
                     const Penalty& penalty = {}, const Eigen::VectorXd& weight = {},

@@ -1,4 +1,4 @@
-// The strongest of what is left, with its size and what would make it evidence.
+// Selects the strongest unexplained terms, with sizes and the tests that would confirm them.
 #include "trace/leads.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr std::size_t most_leads = 6, most_left = 3;
-constexpr double by_chance = 0.2; // p-value from which chance is the simplest reading
+constexpr double by_chance = 0.2; // p-value above which chance is the simplest explanation
 constexpr const char* speed = "v_rel_mm_s";
 
 bool is_listed(const Trace& trace, const Lead& lead) {
@@ -34,7 +34,7 @@ bool too_few_tests(const Trace& trace) {
   return trace.least_p_value > trace.alpha;
 }
 
-// The strongest lead, where chance is not the simplest reading of it.
+// Whether the lead is the strongest one, and chance is not its simplest explanation.
 bool deserves_design(const Trace& trace, const Lead& lead) {
   return trace.leads.empty() && (lead.p_value < by_chance || too_few_tests(trace));
 }
@@ -43,7 +43,7 @@ void add_lead(Trace& trace, Lead lead, std::size_t most = most_leads) {
   if (trace.leads.size() < most && !is_listed(trace, lead)) trace.leads.push_back(std::move(lead));
 }
 
-// --- what the order of tests explains as well --------------------------------------------------
+// --- causes that the order of tests explains as well --------------------------------------------
 
 void add_confounded(Trace& trace, const Search& search) {
   for (const Search::Confounded& found : search.confounded) {
@@ -57,13 +57,14 @@ void add_confounded(Trace& trace, const Search& search) {
                            found.p_value, search.order.column);
     if (trace.leads.empty())
       lead.design = design_in_turn(search, found.cause, trace.scatter_between);
-    add_lead(trace, std::move(lead), trace.leads.size() + 1); // none of these is left out
+    // without the limit on the number of leads
+    add_lead(trace, std::move(lead), trace.leads.size() + 1);
   }
 }
 
-// --- what is left -----------------------------------------------------------------------------
+// --- unexplained terms --------------------------------------------------------------------------
 
-// Slope of y over the logarithm of the speed, within tests; NaN where the speed does not vary.
+// Slope of y over the logarithm of the speed within tests; NaN if the speed does not vary.
 double per_e_fold(const Search& search, const VectorXd& y) {
   const VectorXd& v = search.candidates.by_symbol.at(speed);
   double xy = 0, xx = 0;
@@ -85,8 +86,8 @@ double per_e_fold(const Search& search, const VectorXd& y) {
   return xx > 0 ? xy / xx : no_value;
 }
 
-// Change of the friction coefficient per e-fold of the speed, of the law as it is and of the lead:
-// what rate-and-state friction calls a - b.
+// Change of the friction coefficient per e-fold of the speed, for the law as it is and with the
+// lead: a - b of rate-and-state friction.
 std::string rate_sentence(const Search& search, const VectorXd& change) {
   const auto sigma = search.candidates.by_symbol.find("sigma_n_MPa");
   if (sigma == search.candidates.by_symbol.end() || !search.candidates.by_symbol.count(speed))
@@ -107,7 +108,7 @@ bool follows_speed(const Search& search, const Cause& cause) {
   });
 }
 
-// How many tests it takes for a p-value at which an effect is added.
+// Number of tests needed for a p-value at which an effect is added.
 std::string too_few(const Trace& trace, std::size_t tests) {
   if (!too_few_tests(trace)) return "";
   return fmt::format("; {} can give no p below {:.2g}: it takes {:.0f} that show it to add an "
@@ -131,8 +132,8 @@ Lead lead_from(const Trace& trace, const Search& search, const Left& left) {
   return lead;
 }
 
-// With few tests: single quantities only, and of those that come from the same recorded columns
-// one, the recorded one where it is among them.
+// Terms shown if there are few tests: single quantities; of those from the same recorded columns
+// one, the recorded one if it is among them.
 std::vector<const Left*> plain_ones(const Search& search) {
   std::vector<const Left*> plain;
   const auto column = [&](const Left& left) -> const CandidateColumn& {

@@ -1,15 +1,16 @@
-// Leads: what may be there, but is not in the law, and why not.
+// Leads: effects that may exist but are not in the law, with the reason.
 #pragma once
 
 #include "trace/search.h"
 
 namespace frictab::trace {
 
-// Causes that the order of tests explains as well, each with the tests that would decide; then,
-// behind the leads that are there already (findings that did not pay): what is left, strongest
-// first, whatever chance may say. Where the tests are too few for any p-value, the strongest
-// structures of single quantities, a recorded one before what is computed from it. Last what may
-// follow from friction (followers.h), and goes with what `delivered` leaves.
+// Appends leads after those already present (findings that did not improve predictions). First,
+// causes that the order of tests explains as well, each with the tests that would decide. Then the
+// strongest unexplained terms, also those that chance may explain; where the tests are too few for
+// any p-value, the strongest single quantities, recorded ones before those computed from them.
+// Last, columns that may follow from friction (followers.h) and correlate with the residual of
+// `delivered`.
 void add_leads(Trace& trace, const Search& search, const Rival& delivered);
 
 } // namespace frictab::trace

@@ -1,4 +1,4 @@
-// Pieces of tests, and their cosines.
+// Means of pieces of tests, and their cosine transform.
 #include "trace/modes.h"
 
 #include <algorithm>
@@ -14,9 +14,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t most_pieces = 12, least_pieces = 2;
-constexpr std::size_t most_modes = 6000; // of a campaign: of thousands of tests fewer are enough
+// of a campaign; with more tests, fewer per test are enough
+constexpr std::size_t most_modes = 6000;
 
-// Rows: the mean, then orthonormal cosines.
+// First row: the mean; other rows: orthonormal cosines.
 MatrixXd waves_of(std::size_t pieces) {
   const auto n = static_cast<Index>(pieces);
   MatrixXd waves = MatrixXd::Constant(n, n, 1 / static_cast<double>(pieces));

@@ -1,7 +1,11 @@
-// A test as a few numbers with independent noise: the means of at most twelve pieces, turned into
-// cosines along the test. The first is the test's mean (its gain), the second about its slope, two
-// more are slow waves; the others are what is left. Noise that is slow within tests, and larger
-// between them than within, is nearly diagonal in them: one variance for each of four classes.
+// Transform of a test to a few numbers with independent noise: the means of at most twelve pieces,
+// transformed to cosines along the test. The first is the test's mean (its gain), the second
+// roughly its slope, the next two slow waves; the remaining ones form the last class. Noise that is
+// slow within tests, and larger between tests than within, has a nearly diagonal covariance in
+// these modes: one variance for each of the four classes.
+//
+// Above 500 tests each test has fewer than twelve pieces: 6,000 / tests, rounded down, and at least
+// two. Many tests determine shared structure as well with fewer pieces each.
 #pragma once
 
 #include <array>
@@ -19,21 +23,22 @@ class Modes {
 public:
   explicit Modes(const Blocks& blocks);
 
-  // Modes x columns, the classes one behind the other, of columns of block values.
+  // Transforms columns of block values to modes x columns, sorted by class.
   Eigen::MatrixXd of(const Eigen::Ref<const Eigen::MatrixXd>& per_block) const;
-  // Mean size of the pieces of a test whose modes these are (of all tests: of `modes`, its own).
+  // Mean absolute value over the pieces of a test, computed from its modes (`modes` holds those of
+  // all tests).
   double mean_size(const Eigen::VectorXd& modes, std::size_t test) const;
 
   std::size_t tests() const { return of_test_.size(); }
-  // Where a class begins; behind the last one their number.
+  // First mode of each class; last, the number of modes.
   const std::array<Eigen::Index, mode_classes + 1>& first() const { return first_; }
   const std::vector<std::size_t>& test() const { return test_; } // of each mode
-  // Places of a test's modes, from its gain to its fastest wave.
+  // Positions of a test's modes, from its gain to its fastest wave.
   const std::vector<Eigen::Index>& of_test(std::size_t test) const { return of_test_[test]; }
   static std::size_t class_of(std::size_t mode);
 
 private:
-  std::vector<std::size_t> first_block_; // per test, and behind the last one
+  std::vector<std::size_t> first_block_; // per test; last, the number of blocks
   std::array<Eigen::Index, mode_classes + 1> first_{};
   std::vector<std::size_t> test_;
   std::vector<std::vector<Eigen::Index>> of_test_;

@@ -1,4 +1,4 @@
-// A fit for every fold, evaluated on what it has not seen.
+// Fits every fold and evaluates it on its left-out tests.
 #include "trace/nested_errors.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double farthest = 1e3;    // that a law and a measurement are taken to be apart
+constexpr double farthest = 1e3;    // largest ratio of a law and a measurement
 constexpr double score_freedom = 5; // of Student's t
 
 VectorXd relative_errors(const data::Dataset& data, const std::vector<double>& predicted) {
@@ -37,12 +37,12 @@ VectorXd relative_errors(const data::Dataset& data, const std::vector<double>& p
   return errors;
 }
 
-// Log density per test, but for a constant: Student's t over the test as a whole, so that one test
-// for which a fold's noise model is too sure of itself does not outweigh all others.
+// Log density per test, up to a constant. Student's t over the test as a whole, so that one test
+// for which a fold's noise model is overconfident does not outweigh all others.
 VectorXd scores(const data::Dataset& data, const std::vector<double>& predicted,
                 const NoiseModel& noise, const Blocks& fitted) {
   Blocks blocks = make_blocks(data, fitted.most);
-  blocks.usual_rows = fitted.usual_rows; // what the noise model's white part belongs to
+  blocks.usual_rows = fitted.usual_rows; // the noise model's white part refers to it
   const VectorXd measured = blocks.mean(data.values("tau_R_MPa"));
   const VectorXd law = blocks.mean(predicted).cwiseMax(measured.cwiseAbs() / farthest);
   MatrixXd residual = measured - law;
@@ -61,7 +61,7 @@ VectorXd scores(const data::Dataset& data, const std::vector<double>& predicted,
 
 } // namespace
 
-// Of one fold, in the order of its tests.
+// Errors of one fold, in the order of its tests.
 class FoldJudge {
 public:
   FoldJudge(const Search& all, const CauseFold& fold)
@@ -75,7 +75,7 @@ public:
 
   const std::vector<std::size_t>& out() const { return fold_.out; }
 
-  // Of the law without effects and with those of `law`, under both weights.
+  // Errors without effects and with those of `law`, under both kinds of weights.
   std::array<NestedErrors::Weighted, 2> run(const Rival& law) {
     set_effects(law);
     std::array<NestedErrors::Weighted, 2> errors;
@@ -84,7 +84,7 @@ public:
     return errors;
   }
 
-  // Without each effect of the law of the last run.
+  // Adds errors without each effect of `law`, which must be that of the last run.
   void run_without(const Rival& law, std::size_t weights, NestedErrors::Weighted& errors) const {
     for (const Cause& cause : law.causes) {
       errors.without.push_back(errors.all);
@@ -104,8 +104,8 @@ private:
     return kept;
   }
 
-  // Without columns that neither the law nor any of the causes has: of hundreds it would take long
-  // to say again which are alike.
+  // Ignores columns that neither the law nor any of the causes uses: among hundreds, the search for
+  // identical columns would take long.
   TraceOptions options() const {
     TraceOptions options = all_.input.options;
     std::set<std::string> needed{all_.candidates.order_column, options.tool_distance};
@@ -122,13 +122,14 @@ private:
     for (const CandidateColumn& column : all_.candidates.columns)
       if (!column.in_law && !is_state(column) && !needed.count(column.name))
         options.ignore.push_back(column.name);
-    options.order = all_.candidates.order_column; // a part of the tests is not numbered 1 to n
+    options.order = all_.candidates.order_column; // tests of a part are not numbered 1 to n
     const data::Column* order = kept_.find(options.order);
     if (order && values_of_tests(*order, kept_) < 3) options.order.clear();
     return options;
   }
 
-  // The fold's own causes; those that the search on all tests has found and taken off are left out.
+  // Takes the fold's own causes, without those that the search on all tests found and later
+  // removed.
   void set_effects(const Rival& law) {
     std::vector<effects::PlacedEffect> effects;
     std::vector<Cause> causes;
@@ -152,7 +153,7 @@ private:
                                         std::move(causes), search_.base.noise, NoiseSearch::again);
   }
 
-  // `otherwise`: where the stress of a history of itself does not settle.
+  // `otherwise`: result if the stress of a history of itself does not converge.
   LeftOut judged(const Rival& rival, std::size_t weights, const LeftOut& otherwise) const {
     const Rival one = weights == 0 ? rival : fit_rows_alike(search_.campaign(), rival).rival;
     try {
@@ -172,7 +173,7 @@ private:
   const Search search_;
   std::array<LeftOut, 2> none_; // by weights
   Rival with_;
-  std::vector<Cause> causes_; // of with_, as all tests number them
+  std::vector<Cause> causes_; // of with_, numbered as on all tests
 };
 
 namespace {
@@ -200,7 +201,8 @@ NestedErrors::Gain NestedErrors::gain(std::size_t weights) const {
 }
 
 std::size_t NestedErrors::better_weights(bool with_effects) const {
-  constexpr double clearly = 0.98; // of the error, that plain weights must reach to be used
+  // of the error; plain weights are used if theirs is below this share
+  constexpr double clearly = 0.98;
   const auto error = [&](std::size_t w) {
     return (with_effects ? weighted[w].all : weighted[w].none).relative.mean();
   };

@@ -1,14 +1,14 @@
-// What a traced law is worth on tests that the search has not seen.
+// Errors of a traced law on tests that the search has not seen.
 //
-// A search over thousands of shapes always finds something that fits the tests it has seen. So
-// which columns a law lacks is decided anew without each fold (joint_choice.h), the law is fitted
-// with those to the tests that are left in, and predicts the others. Forms are those of the search
-// on all tests where it has the same cause, else smooth ones. Two measures of a test:
+// A search over thousands of shapes always finds something that fits the tests it has seen. So the
+// columns that a law lacks are searched again without each fold (joint_choice.h), and the law with
+// them is fitted to the remaining tests and predicts the left-out ones. Forms are those of the
+// search on all tests where it has the same cause, else smooth ones. Measures of a test:
 //   error  mean of |ln(measured / predicted)| over its rows;
 //   score  log density of its block means under the fold's law and noise model, with the tails of
-//          Student's t (5 degrees of freedom), so that one test for which a noise model is too sure
-//          of itself does not outweigh all others. An effect within tests shows in the score even
-//          where the tests lie high or low as a whole, which the error mostly sees.
+//          Student's t (5 degrees of freedom), so that one test for which a noise model is
+//          overconfident does not outweigh all others. An effect within tests improves the score
+//          even where tests lie high or low as a whole, which dominates the error.
 // The mean gain of either over tests has a standard error.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace frictab::trace {
 
-// Per test.
+// Errors of left-out tests, one entry per test.
 struct LeftOut {
   std::vector<calibrate::ErrorSums> sums;
   Eigen::VectorXd relative; // mean of |ln(measured / predicted)| over its rows
@@ -27,33 +27,34 @@ struct LeftOut {
 };
 
 struct NestedErrors {
-  // Of a law under one kind of weights.
+  // Errors under one kind of weights.
   struct Weighted {
-    LeftOut none, all;            // effects
-    std::vector<LeftOut> without; // one of those of the law; under the better weights alone
+    LeftOut none, all;            // without effects, with all of them
+    std::vector<LeftOut> without; // without each effect; only under the better weights
   };
   Weighted weighted[2]; // the noise model's | all rows alike
   std::size_t folds = 0;
 
   struct Gain {
     double score = 0, score_se = 0;
-    double error = 0, error_se = 0; // relative, smaller by so much
+    double error = 0, error_se = 0; // reduction of the relative error
   };
-  // Mean over tests, against the law without effects under the weights that suit it better: effects
-  // are not credited with mending what the noise model's weights have spoiled.
+  // Mean gain over tests, compared with the law without effects under the weights that suit it
+  // better: effects are not credited for repairing a fit that the noise model's weights have
+  // worsened.
   Gain gain(std::size_t weights) const;
-  // Those that predict left-out tests clearly better.
+  // Index of the weights that predict left-out tests clearly better.
   std::size_t better_weights(bool with_effects) const;
 };
 
 class FoldJudge;
 
-// A campaign without each fold of a search.
+// Refits of a campaign without each fold of its search.
 class NestedJudge {
 public:
   explicit NestedJudge(const Search& search);
   ~NestedJudge();
-  // `law`: with some of the effects of the search; also without each of them.
+  // Errors of a law with some of the effects of the search, and without each of these.
   NestedErrors errors(const Rival& law) const;
 
 private:

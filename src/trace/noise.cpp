@@ -1,4 +1,4 @@
-// Applies the noise model.
+// Whitening by the noise model.
 #include "trace/noise.h"
 
 #include <algorithm>
@@ -16,12 +16,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double least_share = 0.05; // of the mean tau: noise that grows with tau does not vanish
+constexpr double least_share = 0.05; // of the mean tau: lower bound for noise that grows with tau
 
-// Gain and slope of one experiment in the filtered blocks, where the other noise has the covariance
-// I: the whole covariance is I + c c', c being their two columns. With the eigenvectors q and
-// eigenvalues l of c c', its inverse root is I - sum (1 - 1/sqrt(1 + l)) q q'; `c` holds those
-// factors.
+// Gain and slope of one experiment in the filtered blocks, in which the remaining noise has
+// covariance I. The whole covariance is I + c c', where c holds their two columns. With the
+// eigenvectors q and eigenvalues l of c c', its inverse root is I - sum (1 - 1/sqrt(1 + l)) q q';
+// the member `c` holds the factors 1 - 1/sqrt(1 + l).
 struct RandomEffects {
   MatrixXd q;
   VectorXd c;
@@ -102,8 +102,8 @@ double Whitener::make_filter(const Part& part, const VectorXd& white, double slo
   return log_det;
 }
 
-// Innovations over their standard deviation, along each experiment; several columns at a time, so
-// that a processor does not wait for the one before.
+// Divides innovations by their standard deviations along each experiment; several columns at a
+// time, because each step depends on the previous one.
 void Whitener::filter(Eigen::Ref<MatrixXd> columns) const {
   constexpr Index together = 8;
   for (Index c = 0; c < columns.cols(); c += together) {
@@ -130,7 +130,7 @@ void Whitener::apply(Eigen::Ref<MatrixXd> columns) const {
   filter(columns);
   for (std::size_t e = 0; e < parts_.size(); ++e) {
     const MatrixXd &q = q_[e], &qc = qc_[e];
-    for (Index c = 0; c < columns.cols(); ++c) { // a matrix product would be all overhead here
+    for (Index c = 0; c < columns.cols(); ++c) { // a matrix product would be mostly overhead here
       auto rows = columns.col(c).segment(parts_[e].first, parts_[e].size);
       const double first = q.col(0).dot(rows), second = q.col(1).dot(rows);
       rows -= first * qc.col(0) + second * qc.col(1);

@@ -16,36 +16,37 @@ namespace frictab::trace {
 // in the experiment (-1/2 .. 1/2):
 //   gain^2 t t' + slope^2 (t x)(t x)' + D (slow^2 exp(-|x_i - x_j| / length) + white^2 W) D,
 //   D = scale diag (t / scale)^growth, W = diag (usual rows of a block / rows of this one).
-// An experiment as a whole lies high or low (gain), and rises or falls against the law (slope);
-// noise within it is slow and white. All but `scale` are relative to the shear stress, so that a
-// unit of stress changes nothing. `length` is capped at 0.4 of an experiment: slow noise that
-// lasts longer could not be told from the gain and would swallow it.
+// An experiment as a whole lies high or low (gain), and rises or falls relative to the law (slope);
+// noise within it has a slow (autocorrelated) and a white part. All but `scale` are relative to the
+// shear stress, so results do not depend on its unit. `length` is capped at 0.4 of an experiment:
+// slower noise could not be distinguished from the gain and would absorb it.
 struct NoiseModel {
   double gain = 0;
   double slope = 0;
   double slow = 1;
   double length = 0.1; // of an experiment
   double white = 1;
-  double growth = 1; // 0: the same for all stresses | 1: in proportion to the stress
+  double growth = 1; // 0: the same at all stresses | 1: proportional to the stress
   double scale = 1;  // MPa, mean predicted shear stress
 };
 
 // D of the formula above, per block.
 Eigen::ArrayXd noise_size(const NoiseModel& noise, const Eigen::VectorXd& tau);
 
-// Multiplies columns of block values with V^-1/2: what comes out has independent errors of variance
-// 1, so that least squares of it are generalised least squares of what went in. Experiments are
-// independent. Within one, a Kalman filter turns slow and white noise into independent innovations
-// (the slow noise is autoregressive; a few operations per value); gain and slope add two directions
-// to the covariance, whose share is then taken off. Last, nuisance columns are projected out.
+// Whitens columns of block values, i.e. multiplies them by V^-1/2: the results have independent
+// errors of variance 1, so that ordinary least squares on them is generalised least squares on the
+// originals. Experiments are independent. Within one, a Kalman filter turns slow and white noise
+// into independent innovations (the slow noise is autoregressive; a few operations per value). Gain
+// and slope add two directions to the covariance, whose share is then removed. Last, nuisance
+// columns are projected out.
 class Whitener {
 public:
-  // `tau`: predicted, per block; `nuisance`: directions that no test may see any more (structure
-  // along the order of tests, ...), or no columns.
+  // `tau`: predicted, per block; `nuisance`: directions that no test may use (structure along the
+  // order of tests, ...), or no columns.
   Whitener(const NoiseModel& noise, const Eigen::VectorXd& tau, const Blocks& blocks,
            const Eigen::MatrixXd& nuisance = {});
 
-  // Columns of block values, in place.
+  // Whitens columns of block values in place.
   void apply(Eigen::Ref<Eigen::MatrixXd> columns) const;
   // Log determinant of V, per experiment.
   const Eigen::VectorXd& log_det() const { return log_det_; }
@@ -57,7 +58,7 @@ private:
     Eigen::Index first, size;
     double rho;
   };
-  // Of the filter along one experiment; its log determinant.
+  // Sets up the filter along one experiment and returns its log determinant.
   double make_filter(const Part& part, const Eigen::VectorXd& white, double slow);
   void filter(Eigen::Ref<Eigen::MatrixXd> columns) const;
 
@@ -65,8 +66,8 @@ private:
   std::vector<Part> parts_;
   Eigen::VectorXd shrink_; // 1/D
   Eigen::VectorXd log_det_, variance_;
-  std::vector<Eigen::MatrixXd> q_;  // per experiment, orthonormal: of the random effects
-  std::vector<Eigen::MatrixXd> qc_; // and what is taken off along them
+  std::vector<Eigen::MatrixXd> q_;  // per experiment, orthonormal directions of the random effects
+  std::vector<Eigen::MatrixXd> qc_; // and the factors removed along them
   Eigen::MatrixXd nuisance_;        // orthonormal, whitened
 };
 

@@ -1,4 +1,5 @@
-// Finds the noise model: restricted likelihood along the directions of each length.
+// Optimises the restricted likelihood of the noise model, in the independent directions of each
+// length.
 #include "trace/noise_fit.h"
 
 #include <algorithm>
@@ -21,14 +22,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::array slow_lengths = {0.025, 0.05, 0.1, 0.2, 0.4}; // of an experiment
-constexpr double least_log = -8, most_log = 2; // of a standard deviation over the residual's own
-// Where the data do not determine a standard deviation the likelihood is flat, and the fit would
-// end anywhere. This draws its logarithm to 0; it is worth 1e-4 of log likelihood over the whole
-// range.
+// of a standard deviation, relative to the residual's own
+constexpr double least_log = -8, most_log = 2;
+// Weak prior on the logarithms of standard deviations, centred at 0. Without it the likelihood is
+// flat where the data do not determine one, and the result would be arbitrary. It costs 1e-4 of log
+// likelihood over the whole range.
 constexpr double weak_prior = 1e-6;
 
-// One shape of experiments: how many blocks, and how much white noise each has over the usual one.
-// Of those of one shape, the directions in which noise of one length is independent are the same.
+// Shape of experiments: the number of blocks, and the white noise of each relative to the usual
+// one. Experiments of one shape share the directions in which noise of one length is independent.
 struct BlockShape {
   VectorXd share;
   std::vector<std::size_t> experiments;
@@ -51,9 +53,9 @@ std::vector<BlockShape> shapes_of(const Blocks& blocks) {
   return shapes;
 }
 
-// With R the correlations of slow noise and S the shares, S^-1/2 R S^-1/2 = U diag(slow) U': noise
+// With R the correlations of slow noise and S the shares, S^-1/2 R S^-1/2 = U diag(slow) U'. Noise
 // of any size is independent along the columns of S^-1/2 U, with the variance slow_i slow^2 +
-// white^2. The inverse of R has three diagonals.
+// white^2. The inverse of R is tridiagonal.
 struct NoiseDirections {
   MatrixXd u;
   VectorXd slow;
@@ -73,8 +75,8 @@ NoiseDirections directions_of(const VectorXd& share, double length) {
   return {solver.eigenvectors(), (1 - rho * rho) * solver.eigenvalues().cwiseInverse()};
 }
 
-// What the likelihood of any noise of one growth is computed from. Rows are blocks, columns: the
-// residual, what is fitted, and the shapes of gain and slope; all over D.
+// Data of the likelihood for all noise of one growth. Rows are blocks; columns are the residual,
+// the fitted directions, and the shapes of gain and slope, all divided by D.
 class Likelihood {
 public:
   Likelihood(const NoiseData& data, const NoiseModel& base) : shapes_(shapes_of(data.blocks)) {
@@ -100,7 +102,7 @@ public:
   double operator()(const NoiseModel& noise) const {
     const double slow = noise.slow * noise.slow, white = noise.white * noise.white;
     const Index own = fitted_ + 1;
-    MatrixXd normal = MatrixXd::Zero(own, own); // its lower triangle
+    MatrixXd normal = MatrixXd::Zero(own, own); // lower triangle only
     MatrixXd random(own, 2 * static_cast<Index>(columns_.size()));
     Index next = 0;
     double log_det = 0;
@@ -119,16 +121,16 @@ public:
     return -0.5 * (log_det + restricted(normal));
   }
 
-  // What all noise of this growth shares, and the unit of stress moves.
+  // Constant of the likelihood for this growth, which depends on the unit of stress.
   double constant() const { return -log_d_; }
 
 private:
-  // Experiments of one shape, along the directions of one length.
+  // Experiments of one shape, transformed to the directions of one length.
   struct Turned {
     VectorXd slow;
     std::vector<MatrixXd> columns; // per experiment
-    // Of two and more: per direction the lower triangle of the columns' products, but those of gain
-    // and slope, summed over the experiments.
+    // For shapes of two or more experiments: per direction the lower triangle of the products of
+    // columns, except those of gain and slope, summed over experiments.
     MatrixXd products;
     double log_share = 0;
   };
@@ -177,9 +179,9 @@ private:
       normal.col(c).tail(own - c) += sum.segment(at, own - c);
   }
 
-  // What gain and slope of one experiment take off the products, as two columns whose squares do
-  // (Woodbury's identity, with the root of its 2 x 2 matrix); and the logarithm of that matrix's
-  // determinant.
+  // Subtracts the contribution of gain and slope of one experiment from the products, as two
+  // columns with the same squares (Woodbury's identity, with the root of its 2 x 2 matrix), and
+  // returns the logarithm of that matrix's determinant.
   double add_random(const NoiseModel& noise, const MatrixXd& columns, const VectorXd& weight,
                     Eigen::Ref<MatrixXd> off) const {
     const Index own = fitted_ + 1;
@@ -195,7 +197,8 @@ private:
     return 2 * std::log(first * second);
   }
 
-  // Squares behind the fitted columns, and the determinant of what the data say about these.
+  // Residual sum of squares after the fitted columns, plus the log determinant of the information
+  // about these.
   double restricted(const MatrixXd& normal) const {
     if (fitted_ == 0) return normal(0, 0);
     MatrixXd information = normal.bottomRightCorner(fitted_, fitted_);
@@ -209,7 +212,7 @@ private:
   std::vector<MatrixXd> columns_; // per experiment
   Index fitted_ = 0;
   double log_d_ = 0;
-  mutable std::map<double, std::vector<Turned>> turned_; // by length; a fit has one thread
+  mutable std::map<double, std::vector<Turned>> turned_; // by length; each fit runs in one thread
 };
 
 class NoiseFitter {
@@ -221,8 +224,8 @@ public:
     size_ = std::max(left / base_.scale, 1e-12);
   }
 
-  // At the middle length from two starts, one with most of the noise between tests and one with
-  // most of it slow; then along the lengths, each started from its neighbour.
+  // Starts twice at the middle length, with most of the noise between tests or most of it slow;
+  // then proceeds along the lengths, each started from its neighbour.
   NoiseFit from_scratch() const {
     const auto middle = static_cast<int>(slow_lengths.size() / 2);
     NoiseFit best = fit(slow_lengths[slow_lengths.size() / 2], usual, far);
@@ -238,7 +241,7 @@ public:
     return best;
   }
 
-  // From an earlier fit, at its length and the two beside it, and from nothing.
+  // Starts from an earlier fit, at its length and the two neighbouring ones, and from scratch.
   NoiseFit around(const NoiseModel& earlier) const {
     const auto at =
         std::min_element(slow_lengths.begin(), slow_lengths.end(), [&](double a, double b) {
@@ -276,7 +279,8 @@ private:
     return base;
   }
 
-  // A later fit wins only by more than rounding, so that results do not depend on the last bits.
+  // A later fit wins only by more than rounding error, so that results do not depend on the last
+  // bits.
   static void consider(const NoiseFit& fit, NoiseFit& best) {
     if (fit.log_likelihood > best.log_likelihood + 1e-6) best = fit;
   }
@@ -327,13 +331,13 @@ private:
     double best = 0;
     try {
       search.optimize(x, best);
-    } catch (const nlopt::roundoff_limited&) { // x is the best so far
+    } catch (const nlopt::roundoff_limited&) { // x is the best point so far
       best = value(x, length);
     }
     return {model(x, length), best + likelihood_.constant()};
   }
 
-  std::size_t searched_; // of the logarithms: the slope is the last
+  std::size_t searched_; // number of optimised logarithms; the slope is the last
   NoiseModel base_;
   Likelihood likelihood_;
   double size_; // of the residual, relative to the stress

@@ -1,4 +1,4 @@
-// [trace] of a job.
+// Options of the [trace] section of a job.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,12 @@ namespace frictab::trace {
 
 struct TraceOptions {
   std::vector<std::string> models{"best"}; // best | names | all that were calibrated
-  double alpha = 0.02;                     // family-wise error of a false alarm
-  std::vector<std::string> ignore;         // columns that cannot be a cause
+  double alpha = 0.02;                     // family-wise level of false alarms
+  std::vector<std::string> ignore;         // columns that are not searched
   std::optional<double> repeatability;     // relative scatter between repeated tests
   std::string order;                       // column that gives the order of tests
-  std::string tool_distance; // column of wear: may be shipped though it follows the order
+  // column of tool wear: its effect may be delivered though it follows the order
+  std::string tool_distance;
   Place ignore_place, order_place, tool_distance_place;
 };
 

@@ -21,8 +21,9 @@ using Eigen::VectorXd;
 
 constexpr std::size_t order_permutations = 999;
 constexpr int nuisance_functions = 12;
-constexpr std::size_t neighbours = 3;  // that may still be alike behind the slow functions
-constexpr double share_of_alpha = 0.5; // that the order's test may spend
+// number that may still resemble each other after removal of the slow functions
+constexpr std::size_t neighbours = 3;
+constexpr double share_of_alpha = 0.5; // level of the test along the order, in units of trace.alpha
 // Parts of names, and whole words between underscores.
 constexpr const char* of_environment[] = {"humid",    "ambient",  "room",   "weather", "climate",
                                           "dewpoint", "umgebung", "feucht", "klima",   "wetter"};
@@ -31,7 +32,7 @@ constexpr const char* environment[] = {"lab",  "hall", "air",  "amb",  "baro",  
                                        "raum", "luft", "tag",  "datum"};
 constexpr const char* reference = "the mean of the campaign's tests";
 
-// At most one per so many experiments.
+// At most one function per `experiments_each` experiments.
 MatrixXd slow_functions(const std::vector<double>& order, int most, std::size_t experiments_each) {
   return order_functions(order, std::min(most, static_cast<int>(order.size() / experiments_each)));
 }
@@ -47,7 +48,8 @@ VectorXd scores_of(const Search& search, const Whitener& whitener, std::size_t s
                            whitener, search.first());
 }
 
-// Sets the size of the structure: root mean square of what the functions of the order explain.
+// Computes the size of the structure: root mean square of the part that functions of the order
+// explain.
 void measure_structure(Search& search, MatrixXd columns) {
   const MatrixXd raw = columns;
   MatrixXd residual = search.residual();
@@ -55,7 +57,7 @@ void measure_structure(Search& search, MatrixXd columns) {
   weights.apply(columns);
   weights.apply(residual);
   MatrixXd normal = columns.transpose() * columns;
-  normal.diagonal().array() += 1.0; // a coefficient of 100 % is far out of reach
+  normal.diagonal().array() += 1.0; // weak penalty: a coefficient of 100 % is far out of reach
   const VectorXd explained = raw * normal.ldlt().solve(columns.transpose() * residual.col(0));
   const double count = static_cast<double>(explained.size());
   search.order.size_MPa = explained.norm() / std::sqrt(count);
@@ -71,7 +73,8 @@ bool is_order(const Search& search, const Cause& cause) {
   return std::any_of(cause.columns.begin(), cause.columns.end(), numbers_tests);
 }
 
-// Each level one stretch of the order, as of batches: that is the order in other words.
+// Whether each level is one stretch of the order, as of batches: the column is then another form of
+// the order.
 bool is_stretch(const Search& search, const Cause& cause) {
   const CandidateColumn& column = search.candidates.columns[cause.columns[0]];
   const auto rank = ranks(search.candidates.order);
@@ -104,7 +107,7 @@ bool is_the_order(const Search& search, const Cause& cause) {
 
 namespace {
 
-// By its name something of the room or the calendar, which changes as time goes by.
+// Whether the name denotes a property of the room or the calendar, which changes over time.
 bool is_environment(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -117,7 +120,7 @@ bool is_environment(std::string name) {
                      [&](const char* part) { return name.find(part) != std::string::npos; });
 }
 
-// Neighbours by name are more alike than by chance (von Neumann's ratio, one side of 1 %).
+// Whether neighbours by name are more alike than by chance (von Neumann's ratio, one-sided 1 %).
 bool drifts(const VectorXd& x) {
   const auto n = static_cast<double>(x.size());
   const double squares = (x.array() - x.mean()).square().sum();
@@ -155,7 +158,7 @@ void note_confounded(Search& search, const std::vector<Suspect>& suspects, doubl
 }
 
 void remove_order_structure(Search& search, double p_value, std::size_t site) {
-  if (search.order.found) return; // once is enough: faster structure stays unexplained
+  if (search.order.found) return; // only once; faster structure stays unexplained
   search.order.found = true;
   search.order.p_value = p_value;
   search.order.reference = reference;

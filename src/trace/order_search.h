@@ -1,5 +1,5 @@
-// What follows the order of tests: told apart from effects, taken out of the calibration, and left
-// out of the law.
+// Structure along the order of tests: distinguished from effects, removed from the calibration and
+// left out of the law.
 #pragma once
 
 #include "trace/choose_effect.h"
@@ -8,24 +8,26 @@
 
 namespace frictab::trace {
 
-// The column that the user has declared as the tool's wear: it may follow the order.
+// Whether a cause is the column that the user declared as the tool's wear, which may follow the
+// order.
 bool is_declared(const Search& search, const Cause& cause);
-// Whether a cause is the declared order in other words: its column, or a text column of which each
-// level is one stretch of it, as of batches. It is no effect, but structure along the order.
+// Whether a cause is another form of the declared order: its column, or a text column each of whose
+// levels is one stretch of it, such as batches. Such a cause is not an effect, but structure along
+// the order.
 bool is_the_order(const Search& search, const Cause& cause);
-// Whether a drift over time would look the same as an effect of that cause: friction follows the
-// declared order as well; or none is declared, and it is a column of the room or the calendar, or a
-// reading that drifts from test to test as they are named.
+// Whether a drift over time would look the same as an effect of that cause: because friction
+// follows the declared order as well; or because none is declared and the cause is a column of the
+// room or the calendar, or a reading that drifts from test to test in the order of their names.
 bool may_stand_for_time(const Search& search, const Cause& cause);
-// Of causes that come near each other, the declared one alone.
+// Keeps only the declared wear column among causes near each other, if it is one of them.
 void prefer_declared(const Search& search, std::vector<Suspect>& suspects);
 
-// Notes the first of these that tests hold constant: it would have been found if nothing followed
-// the order of tests.
+// Records the first of these causes that is constant within tests: it would have been found if
+// nothing followed the order of tests.
 void note_confounded(Search& search, const std::vector<Suspect>& suspects, double p_value);
 
-// From here on nothing is explained that slow functions of the order can explain, at the site
-// (mu, limit, added) where it shows most.
+// Removes slow functions of the order from everything explained from here on, at the site (mu,
+// limit, added) where the structure is strongest.
 void remove_order_structure(Search& search, double p_value, std::size_t site);
 
 struct OrderFound {
@@ -34,12 +36,12 @@ struct OrderFound {
 };
 OrderFound test_along_order(const Search& search);
 
-// Where the order was declared: tests for structure along it, beside all candidates. True where
-// some was found, which is then taken out of the calibration.
+// Tests for structure along a declared order, independently of all candidates. Returns true if some
+// was found, which is then removed from the calibration.
 bool find_order(Search& search);
 
-// Tests again once all effects are in the law: where the order has no structure any more, nothing
-// is taken out for it.
+// Repeats the test once all effects are in the law. If the order has no structure any more, nothing
+// is removed for it.
 void reconsider_order(Search& search);
 
 } // namespace frictab::trace

@@ -1,4 +1,4 @@
-// Permutation test and nuisance functions along the order of tests.
+// Permutation test and slow functions along the order of tests.
 #include "trace/order_test.h"
 
 #include <algorithm>
@@ -20,14 +20,15 @@ using Eigen::VectorXd;
 
 constexpr std::uint64_t order_stream = 72;
 constexpr int slow_waves = 4;
-constexpr Index neighbourhood = 6; // tests that may be alike, as in a batch; nearer ones weigh more
+// maximum distance of tests that may be alike, as in a batch; nearer ones weigh more
+constexpr Index neighbourhood = 6;
 
 double wave(std::size_t rank, int number, std::size_t count) {
   return std::cos(std::numbers::pi * number * (static_cast<double>(rank) + 0.5) /
                   static_cast<double>(count));
 }
 
-// Of one column of scores, taken in some order.
+// Statistics of one column of scores, in a given order.
 std::array<double, 3> structure(const VectorXd& z, const MatrixXd& waves) {
   std::array<double, 3> s{};
   double sum = 0, most = 0;
@@ -42,7 +43,7 @@ std::array<double, 3> structure(const VectorXd& z, const MatrixXd& waves) {
   return s;
 }
 
-// Of all columns.
+// Statistics of all columns.
 VectorXd structures(const MatrixXd& z, std::span<const std::size_t> order, const MatrixXd& waves) {
   VectorXd all(3 * z.cols());
   VectorXd ordered(z.rows());
@@ -91,7 +92,7 @@ OrderTest test_order(const MatrixXd& scores, std::span<const double> order,
                      std::size_t permutations, std::uint64_t seed) {
   const auto rank = ranks(order);
   const std::size_t count = rank.size();
-  if (count < 10) return {}; // too few for any structure to show
+  if (count < 10) return {}; // too few to show any structure
   MatrixXd z = scores.rowwise() - scores.colwise().mean();
   MatrixXd waves(z.rows(), slow_waves);
   for (Index i = 0; i < z.rows(); ++i)
@@ -108,7 +109,7 @@ OrderTest test_order(const MatrixXd& scores, std::span<const double> order,
     random.shuffle(std::span(at));
     all.row(b) = structures(z, at, waves);
   }
-  // Rank of each among all, per statistic; then the rank of the smallest.
+  // p-value of each among all, per statistic; then the rank of the smallest.
   VectorXd smallest = VectorXd::Ones(all_count);
   for (Index k = 0; k < all.cols(); ++k) {
     std::vector<double> sorted(all.col(k).data(), all.col(k).data() + all_count);

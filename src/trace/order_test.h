@@ -1,5 +1,5 @@
-// Is there structure along the order of tests? Drift, wear and batch look alike there, so that none
-// of them is named.
+// Test for structure along the order of tests. It does not name a cause, because drift, wear and
+// batches look alike there.
 #pragma once
 
 #include <cstdint>
@@ -12,29 +12,30 @@
 
 namespace frictab::trace {
 
-// One score per experiment: how far its friction as a whole lies from the law, in units of its
-// standard deviation under the noise model.
+// Returns one score per experiment: how far its friction as a whole lies from the law, in standard
+// deviations under the noise model.
 Eigen::VectorXd experiment_scores(const Eigen::VectorXd& residual,
                                   const Eigen::VectorXd& sensitivity, const Eigen::MatrixXd& fitted,
                                   const Whitener& whitener, std::span<const std::size_t> first);
 
-// "The scores have no structure along the order": tests up to six apart are alike, a
-// cumulated sum that strays, or slow waves; the smallest of the three and of all columns of scores
-// (experiments x ways in which friction may differ), its distribution by permutation.
+// Permutation test of the null hypothesis that the scores have no structure along the order. Three
+// statistics: likeness of tests up to six apart, the excursion of the cumulated sum, and slow
+// waves. The smallest p-value over statistics and columns of scores (experiments x ways in which
+// friction may differ) is compared with its own permutation distribution.
 struct OrderTest {
   double p_value = 1;
-  Eigen::Index column = 0; // of the scores, in which slow waves are the largest
+  Eigen::Index column = 0; // column of scores with the largest slow waves
 };
 OrderTest test_order(const Eigen::MatrixXd& scores, std::span<const double> order,
                      std::size_t permutations, std::uint64_t seed);
 
-// Position of each experiment in the order: 0, 1, 2, ...
+// Returns the position of each experiment in the order: 0, 1, 2, ...
 std::vector<std::size_t> ranks(std::span<const double> order);
 
-// Slow functions of the order (cosines of the rank), per experiment; each has mean 0.
+// Returns slow functions of the order (cosines of the rank), per experiment; each has mean 0.
 Eigen::MatrixXd order_functions(std::span<const double> order, int count);
 
-// Per block of each experiment: sensitivity times the functions.
+// Returns sensitivity times the functions, per block of each experiment.
 Eigen::MatrixXd functions_on_blocks(const Eigen::MatrixXd& functions,
                                     const Eigen::VectorXd& sensitivity,
                                     std::span<const std::size_t> first);

@@ -1,4 +1,4 @@
-// How an effect looks where it was tested, and between.
+// Range of an effect's factor where it was tested, and between.
 #include "trace/plausibility.h"
 
 #include <algorithm>
@@ -9,9 +9,9 @@ namespace frictab::trace {
 
 namespace {
 
-// How an effect's factor looks: over its whole range, and where it was tested.
+// Range of an effect's factor over its whole domain, and at tested values.
 struct FactorRange {
-  double largest = 0; // change of friction
+  double largest = 0; // largest change of friction
   double low = 1, high = 1, tested_low = 1, tested_high = 1;
 
   void include(double factor) {
@@ -21,12 +21,12 @@ struct FactorRange {
   }
 };
 
-// The first input of numbers: the one that is run through.
+// Index of the first numeric input, along which the factor is evaluated.
 std::size_t running_input(const effects::PlacedEffect& effect) {
   return effect.inputs[0].levels.empty() ? 0 : 1;
 }
 
-// Rows of inputs in which all others are at one of their ends, or levels.
+// Rows of inputs in which all other inputs are at one of their ends or levels.
 std::vector<std::vector<double>> corners_of(const effects::PlacedEffect& effect) {
   std::vector<std::vector<double>> rows{{}};
   for (std::size_t i = 0; i < effect.inputs.size(); ++i) {
@@ -85,8 +85,8 @@ FactorRange factor_range(const effects::PlacedEffect& effect, const CandidateCol
 
 } // namespace
 
-// Two things can fit at the tested values as well as the truth does: large changes that cancel
-// there, and humps between those values. Both cost.
+// Two kinds of effect can fit at the tested values as well as the true one: large changes that
+// cancel there, and humps between those values. Both are penalised.
 double implausibility(const effects::PlacedEffect& effect, const CandidateColumn& column) {
   const FactorRange range = factor_range(effect, column);
   if (!std::isfinite(range.largest)) return 1e6;

@@ -9,7 +9,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 MatrixXd orthonormal(const MatrixXd& columns) {
-  if (columns.cols() == 0) return columns; // Eigen decomposes no empty matrix
+  if (columns.cols() == 0) return columns; // Eigen does not decompose empty matrices
   MatrixXd scaled = columns;
   for (Index c = 0; c < scaled.cols(); ++c)
     if (const double norm = scaled.col(c).norm(); norm > 0) scaled.col(c) /= norm;

@@ -1,16 +1,17 @@
-// Linear algebra that every test of the trace stage needs: bases of what is fitted already, so that
-// it can be taken out of what is tested.
+// Linear algebra shared by the tests of the trace stage: bases of fitted directions, to be
+// projected out of tested ones.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace frictab::trace {
 
-// An orthonormal basis Q of what the columns span (QR with column pivoting): x - Q (Q' x) is what
-// they leave of x. Columns that are combinations of others, to 1e-7 of their length, are left out.
+// Returns an orthonormal basis Q of the span of the columns (QR with column pivoting), so that x -
+// Q (Q' x) is the part of x orthogonal to them. Columns that are combinations of others, to 1e-7 of
+// their length, are left out.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
 
-// Puts the columns of `more` behind those of `to`.
+// Appends the columns of `more` to `to`.
 void append_columns(Eigen::MatrixXd& to, const Eigen::MatrixXd& more);
 
 } // namespace frictab::trace

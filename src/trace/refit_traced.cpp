@@ -23,11 +23,11 @@ class Refitter {
 public:
   Refitter(const Search& search, const Rival& rival) : s_(search), rival_(rival) {}
 
-  // The law on some experiments; nothing where these lack a column.
+  // Fits the law to some experiments; returns nothing if these lack a column.
   std::optional<models::Model> fitted_to(const Dataset& data,
                                          calibrate::ModelFit* uncertain = nullptr) const {
     TraceOptions options = s_.input.options;
-    options.order = s_.candidates.order_column; // a part of the tests is not numbered from 1 to n
+    options.order = s_.candidates.order_column; // tests of a part are not numbered 1 to n
     const Dataset none = data.subset({});
     const TraceInput input{data, none, s_.input.fit, options, s_.input.bootstrap, s_.input.seed};
     const Search part(input, &rival_.noise);
@@ -55,7 +55,7 @@ private:
   const Rival& rival_;
 };
 
-// Errors of every experiment by the law fitted without its fold; none where a fold lacks a column.
+// Errors of every experiment by the law fitted without its fold; empty if a fold lacks a column.
 std::vector<calibrate::ErrorSums> cross_validated(const Refitter& refitter, const Dataset& all,
                                                   std::span<const std::size_t> fold_of) {
   const std::size_t folds = *std::max_element(fold_of.begin(), fold_of.end()) + 1;

@@ -1,4 +1,4 @@
-// A law with traced effects, fitted again to all experiments: what deliver = "all" hands on.
+// Refit of a law with traced effects to all experiments, for deliver = "all".
 #pragma once
 
 #include <memory>
@@ -7,12 +7,13 @@
 
 namespace frictab::trace {
 
-// The law of `delivery` with the same effects, its parameters fitted to all experiments under the
-// same kind of weights. Errors to expect by cross-validation: the parameters are fitted anew in
-// every fold, the effects stay those that the search has chosen, by tests that are left out there
-// as well, so that they are a little too small, which is a remark. nullptr, and the law stays as it
-// was traced: of a trained law (its training has seen what would be left out), and where a drift
-// over the order of tests was taken out.
+// Fits the parameters of the law in `delivery` to all experiments under the same kind of weights,
+// with the same effects. Its errors come from cross-validation: every fold refits the parameters
+// but keeps the effects, which the search chose from tests that are left out there as well; the
+// errors are therefore slightly too small, and a remark reports that. Returns nullptr, so the law
+// stays as traced, if the law has no effects or is trained (its training has seen what would be
+// left out), if a drift over the order of tests was removed, or if the data or a fold lack a
+// column.
 std::shared_ptr<const calibrate::ModelFit>
 refit_traced(const Search& search, const Delivery& delivery, const data::Dataset& all);
 

@@ -23,8 +23,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double per_parameter = 2.5;       // of log likelihood, that a parameter has to earn
-constexpr double cost_per_complexity = 1.5; // and a step away from a recorded column
+constexpr double per_parameter = 2.5;       // cost of a parameter, in log likelihood
+constexpr double cost_per_complexity = 1.5; // cost of a step away from a recorded column
 
 void take_parameters(Rival& rival, std::size_t own) {
   std::size_t next = own;
@@ -51,7 +51,7 @@ bool on_limit(const std::vector<PlacedEffect>& effects) {
                      [](const PlacedEffect& e) { return e.acts_on == effects::ActsOn::m; });
 }
 
-// Where an effect's parameters stand among those of the law.
+// Index of the first parameter of each effect among those of the law.
 std::vector<Index> first_parameters(const Rival& rival, std::size_t own) {
   std::vector<Index> first;
   auto next = static_cast<Index>(own);
@@ -89,7 +89,7 @@ void tie_parameters(Campaign& campaign, const Rival& base, double share) {
 
 namespace {
 
-// Of smooth effects, and of the law's own parameters.
+// Penalties of smooth effects and on the law's own parameters.
 Penalty penalties(const Campaign& campaign, const Rival& rival) {
   Penalty all{penalty_of(rival), {}};
   const Index own = campaign.own.centre.size();
@@ -106,7 +106,7 @@ Penalty penalties(const Campaign& campaign, const Rival& rival) {
   return all;
 }
 
-// Of the parameters, penalised ones counted by what they are free to do.
+// Effective number of parameters: penalised ones count by their remaining freedom.
 double freedom_of(const Rival& rival, const Whitener& whitener) {
   const auto count = static_cast<Index>(rival.parameters.size());
   const MatrixXd penalty = penalty_of(rival);
@@ -119,8 +119,7 @@ double freedom_of(const Rival& rival, const Whitener& whitener) {
   return with.ldlt().solve(normal).trace();
 }
 
-// A rival whose effects turn friction negative somewhere, or whose fit is not finite, is not
-// possible.
+// Whether the fit is finite and no effect makes friction negative.
 bool is_possible(const Rival& rival, const Campaign& campaign) {
   return std::isfinite(rival.total) && std::isfinite(rival.freedom) &&
          std::all_of(rival.effects.begin(), rival.effects.end(), [&](const PlacedEffect& effect) {
@@ -170,7 +169,7 @@ models::Law bounded_law(const Campaign& campaign, const Rival& rival) {
 
 namespace {
 
-// Values of the law's own parameters to start from, and behind them m_limit.
+// Start values of the law's own parameters, followed by m_limit if an effect acts on the limit.
 std::vector<double> own_parameters(const Campaign& campaign, const Rival& from) {
   const auto own = static_cast<long>(campaign.law.parameters.size());
   std::vector<double> start(from.parameters.begin(), from.parameters.begin() + own);
@@ -178,12 +177,12 @@ std::vector<double> own_parameters(const Campaign& campaign, const Rival& from) 
   return start;
 }
 
-// When a fit ends: loose where a search is repeated for every fold, tight where the result is
-// handed on.
+// Stopping rule of a fit: loose where a search is repeated for every fold, tight where the result
+// is delivered.
 FitEnd end_of_fit(const Campaign& campaign, NoiseSearch search) {
-  constexpr int few_steps = 12; // from where a fit to selected tests has ended
+  constexpr int few_steps = 12; // from the end of a fit to selected tests
   const bool chooses = campaign.quick || search == NoiseSearch::kept;
-  // Of many tests the cost is so large that a millionth of it is far less than a unit of log
+  // With many tests the cost is so large that a millionth of it is far less than a unit of log
   // likelihood, by which rivals are chosen.
   if (campaign.selection)
     return chooses ? FitEnd{campaign.quick ? 1e-5 : 1e-6, few_steps} : FitEnd{1e-8};
@@ -191,8 +190,8 @@ FitEnd end_of_fit(const Campaign& campaign, NoiseSearch search) {
   return {search == NoiseSearch::kept ? 1e-8 : 1e-11};
 }
 
-// On the blocks of this campaign. `from_selection`: from where a fit to selected tests has ended,
-// under its noise.
+// Fits to the blocks of this campaign. `from_selection`: the start is the end of a fit to selected
+// tests, under its noise.
 Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
                     std::vector<Cause> causes, std::span<const double> parameters,
                     const NoiseModel& noise, NoiseSearch search, bool from_selection = false) {
@@ -218,9 +217,8 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
     rival.predicted = std::move(fit.predicted);
     rival.jacobian = std::move(fit.jacobian);
   };
-  if (!from_selection &&
-      on_limit(
-          rival.effects)) { // first with the limit rounded off, or rows below it would not feel it
+  // First with the limit rounded off, otherwise rows below it have no influence on it.
+  if (!from_selection && on_limit(rival.effects)) {
     const double usual = campaign.measured.cwiseAbs().mean();
     for (const double width : {0.15 * usual, 0.05 * usual})
       refit(LawOnBlocks(extended, campaign.conventions, columns, width));
@@ -267,7 +265,7 @@ Rival fit_rival(const Campaign& campaign, const Rival& from, std::vector<PlacedE
 
 namespace {
 
-// Of the selected tests, where there are any.
+// Fits noise to the selected tests if there is a selection, else to all.
 template <class Fit>
 NoiseModel noise_by(const Campaign& campaign, const NoiseData& data, const Fit& fit) {
   if (!campaign.selection) return fit(data).noise;
@@ -340,7 +338,7 @@ Rival less_effect(Rival rival, std::size_t index) {
   std::size_t of_effects = 0;
   for (const PlacedEffect& effect : rival.effects)
     of_effects += effects::fitted_parameters(effect).size();
-  const bool limit = rival.parameters.size() > rival.own + of_effects; // m_limit, behind them
+  const bool limit = rival.parameters.size() > rival.own + of_effects; // m_limit, after them
   rival.parameters.erase(rival.parameters.begin() + first,
                          rival.parameters.begin() + first + count);
   rival.effects.erase(rival.effects.begin() + static_cast<long>(index));

@@ -1,4 +1,4 @@
-// Each effect by how many standard errors it is from none.
+// Certainty of each effect, in standard errors from "no effect".
 #include "trace/rows_alike.h"
 
 #include <cmath>
@@ -16,19 +16,21 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double in_doubt = 1.96; // standard errors from no effect: the 95 % interval holds it
+// standard errors below which the 95 % interval includes "no effect"
+constexpr double in_doubt = 1.96;
 
 double largest_ratio(const VectorXd& sizes, const VectorXd& errors) {
   double most = 0;
   for (Index i = 0; i < sizes.size(); ++i) {
-    if (std::isnan(errors(i))) return HUGE_VAL; // not known: such an effect stays
+    if (std::isnan(errors(i))) return HUGE_VAL; // not known: the effect stays
     if (sizes(i) != 0) most = std::max(most, std::abs(sizes(i)) / errors(i));
   }
   return most;
 }
 
-// The most standard errors by which the factor differs at any block from 1, or from its own mean:
-// what is the same everywhere may lie in the law's parameters as well, and have a large error.
+// Largest distance of the factor from 1, or from its own mean, at any block, in standard errors.
+// The mean is needed because a constant factor may be attributed to the law's parameters as well,
+// and then has a large error.
 double certainty(const Campaign& campaign, const effects::PlacedEffect& effect,
                  const MatrixXd& covariance) {
   std::vector<const double*> columns;

@@ -1,8 +1,8 @@
-// A traced law with all rows alike, and the effects that nothing is left of then.
+// Fit of a traced law with equal weights for all rows, and removal of effects that vanish in it.
 //
-// Effects are found under the noise model (rivals.h). Where all rows weigh alike in the law that is
-// delivered (delivery.h), its parameters are others, and an effect may have become none within its
-// error: it would go into tables and routines and say nothing.
+// Effects are found under the noise model (rivals.h). Where the delivered law weighs all rows
+// equally (delivery.h), its parameters differ, and the confidence interval of an effect may include
+// "no effect": the effect would burden tables and routines for nothing.
 #pragma once
 
 #include "trace/rivals.h"
@@ -11,12 +11,12 @@ namespace frictab::trace {
 
 struct FittedAlike {
   Rival rival;
-  std::vector<std::size_t> kept; // which of the effects are still in it
+  std::vector<std::size_t> kept; // indices of the effects that are still in it
 };
 
-// Ordinary least squares. Then, one after another, the effect that is least certain is taken out
-// and the rest fitted again, as long as there is one that at no block differs from "no effect", nor
-// from its mean over all blocks, by more than its 95 % interval (cluster sandwich by test).
+// Fits by ordinary least squares. Then repeatedly removes the least certain effect and refits the
+// rest, as long as that effect differs at no block by more than its 95 % interval (cluster sandwich
+// by test) from "no effect", or from its mean over all blocks.
 FittedAlike fit_rows_alike(const Campaign& campaign, const Rival& rival);
 
 } // namespace frictab::trace

@@ -1,5 +1,5 @@
-// The noise model's floor, and chi-square limits of the scatter between experiments (Paule and
-// Mandel's, so that a slope of its own in each test is no scatter of the gain).
+// Noise model's floor, and chi-square limits of the scatter between experiments (Paule and Mandel's
+// estimate, in which a separate slope in each test does not count as scatter of the gain).
 #include "trace/scatter.h"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Mean square of the measured rows about a straight line through each block: the noise that block
-// means have averaged away.
+// Mean square of the measured rows about a straight line through each block: the noise averaged
+// away in block means.
 double within_blocks(const data::Dataset& training, const Blocks& blocks) {
   const auto tau = training.values("tau_R_MPa");
   double sum = 0;
@@ -38,10 +38,10 @@ double within_blocks(const data::Dataset& training, const Blocks& blocks) {
       xx += dx * dx;
       yy += dy * dy;
     }
-    // Of two rows a line would leave nothing: their mean is taken instead.
+    // A line through two rows leaves nothing, so their mean is used.
     sum += end - begin == 2 ? yy : std::max(yy - xy * xy / xx, 0.0) * (n - 1) / (n - 2);
   }
-  if (training.condensed) // the means' own scatter is below a row's, and holds none of this
+  if (training.condensed) // the means scatter less than rows, and lack the scatter within them
     return (std::accumulate(training.condensed->within_MPa2.begin(),
                             training.condensed->within_MPa2.end(), 0.0) +
             sum * static_cast<double>(training.rows_behind()) /
@@ -50,15 +50,15 @@ double within_blocks(const data::Dataset& training, const Blocks& blocks) {
   return sum / static_cast<double>(training.rows());
 }
 
-// Not below 0. The variance of heavy-tailed values is known less well, as if there were fewer of
-// them: degrees of freedom are divided by 1 + kurtosis/2.
+// Excess kurtosis, at least 0. The variance of heavy-tailed values is less certain, as if there
+// were fewer of them: their degrees of freedom are divided by 1 + kurtosis/2.
 double excess_kurtosis(const VectorXd& values) {
   const Eigen::ArrayXd squares = (values.array() - values.mean()).square();
   const double variance = squares.mean();
   return variance > 0 ? std::max(0.0, squares.square().mean() / (variance * variance) - 3) : 0;
 }
 
-// Mean over experiments of a residual's covariance, by the noise model fitted to it.
+// Mean over experiments of the variance of a residual, by the noise model fitted to it.
 double modelled_variance(const Search& search, const Rival& last) {
   const VectorXd residual = search.campaign().measured - last.predicted;
   const MatrixXd& nuisance = search.campaign().nuisance;
@@ -71,10 +71,10 @@ double modelled_variance(const Search& search, const Rival& last) {
 
 void add_floor(Trace& trace, const Search& search, const Rival& last) {
   const data::Dataset& training = search.input.training;
-  // What a law leaves, with the fitted parameters' share, is more than the noise. (Of few
-  // experiments the likelihood may take any scatter for possible; and under the noise model's
-  // weights a law that lacks something within tests may predict them as a whole far worse than it
-  // did as it was calibrated.)
+  // Upper bound of the noise: the RMSE of a law, corrected for the fitted parameters. (With few
+  // experiments the likelihood may accept any scatter; and under the noise model's weights a law
+  // that lacks something within tests may predict tests as a whole far worse than the calibrated
+  // law.)
   const calibrate::Metrics &after = trace.after.training, &before = trace.as_calibrated.training;
   const calibrate::Metrics& least = before.rmse_MPa < after.rmse_MPa ? before : after;
   const double experiments = static_cast<double>(training.experiments.size());
@@ -91,7 +91,7 @@ void add_floor(Trace& trace, const Search& search, const Rival& last) {
   trace.noise_floor.n_experiments = training.experiments.size();
 }
 
-// Scatter among repeated tests, pooled; 0 where fewer than three can be compared.
+// Scatter among repeated tests, pooled; 0 if fewer than three can be compared.
 struct Repeats {
   double scatter = 0, degrees = 0;
 };
@@ -141,7 +141,7 @@ void add_scatter(Trace& trace, const Search& search, const Rival& last) {
   if (!(repeats.scatter > 0)) return;
   trace.repeatability = repeats.scatter;
   trace.repeatability_from = "repeats";
-  // The repeatability is an estimate as well, so the bound is that of a ratio of variances (F).
+  // The repeatability is an estimate too, so the bound is that of a ratio of variances (F).
   trace.scatter_at_least = share / std::sqrt(gsl_cdf_fdist_Pinv(0.95, degrees, repeats.degrees));
 }
 

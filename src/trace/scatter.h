@@ -1,4 +1,4 @@
-// What stays unexplained: the noise floor, and how much of the scatter lies between experiments.
+// Unexplained scatter: the noise floor, and the part of the scatter that lies between experiments.
 #pragma once
 
 #include "trace/search.h"
@@ -6,10 +6,9 @@
 namespace frictab::trace {
 
 // Fills noise_floor, scatter_between, its interval and lower bound, and repeatability where tests
-// were repeated. The floor is the RMSE that the noise model expects of an exact law, and the MAE
-// that belongs to it by the ratio that the residuals have: no law goes below, if nothing else is
-// missing. It is not above what the law as it was calibrated leaves, but for the share that its
-// parameters have taken.
+// were repeated. The floor is the RMSE that the noise model expects of an exact law, and the
+// corresponding MAE by the ratio that the residuals have: if nothing else is missing, no law has a
+// smaller error. It is capped at the calibrated law's RMSE, corrected for the degrees of freedom.
 void add_scatter(Trace& trace, const Search& search, const Rival& last);
 
 } // namespace frictab::trace

@@ -1,4 +1,4 @@
-// What a search starts from: candidates, the law on blocks, its fit without effects.
+// Start of a search: candidates, the law on blocks, its fit without effects.
 #include "trace/search.h"
 
 #include <algorithm>
@@ -22,17 +22,18 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of the information of a law's own parameters, that ties them where effects are in: nothing that
-// the tests tell apart, all that only other states would.
+// Shares of the information about a law's own parameters that tie them when effects are in
+// (tie_parameters): a tenth is negligible where the tests separate a parameter from an effect, and
+// decides where only other states would.
 constexpr double tied = 0.1, tied_by_one_factor = 1;
-constexpr double negligible_share = 1e-4; // of tau_R: the residual of a law that is exact
+constexpr double negligible_share = 1e-4; // of tau_R: largest residual of a law that is exact
 
 bool is_trained(const models::Law& law) {
   return models::is_trained(law.calibrated);
 }
 
-// A trained law could have absorbed much that its one parameter cannot show: quadratic
-// functions of its inputs stand for that.
+// Quadratic functions of the inputs of a trained law: they represent the structure that it could
+// have absorbed, which its one parameter cannot show.
 MatrixXd trained_directions(const std::vector<std::string>& inputs, const BlockColumns& columns,
                             const VectorXd& predicted) {
   std::vector<VectorXd> z;
@@ -55,8 +56,8 @@ MatrixXd trained_directions(const std::vector<std::string>& inputs, const BlockC
   return directions;
 }
 
-// A trained law is a large formula of which only the scale is fitted here: its piece becomes a
-// column, so that a fit costs what it costs for any other law.
+// Law in which the trained part becomes a column, so that a fit costs as little as for other laws:
+// only the scale of the large formula is fitted here.
 models::Law with_piece_as_column(const Model& model, const Blocks& blocks,
                                  const data::Dataset& data, BlockColumns& columns) {
   const models::Law& law = *model.law;
@@ -109,8 +110,8 @@ void Search::make_campaign(bool quick) {
                                                   {},
                                                   quick,
                                                   select_tests(blocks, candidates, input.seed)});
-  // The law at a block's mean state is not the mean of the law over the block where it is curved:
-  // that difference is taken off the measured means, once, as the calibrated law has it.
+  // A curved law at a block's mean state differs from its mean over the block. That difference is
+  // subtracted from the measured means once, as computed with the calibrated law.
   const LawOnBlocks law(surrogate_, model.conventions, candidates.by_symbol);
   campaign_->measured -=
       blocks.mean(calibrate::predict(model, input.training)) - law.predict(model.parameters);

@@ -1,4 +1,4 @@
-// All terms at once; then what follows the order of tests.
+// All terms at once; then structure along the order of tests.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ private:
       if (!is_in(one.cause)) note_confounded(s_, one.suspects, one.p_value);
   }
 
-  // All enter as the causes that the search names; then each is compared with what comes near it.
+  // Adds all findings with the causes that the search names; then compares each with those near it.
   void add(const JointResult& result) {
     std::vector<Finding> found;
     std::vector<const JointFinding*> of;
@@ -78,7 +78,7 @@ private:
     s_.findings = std::move(found);
   }
 
-  // The effect `index` with the other causes that come near it.
+  // Compares the effect `index` with the other causes near it.
   void compare(std::size_t index, const JointFinding& one, std::vector<Suspect> suspects,
                Finding& finding) {
     const Rival all = s_.last();
@@ -103,7 +103,7 @@ private:
     if (cause != own) s_.move_to(choose_form(s_, s_.last(), index).front());
   }
 
-  // The last effect moved to this place.
+  // Moves the last effect to position `index`.
   Rival in_place(const Rival& rival, std::size_t index) const {
     std::vector<effects::PlacedEffect> effects = rival.effects;
     std::vector<Cause> causes = rival.causes;
@@ -118,14 +118,16 @@ private:
     return std::find(in.begin(), in.end(), cause) != in.end();
   }
 
-  // Where folds found the same, it is the same that was taken for it.
+  // Renames a cause in folds that have found the same one, because it would have been replaced
+  // there too.
   void rename_in_folds(const Cause& from, const Cause& to) {
     for (CauseFold& fold : s_.folds)
       if (std::find(fold.causes.begin(), fold.causes.end(), to) == fold.causes.end())
         std::replace(fold.causes.begin(), fold.causes.end(), from, to);
   }
 
-  // An effect of a history of the stress itself may have no stress that agrees with it.
+  // Whether the predictions converge: an effect of a history of the stress itself may have no
+  // consistent stress.
   bool settles(const Rival& rival) const {
     try {
       const models::Model model = s_.model_of(rival);
@@ -152,7 +154,7 @@ private:
     }
   }
 
-  // The law with the effects up to this one.
+  // Returns the law with the effects up to this one.
   Rival up_to(std::size_t index) const {
     const Rival& all = s_.last();
     if (index + 1 == all.effects.size()) return all;

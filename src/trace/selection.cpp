@@ -1,4 +1,4 @@
-// Draws tests, and takes their blocks out of all.
+// Draws tests and copies their blocks.
 #include "trace/selection.h"
 
 #include <numeric>

@@ -1,6 +1,6 @@
-// Whole tests that stand for all of a large campaign where a few hundred determine a thing as well:
-// the few parameters of the noise model, where a fit starts, which forms deserve to be fitted to
-// all tests. Whatever gives a p-value, a size or an error takes every test.
+// Selection of whole tests that represents a large campaign for purposes that a few hundred tests
+// serve as well: the few parameters of the noise model, starts of fits, the choice of forms to fit
+// to all tests. P-values, sizes and errors always use every test.
 #pragma once
 
 #include <memory>
@@ -10,19 +10,19 @@
 namespace frictab::trace {
 
 struct Selection {
-  std::vector<Eigen::Index> rows; // blocks of the selected tests, among all
-  Blocks blocks;                  // those; `usual_rows` is that of all
-  Candidates candidates;          // with values of those in by_symbol, none in the columns
+  std::vector<Eigen::Index> rows; // indices of the selected tests' blocks
+  Blocks blocks;                  // blocks of these tests; `usual_rows` is that of all tests
+  Candidates candidates;          // with values in by_symbol only, none in the columns
   double share = 1;               // of all blocks
 };
 
-// As many as the largest campaign that is not cut. (Of so many tests a standard deviation between
-// tests is known to 1/sqrt(2 x 200), 5 %, which moves no weight that matters.)
+// As many as in the largest campaign that is not reduced. (200 tests determine a standard deviation
+// between tests to 1/sqrt(2 x 200) = 5 %, which changes no weight that matters.)
 inline constexpr std::size_t selected_tests = uncut_experiments;
 
-// Spread evenly over the tests as they are sorted: one, drawn by `seed`, of each of 200 runs of
-// neighbours. (At equal steps they could meet the same level of a factorial design every time.)
-// nullptr where there are no more tests than that.
+// Selects evenly over the tests in their sorted order: from each of 200 runs of neighbours one,
+// drawn by `seed`. (Equal steps could hit the same level of a factorial design every time.) Returns
+// nullptr if the campaign has no more tests than that.
 std::shared_ptr<const Selection> select_tests(const Blocks& blocks, const Candidates& candidates,
                                               std::uint64_t seed);
 

@@ -17,7 +17,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A form with a position and a width (a hump, a step) has structure of that width there.
+// Whether a form has a position and a width (a hump, a step), so that it has structure of that
+// width.
 bool is_local(const PlacedEffect& effect) {
   const auto fitted = effects::fitted_parameters(effect);
   const std::size_t amplitudes = effects::amplitudes_of(effect);
@@ -28,8 +29,8 @@ bool is_local(const PlacedEffect& effect) {
   return fitted.size() > amplitudes + 1 && has(true) && has(false);
 }
 
-// In the order in which the form takes them: text before numbers; the sliding of a recovery is what
-// grows within a test, its pause stands beside the test.
+// Columns in the order in which the form takes them: text before numbers; for a recovery, the
+// sliding, which grows within a test, before the pause, which is constant in it.
 std::vector<const CandidateColumn*> columns_of(const effects::EffectForm& form, const Cause& cause,
                                                const Candidates& candidates) {
   std::vector<const CandidateColumn*> columns;
@@ -78,14 +79,14 @@ bool is_angle(const std::string& name) {
   return name.ends_with("_deg") || name.find("angle") != std::string::npos;
 }
 
-// Distance or time: along anything else a wave is a way to bend.
+// Whether it is a distance or a time: along any other column a wave is only a flexible curve.
 bool is_along(const std::string& name) {
   return name == "s_mm" || name == "time_s" || name == "sliding_distance" ||
          name == "time_since_start";
 }
 
-// A form that needs positive values, or degrees, is tried where it has a meaning. Of two values a
-// line says all.
+// Whether a form makes sense for a column. Some need positive values or degrees; two values
+// determine only a line.
 bool has_meaning(const effects::EffectForm& form, const CandidateColumn& x) {
   if (form.columns == 1 && x.two_values) return form.name == "linear";
   if (form.name == "arrhenius")
@@ -94,7 +95,7 @@ bool has_meaning(const effects::EffectForm& form, const CandidateColumn& x) {
     return x.spread.median > 0 && x.spread.minimum >= 0;
   if (form.name == "saturation" || form.name == "stribeck")
     return x.spread.minimum >= 0 && x.spread.minimum < 0.5 * x.spread.maximum;
-  // A wave is seen along an experiment; from test to test it imitates whatever lies between.
+  // A wave is visible along an experiment; from test to test it imitates any structure.
   if (form.name == "periodic") return x.reach > 0.5 && is_along(x.name);
   if (form.name == "cosine") return is_angle(x.name);
   if (form.name == "hysteresis") return x.name == "load_ratio";
@@ -109,7 +110,7 @@ bool is_recovery(const CandidateColumn& slid, const CandidateColumn& pause) {
           is_time("dwell") || is_time("wait"));
 }
 
-// Structure between values that were never tested.
+// Whether the shape has structure between values that were never tested.
 bool too_narrow(const PlacedEffect& effect, double gap) {
   if (!is_local(effect)) return false;
   const auto all = effects::parameters_of(effect);
@@ -118,7 +119,7 @@ bool too_narrow(const PlacedEffect& effect, double gap) {
   return false;
 }
 
-// One direction per level against the others; of a pair, times the number behind it.
+// One direction per level against the others; for a pair, multiplied by the number after it.
 std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candidates) {
   const CandidateColumn& x = candidates.columns[cause.columns[0]];
   const effects::EffectForm& form =
@@ -138,11 +139,12 @@ std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candid
   return shapes;
 }
 
-// A shape about its mean, of norm 1: told from others by its first quarter where that is enough.
+// A shape about its mean, scaled to norm 1. It is compared with others by its first quarter, if
+// that suffices.
 struct Centred {
   Eigen::VectorXf values;
   Index quarter;
-  float rest; // norm behind that quarter
+  float rest; // norm of the part after that quarter
 
   explicit Centred(Eigen::VectorXf of_norm_1)
       : values(std::move(of_norm_1)), quarter(values.size() / 4),
@@ -156,7 +158,7 @@ struct Centred {
   }
 };
 
-// Shapes that say almost the same are tried once.
+// Keeps one of several nearly equal shapes.
 void keep_different(std::vector<GridShape>& shapes) {
   std::vector<GridShape> kept;
   std::vector<Centred> seen;
@@ -181,13 +183,13 @@ std::vector<const double*> inputs_on(const PlacedEffect& effect, const BlockColu
   return data;
 }
 
-// Factors of one form along its grid. To make a program takes as long as to run it over thousands
-// of blocks, and along a grid only values change that it takes as they come.
+// Factors of one form along its grid. Compiling a program takes as long as running it over
+// thousands of blocks, so it is compiled once: along a grid only its argument values change.
 class GridOfForm {
 public:
   explicit GridOfForm(const BlockColumns& columns) : columns_(columns) {}
 
-  // d factor/d amplitude.
+  // Derivative of the factor by the amplitude.
   Eigen::VectorXf direction(const PlacedEffect& effect) {
     if (!bound_ || references_of(effect) != references_) bind(effect);
     Eigen::VectorXf direction(static_cast<Index>(bound_->rows()));
@@ -201,7 +203,7 @@ public:
   }
 
 private:
-  // Parameters that are not fitted: constants of the program.
+  // Parameters that are not fitted, which are constants of the program.
   static std::vector<double> references_of(PlacedEffect effect) {
     effects::set_fitted(effect, std::vector<double>(effects::fitted_values(effect).size(), 0.0));
     return effect.parameters;
@@ -263,7 +265,7 @@ bool form_fits(const effects::EffectForm& form, const Cause& cause, const Candid
 
 namespace {
 
-// Where both change within tests: between tests a threshold in two columns fits anything.
+// Whether both columns vary within tests: between tests a threshold in two columns fits anything.
 bool both_move(const Cause& cause, const Candidates& candidates) {
   return std::all_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
     return candidates.columns[c].within && !candidates.columns[c].derived;
@@ -306,7 +308,7 @@ void bound_shapes(models::Law& extended, std::size_t own, std::span<const Placed
     const std::vector<models::Parameter> fitted = effects::fitted_parameters(effect);
     for (std::size_t p = effects::amplitudes_of(effect); p < fitted.size(); ++p) {
       const effects::EffectInput* of = effects::input_of(fitted[p], effect);
-      if (!of) continue; // the form's own bounds
+      if (!of) continue; // keeps the form's own bounds
       const effects::EffectInput& input = *of;
       models::Parameter& parameter = extended.parameters[next + p];
       const double span = input.high - input.low;

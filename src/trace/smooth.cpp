@@ -1,4 +1,4 @@
-// One generalised eigenproblem, then every stiffness costs a sum.
+// One generalised eigenproblem; each stiffness then costs a sum.
 #include "trace/smooth.h"
 
 #include <algorithm>
@@ -15,16 +15,17 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double softest = -14, stiffest = 8; // log of stiffness over the basis' usual size
+// logarithm of the stiffness over the basis' typical size
+constexpr double softest = -14, stiffest = 8;
 
-// In coordinates in which both normal matrix and penalty are diagonal.
+// Fit in coordinates in which normal matrix and penalty are both diagonal.
 struct Diagonal {
-  VectorXd normal;  // penalty 1
+  VectorXd normal;  // the penalty is 1
   VectorXd along;   // basis' residual
   double left = 0;  // squared residual
   double count = 0; // degrees of freedom of the residual
 
-  // Patterson and Thompson (1971), the residual's variance profiled out.
+  // Criterion of Patterson and Thompson (1971), with the residual's variance profiled out.
   double criterion(double stiffness) const {
     const Eigen::ArrayXd m = normal.array() + stiffness;
     const double rest = left - (along.array().square() / m).sum();
@@ -62,7 +63,7 @@ SmoothFit fit_smooth(const VectorXd& residual, const MatrixXd& basis, const Matr
   const VectorXd r = residual - known * (known.transpose() * residual);
   const MatrixXd z = basis - known * (known.transpose() * basis);
   const Eigen::LLT<MatrixXd> root(penalty);
-  // z' z and penalty = L L': eigenvectors of L^-1 z'z L^-T.
+  // With penalty = L L': eigenvectors of L^-1 z'z L^-T.
   MatrixXd normal = z.transpose() * z;
   root.matrixL().solveInPlace(normal);
   root.matrixU().solveInPlace<Eigen::OnTheRight>(normal);

@@ -18,11 +18,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double log_span = 4, log_span_from_zero = 8; // of a column that is taken in ln x
-constexpr double least_part = 0.05; // quantile of what is above 0: added where a column starts at 0
+// ratio of largest to least value, from which on a column is taken in ln x
+constexpr double log_span = 4, log_span_from_zero = 8;
+// quantile of the positive values, added to a column that starts at 0
+constexpr double least_part = 0.05;
 constexpr std::size_t few_values = 6;
 constexpr std::size_t most_knots = 9;
-constexpr double least_gap = 0.01; // of the range, between knots
+constexpr double least_gap = 0.01; // fraction of the range, between knots
 constexpr Index bends_of_pair = 3;
 
 double quantile(const std::vector<double>& sorted, double share) {
@@ -48,7 +50,7 @@ void standardise(VectorXd& z) {
   if (sd > 0) z /= sd;
 }
 
-// Mean 0, mean square 1.
+// Scales to mean 0 and mean square 1.
 VectorXd coordinate(const VectorXd& x) {
   const std::vector<double> values = sorted_values(x);
   const double low = values.front(), high = values.back();
@@ -63,7 +65,8 @@ VectorXd coordinate(const VectorXd& x) {
   return z;
 }
 
-// Half way between quantiles and equal distances: quantiles alone leave gaps where few tests are.
+// Knots half way between quantiles and equal distances: quantiles alone leave gaps where few tests
+// are.
 std::vector<double> knots_of(const VectorXd& z) {
   const std::vector<double> values = sorted_values(z);
   if (values.size() <= most_knots) return values;
@@ -77,8 +80,8 @@ std::vector<double> knots_of(const VectorXd& z) {
   return knots;
 }
 
-// Values between the knots of the natural cubic spline through 1 at one knot and 0 at the others: a
-// column per knot.
+// Values at z of the natural cubic splines that are 1 at one knot and 0 at the others; one column
+// per knot.
 MatrixXd cardinal_splines(const VectorXd& z, const std::vector<double>& knots) {
   const auto n = static_cast<Index>(knots.size());
   const auto gap = [&](Index i) {
@@ -93,7 +96,7 @@ MatrixXd cardinal_splines(const VectorXd& z, const std::vector<double>& knots) {
     q(i, i + 1) = -1 / gap(i) - 1 / gap(i + 1);
     q(i, i + 2) = 1 / gap(i + 1);
   }
-  MatrixXd bending = MatrixXd::Zero(n, n); // at knots x of knots
+  MatrixXd bending = MatrixXd::Zero(n, n); // rows: knots; columns: splines
   bending.middleRows(1, n - 2) = r.colPivHouseholderQr().solve(q);
   MatrixXd values(z.size(), n);
   for (Index b = 0; b < z.size(); ++b) {
@@ -110,7 +113,7 @@ MatrixXd cardinal_splines(const VectorXd& z, const std::vector<double>& knots) {
   return values;
 }
 
-// Off straight lines of z, mean square 1 in all.
+// Bent part: splines orthogonal to straight lines in z, with total mean square 1.
 MatrixXd bends_of(const VectorXd& z) {
   const std::vector<double> knots = knots_of(z);
   if (knots.size() < 3) return MatrixXd(z.size(), 0);
@@ -121,7 +124,7 @@ MatrixXd bends_of(const VectorXd& z) {
   MatrixXd turn = eigen.eigenvectors().rightCols(n - 2);
   for (Index c = 0; c < turn.cols(); ++c) {
     turn.col(c) /= std::sqrt(eigen.eigenvalues()(c + 2));
-    Index largest = 0; // its sign is the solver's choice
+    Index largest = 0; // eigenvectors have an arbitrary sign
     turn.col(c).cwiseAbs().maxCoeff(&largest);
     if (turn(largest, c) < 0) turn.col(c) *= -1;
   }
@@ -133,7 +136,7 @@ MatrixXd bends_of(const VectorXd& z) {
   return bends / std::max(size, 1e-300);
 }
 
-// A column per level, about its share.
+// One column per level, minus its share.
 MatrixXd factor_of(const CandidateColumn& column) {
   const auto levels = static_cast<Index>(column.levels.size());
   MatrixXd is(column.values.size(), levels);

@@ -1,11 +1,11 @@
-// What a missing effect may look like, as columns of a regression on the logarithm of friction: a
-// term is a smooth curve of a number, a factor per level of a text, or a product of two of these.
+// Terms: possible effects as columns of a regression on the logarithm of friction. A term is a
+// smooth curve of a number, a factor per level of a text, or a product of two of these.
 //
-// A curve has a straight part and a bent one (natural cubic spline; its coefficients are
-// independent in advance, the smoothest bend first), in ln x where x is positive and spans a factor
-// of four. A pair has straight x straight, and straight x the three smoothest bends of the other.
-// All parts are scaled to a mean square of 1 over the campaign, so that a coefficient is the size
-// of an effect, in ln of friction.
+// A curve has a straight part and a bent one, in ln x where x is positive and spans a factor of
+// four. The bent part is a natural cubic spline, in coordinates in which its coefficients are
+// independent a priori, the smoothest bend first. A pair has straight x straight, and straight x
+// the three smoothest bends of the other column. All parts are scaled to a mean square of 1 over
+// the campaign, so that a coefficient is the size of an effect, in ln of friction.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@
 
 namespace frictab::trace {
 
-// Per block: the straight columns, then the bent ones.
+// Columns of a term, per block: straight ones, then bent ones.
 struct TermBasis {
   Eigen::MatrixXd columns;
   Eigen::Index straight = 0;
@@ -25,7 +25,7 @@ struct TermBasis {
 class TermMaker {
 public:
   explicit TermMaker(const Candidates& candidates);
-  TermBasis of(const Cause& cause) const; // of one or two columns
+  TermBasis of(const Cause& cause) const; // for a cause of one or two columns
 
 private:
   std::vector<TermBasis> of_column_;

@@ -1,4 +1,4 @@
-// Every reading of three numbers as a date is tried on all texts.
+// Tries every interpretation of three numbers as a date on all texts.
 #include "trace/test_dates.h"
 
 #include <algorithm>
@@ -16,9 +16,9 @@ namespace frictab::trace {
 namespace {
 
 struct Stamp {
-  std::array<int, 3> field; // of the date, as they stand
+  std::array<int, 3> field; // of the date, in the order of the text
   std::array<std::size_t, 3> digits;
-  bool points = false; // between them: only the day stands first then
+  bool points = false; // with points between them only the day may come first
   double seconds = 0;  // of the day
 };
 
@@ -57,13 +57,13 @@ std::optional<Stamp> read_stamp(const std::string& text) {
   return stamp;
 }
 
-// Which field is the year, the month and the day.
+// Positions of year, month and day.
 struct Reading {
   std::size_t year, month, day;
 };
 constexpr Reading readings[] = {{0, 1, 2}, {2, 1, 0}, {2, 0, 1}};
 
-// Seconds; nothing where the calendar has no such day.
+// Time in seconds; none if the calendar does not have such a day.
 std::optional<double> time_of(const Stamp& stamp, const Reading& as) {
   if (stamp.digits[as.month] > 2 || stamp.digits[as.day] > 2) return std::nullopt;
   if (stamp.points && as.day != 0 && stamp.digits[0] != 4) return std::nullopt;
@@ -80,7 +80,7 @@ std::optional<double> time_of(const Stamp& stamp, const Reading& as) {
   return 86400.0 * static_cast<double>(days) + stamp.seconds;
 }
 
-// Of each value its place among all, from 0; equal ones share theirs.
+// Rank of each value, from 0; equal values share a rank.
 template <class Value> std::vector<double> places_of(const std::vector<Value>& values) {
   std::vector<Value> sorted = values;
   std::sort(sorted.begin(), sorted.end());
@@ -92,7 +92,7 @@ template <class Value> std::vector<double> places_of(const std::vector<Value>& v
   return places;
 }
 
-// In the order of time; nothing where the reading fits not all of them.
+// Positions in order of time; none if the reading does not fit all of them.
 std::optional<std::vector<double>> places(const std::vector<Stamp>& stamps, const Reading& as) {
   std::vector<double> times;
   for (const Stamp& stamp : stamps) {

@@ -1,4 +1,4 @@
-// The stage: search, the law with its effects, what it is worth, and in words what was found.
+// Stage: search, the law with its effects, their value, and a report.
 #include "trace/trace.h"
 
 #include <algorithm>
@@ -90,8 +90,8 @@ private:
     return calibrate::metrics(data, predicted, in_.bootstrap, in_.seed);
   }
 
-  // On the validation tests, as all laws are, however few; where there are none, on training tests
-  // left out in turn.
+  // Judges on the validation tests like all other laws, however few; without any, on left-out
+  // training tests.
   void judge(Trace& trace) const {
     calibrate::ModelFit& fit = trace.extended;
     if (!in_.searched.empty()) {
@@ -119,7 +119,7 @@ private:
     fit.band = calibrate::check_band(fit.model, unseen, in_.validation);
   }
 
-  // The law that is handed on; none where nothing was added and nothing taken out.
+  // Adds the delivered law, unless no effect was added and no structure removed.
   void add_law(Trace& trace) {
     const Rival& rival = delivery_.rival;
     if (rival.effects.empty() && !search_.order.found) return;
@@ -210,7 +210,7 @@ private:
       effect.design = design_in_turn(search_, cause, gains_scatter());
   }
 
-  // Relative, between tests.
+  // Relative scatter between tests.
   double gains_scatter() const {
     const Eigen::VectorXd& gain = search_.gains;
     return std::sqrt((gain.array() - gain.mean()).square().mean());
@@ -221,10 +221,10 @@ private:
   const TraceInput& in_;
   const Search& search_;
   Delivery delivery_;
-  calibrate::Uncertainty uncertainty_; // of the law that is handed on
+  calibrate::Uncertainty uncertainty_; // of the delivered law
 };
 
-// Tests and columns by name: nothing may depend on the order in which they were filed.
+// Sorts tests and columns by name, so that results do not depend on their order in files.
 data::Dataset in_order_of_names(const data::Dataset& data) {
   std::vector<std::size_t> order(data.experiments.size());
   std::iota(order.begin(), order.end(), 0);

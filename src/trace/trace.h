@@ -1,41 +1,40 @@
-// The trace stage: does the residual of a calibrated law have structure, which recorded quantity
-// does it follow, how does the law look with that effect in it, and how much better does it
-// predict?
+// Trace stage: finds out whether the residual of a calibrated law has structure, which recorded
+// quantity it follows, in which form, and how much better the law predicts with that effect.
 //
-// The folder, in the order in which a trace runs (docs/tracing.md says why):
+// Files, in the order in which a trace runs (docs/tracing.md explains the method):
 //   trace.cpp          the stage: sorts the data by name, searches, delivers, reports
-//   what a search works on
+//   input of a search
 //     blocks           rows of an experiment as at most 40 block means
-//     selection        200 tests that stand for all where there are many more
+//     selection        200 tests that represent a larger campaign
 //     candidates       columns, histories and pairs that an effect may follow (a Cause)
 //     shapes           forms of an effect of a cause, before it is fitted
-//     law_on_blocks    a law on blocks: predictions, derivatives, weighted fits (gram: their sums)
+//     law_on_blocks    a law on blocks: predictions, derivatives, weighted fits (gram: J'J)
 //     noise, noise_fit the covariance of residuals, and its fit
 //     rivals           a law with some effects, fitted together with the noise (a Rival)
-//     directions       derivatives of tau_R: what is known, what an effect would change
-//     projection       bases, to take what is known out of what is tested
+//     directions       derivatives of tau_R: by fitted parameters, by an effect's factor
+//     projection       orthonormal bases that take fitted directions out of tested ones
 //   the search
 //     search           its state
-//     search_effects   the recipe: one search, then what follows the order of tests
-//     joint            response, law and terms of a campaign, and what was found in its words
+//     search_effects   the recipe: one search, then structure along the order of tests
+//     joint            response, law and terms of a campaign; findings as causes
 //     modes, terms     tests as means and cosines; curves, factors and products as columns
-//     joint_model      one penalised mixed model of all that
-//     joint_search     which terms the residual follows more than any would by chance
-//     joint_choice     which of them pay on tests left out
-//     choose_effect    which of the causes near a finding, in which form, with smooth and
+//     joint_model      one penalised mixed model with all terms
+//     joint_search     terms that the residual follows more than by chance
+//     joint_choice     terms that improve predictions of left-out tests
+//     choose_effect    the cause among those near a finding, and its form, with smooth and
 //                      plausibility
-//     order_search     what the order of tests explains as well, with order_test
-//   what comes of it
-//     nested_errors    the law with what is found without some tests, on those
-//     delivery         which findings are delivered with the law
-//     leads, design    what is not, and the tests that would settle it, with candidate_tests;
-//                      followers: what may follow from friction
-//     refit_traced     the law with them, fitted again to all experiments
+//     order_search     structure along the order of tests, with order_test
+//   its results
+//     nested_errors    errors on tests that neither a search nor a fit has seen
+//     delivery         findings that are delivered with the law
+//     leads, design    the other findings, and the tests that would settle them, with
+//                      candidate_tests; followers: columns that may follow from friction
+//     refit_traced     the law with the effects, fitted again to all experiments
 //     uncertainty      standard errors of its parameters
-//     scatter          what stays unexplained
+//     scatter          unexplained scatter
 //     effect_curve     curves for plots
-//     aliases          what the design ties to a state: neither found nor missing
-//     verdict          one word and a few sentences
+//     aliases          columns that the design confounds with a state of the law
+//     verdict          the verdict and its sentences
 //   trace_file, trace_text   results as JSON and in words
 #pragma once
 
@@ -52,69 +51,69 @@ namespace frictab::trace {
 struct TracedParameter {
   std::string name;
   double value = 0;
-  double std_error = 0; // by experiment; NaN: there is none
+  double std_error = 0; // by experiment; NaN: not known
   std::string unit;
-  std::string why_none; // "at its bound"; empty: there is an error, or it is a reference, set once
+  std::string why_none; // "at its bound"; empty: it has an error, or is a constant that was set
 };
 
-// Another way to explain what an effect explains.
+// Another explanation of the same structure in the residual.
 struct Alternative {
   std::string name; // "dwell_s x friction_work"
   std::vector<std::string> columns;
   std::string derived; // empty: a recorded column
   std::string form;
   effects::ActsOn acts_on = effects::ActsOn::mu;
-  bool in_set = false; // cannot be told apart from the effect by these data
+  bool in_set = false; // these data cannot distinguish it from the effect
   std::string why_not;
 };
 
-// Of an effect's curve, for plots: factor over the column, with a band of +-1.96 standard errors,
-// and what single experiments say.
+// Curve of an effect for plots: its factor over the column, with a band of +-1.96 standard errors,
+// and partial residuals of single experiments.
 struct EffectCurve {
   std::vector<double> x, factor, low, high;
   std::vector<double> point_x, point_factor; // partial residuals of blocks, binned per experiment
 };
 
-// Tests to run next: what would settle what these leave open.
+// Tests to run next, which would settle an open question.
 struct Design {
-  std::vector<std::string> columns;            // what they vary
-  std::vector<std::vector<std::string>> tests; // per test a value of each; none: nothing settles it
-  std::string like;                            // the test that all else is taken from
-  std::vector<std::string> settles; // causes that they tell apart; one: whether it is there
-  double probability = 0;           // that they do, if the effect is as large as fitted
-  double tests_needed = 0;          // like these, for a probability of 80 %
+  std::vector<std::string> columns;            // columns that the tests vary
+  std::vector<std::vector<std::string>> tests; // one value per column; empty: no test settles it
+  std::string like;                            // name of the test that gives all other settings
+  std::vector<std::string> settles; // causes to distinguish; with one: whether its effect exists
+  double probability = 0;           // of settling it, if the effect is as large as fitted
+  double tests_needed = 0;          // number of such tests for a probability of 80 %
 };
 
 struct TracedEffect {
   effects::PlacedEffect placed;
   std::vector<std::string> columns; // recorded ones
-  std::string derived;              // what was computed from them
+  std::string derived;              // the quantity computed from them
   std::vector<TracedParameter> parameters;
-  bool between = false;          // found on one value per test, not on what changes within tests
+  bool between = false;          // found on one value per test, not on changes within tests
   double p_value = 1;            // family-wise, over all candidates of its family
-  double gain_MPa = 0;           // MAE on unseen tests without it, all refitted, minus with it
-  bool order_confounded = false; // cannot be told from a drift over the order of tests
-  Design design;                 // what would decide within the set
+  double gain_MPa = 0;           // MAE on unseen tests without it (rest refitted) minus with it
+  bool order_confounded = false; // a drift over the order of tests would look the same
+  Design design; // tests that would decide between it and the alternatives in the set
   std::vector<Alternative> alternatives;
   EffectCurve curve;
 };
 
-// nothing_missing: what is left agrees with a known repeatability | nothing_found: nothing passed,
-// and whether the scatter between tests is more than repeatability is not known.
+// nothing_missing: the remaining scatter agrees with a known repeatability | nothing_found: no
+// effect passed, and it is not known whether the scatter between tests exceeds repeatability.
 enum class Verdict { effect_added, nothing_missing, nothing_found, unexplained_structure };
 const char* verdict_name(Verdict verdict);
 
 // Structure along the order of tests that no recorded column explains.
 struct OrderStructure {
   bool found = false;
-  std::string column;    // the column that gives the order; empty: nobody declared one
-  double p_value = 1;    // of no structure
+  std::string column;    // column that gives the order; empty: none declared
+  double p_value = 1;    // of the null hypothesis "no structure"
   double size_MPa = 0;   // root mean square over the training rows
   double share = 0;      // the same, relative to tau_R
-  std::string reference; // where the shipped law holds it
+  std::string reference; // in the delivered law, the place that documents it
 };
 
-// The smallest effect that would have been detected.
+// Smallest effect of a column that would have been detected.
 struct Detectable {
   std::string column;
   std::string derived; // empty: recorded
@@ -124,28 +123,29 @@ struct Detectable {
   bool identifiable = true; // false: recalibration absorbs it, or the column does not vary
 };
 
-// What may be there, but is not in the law, and why not.
+// An effect that may exist but is not in the law, with the reason.
 struct Lead {
   std::string name;                 // "dwell_s x friction_work"
   std::vector<std::string> columns; // recorded ones
-  std::string derived;              // what was computed from them; empty: nothing
+  std::string derived;              // the quantity computed from them; empty: none
   std::string form;
   bool between = false;
   double p_value = 1;
   double share = 0;         // change of tau_R over the column's range, relative; 0: not known
   std::string why;          // "no gain on left-out tests (-0.2 +- 0.3 %)"
-  Design design;            // of the strongest, where there is a point in it
-  bool significant = false; // by the search, which found it; what came after speaks against it
-  // Of what was found: MAE on the tests that were searched, without it and with it. 0: not known.
+  Design design;            // for the strongest lead, where tests can settle it
+  bool significant = false; // the search found it; a later check rejected it
+  // For findings of the search: MAE on the searched tests without and with it. 0: not known.
   double without_MPa = 0, with_MPa = 0;
 };
 
-// What the tests cannot tell from a state of the law (aliases.h).
+// A column whose effect the tests cannot distinguish from that of a state of the law (aliases.h).
 struct Alias {
   std::string column;
   std::string state;
-  double share = 0; // of the state's variance between tests that the column explains
-  std::string text; // "batch cannot be told from sigma_n_MPa: A only at 800, B only at 1500; ..."
+  double share = 0; // share of the state's variance between tests that the column explains
+  // sentence with levels and states of the tests, and the test that would separate them
+  std::string text;
 };
 
 // Whether the validation tests as a whole lie higher or lower than the training tests.
@@ -157,15 +157,16 @@ struct ValidationShift {
   double p_value = 1;
 };
 
-// The search repeated without some of the tests, all of it, judged on those.
+// Check of the whole search: repeated without some of the tests and judged on those.
 struct NestedCheck {
   std::size_t folds = 0; // 0: not run, because nothing was found
-  double gain = 0;       // of the mean relative error on left-out tests
+  double gain = 0;       // reduction of the mean relative error on left-out tests
   double std_error = 0;  // over tests
   double score = 0;      // gain of the log predictive density, mean over tests
   double score_se = 0;
-  std::size_t offered = 0; // effects that the search found on all tests
-  std::size_t paying = 0;  // of them, effects that pay by this alone; the validation tests may add
+  std::size_t offered = 0; // effects found by the search on all tests
+  // of those, accepted by this check alone; validation tests may add others
+  std::size_t paying = 0;
 };
 
 struct Remaining {
@@ -184,27 +185,30 @@ struct Trace {
   std::string extended_model; // name of the law with effects; empty: none was added
   Verdict verdict = Verdict::nothing_found;
   std::vector<TracedEffect> effects;
-  // Errors on unseen tests are `validation` here: those of the validation tests, or of left-out
-  // training tests by the nested search where the former are few.
-  TraceErrors as_calibrated; // by the calibration stage; validation tests, whatever `unseen` says
+  // `validation` holds errors on unseen tests: the validation tests, or training tests left out by
+  // the nested search where there are few validation tests.
+  TraceErrors as_calibrated; // by the calibration stage; always on the validation tests
   TraceErrors before;        // the same law, fitted with the same weights as `after`
   TraceErrors after;
-  // | nested_cross_validation | leave_one_out: nothing was found | nothing: one test, the fit
+  // validation | nested_cross_validation | leave_one_out: nothing was found | nothing: one test, so
+  // errors of the fit
   std::string unseen = "validation";
-  bool validation_searched = false;  // they are few, and were searched as the training tests
+  // few validation tests: searched together with the training tests
+  bool validation_searched = false;
   calibrate::Difference improvement; // MAE on unseen tests before minus after, paired by experiment
-  // The same against the law as it was calibrated, which effects must also beat: the weights of the
-  // trace may cost a law that lacks something more than the effects gain. On validation tests only.
+  // The same compared with the calibrated law, which effects must also beat: where a law lacks
+  // something, the weights of the trace may cost more than the effects gain. On validation tests
+  // only.
   std::optional<calibrate::Difference> over_calibrated;
   NestedCheck nested;
   ValidationShift validation_shift;
   std::vector<Lead> leads;              // strongest first
   std::vector<Alias> cannot_tell;       // by column
-  calibrate::NoiseFloor noise_floor;    // scatter by the noise model: if nothing else is missing
+  calibrate::NoiseFloor noise_floor;    // scatter by the noise model, if nothing else is missing
   double scatter_between = 0;           // relative scatter between experiments, standard deviation
   calibrate::Interval scatter_interval; // 95 %
-  double scatter_at_least = 0;          // with 95 % confidence; what repeatability is judged by
-  std::optional<double> repeatability;  // what the user gave, or what repeated tests say
+  double scatter_at_least = 0;          // with 95 % confidence; compared with the repeatability
+  std::optional<double> repeatability;  // given by the user, or estimated from repeated tests
   std::string repeatability_from;       // given | repeats; empty: not known
   // Relative difference between two halves of the tests, along a column that is constant within
   // tests, that would have been seen with 80 % probability; infinite: none.
@@ -214,33 +218,33 @@ struct Trace {
   std::vector<Detectable> detectable; // by column
   std::size_t n_candidates = 0, n_columns = 0, n_flips = 0;
   std::vector<std::string> not_identifiable; // candidates that recalibration absorbs
-  std::vector<std::string> rejected;         // looked significant, and why it was not added
+  std::vector<std::string> rejected; // looked significant; with the reason why it was not added
   std::vector<std::string> notes;
   double alpha = 0.02;
-  double least_p_value = 0;     // that so many experiments can give
-  calibrate::ModelFit extended; // judged like any other; model.law is null where none was added
+  double least_p_value = 0;     // the least that so many experiments can give
+  calibrate::ModelFit extended; // judged like any other fit; model.law is null where none was added
 };
 
 struct TraceInput {
-  const data::Dataset& training;   // those that are searched
-  const data::Dataset& validation; // without rows: fit.unseen has the errors of tests left out
+  const data::Dataset& training;   // searched tests
+  const data::Dataset& validation; // without rows: errors of left-out tests are in fit.unseen
   const calibrate::ModelFit& fit;
   const TraceOptions& options;
   std::size_t bootstrap = 1000;
   std::uint64_t seed = 1;
-  // deliver = all: training and validation together, to which a law with effects is fitted again.
+  // For deliver = all: training and validation together, to which a law with effects is refitted.
   const data::Dataset* all = nullptr;
-  // Where validation tests are searched as well: their places in `training`, as `validation` has
-  // them.
+  // If validation tests are searched as well: their positions in `training`, in the order of
+  // `validation`.
   std::vector<std::size_t> searched = {};
 };
 
-// An effect that shows in all of E experiments has a p-value of 2^(1-E) at best: how many of them
-// it takes to add one, 7 at 0.02. With fewer there are only leads.
+// Number of experiments needed to add an effect: one that shows in all of E experiments has a
+// p-value of at least 2^(1-E), so 7 at alpha = 0.02. Fewer experiments give only leads.
 double tests_for(double alpha);
 
-// Deterministic by seed for any number of threads. Throws InputError where options name columns
-// they do not have.
+// Traces the law; deterministic by seed for any number of threads. Throws InputError where options
+// name columns that do not exist.
 Trace trace(const TraceInput& input);
 
 } // namespace frictab::trace

@@ -16,8 +16,8 @@ namespace frictab::trace {
 
 namespace {
 
-// Three significant digits, or what a larger number has before its point: rigs measure 0.1 MPa as
-// well as 900.
+// Three significant digits, or all digits before the point of a larger number: rigs measure 0.1 MPa
+// as well as 900.
 std::string digits(double value) {
   if (!std::isfinite(value)) return "-";
   return std::abs(value) >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:#.3g}", value);
@@ -37,8 +37,8 @@ std::vector<std::string> error_row(const char* what, const TraceErrors& e) {
           digits(e.training.mae_MPa)};
 }
 
-// The calibration stage's own fit, where the weights of the noise model alone move the law: without
-// it the effects would be credited with what the weights cost.
+// Whether the weights of the noise model alone move the law. The calibration stage's own fit is
+// then shown too: otherwise the effects would be credited with the cost of the weights.
 bool weights_matter(const Trace& t) {
   const double own = t.as_calibrated.validation.mae_MPa, before = t.before.validation.mae_MPa;
   return t.unseen == "validation" && std::abs(before - own) > 0.02 * own;
@@ -49,7 +49,7 @@ std::string gain_text(const calibrate::Difference& gain) {
                      digits(gain.interval.low), digits(gain.interval.high));
 }
 
-// Before and after; wider where small stresses take more characters.
+// Errors before and after; columns widen for small stresses, which take more characters.
 std::string error_table(const Trace& t) {
   std::vector<std::vector<std::string>> rows = {
       {"tau_R, MPa", "MAE", "95 % interval", "RMSE", "bias", "train MAE"}};
@@ -74,7 +74,7 @@ std::string parameter_text(const TracedEffect& effect) {
   std::string text;
   for (const TracedParameter& p : effect.parameters) {
     const bool known = std::isfinite(p.std_error);
-    if (!known && p.why_none.empty()) continue; // a reference
+    if (!known && p.why_none.empty()) continue; // a constant that was set
     text += fmt::format("{}{} = {:.4g}{}{}{}", text.empty() ? "" : ", ", p.name, p.value,
                         known ? fmt::format(" +- {:.2g}", p.std_error) : "",
                         p.unit == "1" || p.unit.empty() ? "" : " " + p.unit,
@@ -89,7 +89,7 @@ bool belongs_to_the_experiment(const TracedEffect& effect) {
   return derived && derived->continuation.rule == data::Continuation::none;
 }
 
-// One below the other, aligned under the names of what they vary.
+// Tests one per line, aligned under the names of the columns that they vary.
 std::string design_lines(const Design& d, const std::string& indent) {
   if (d.tests.empty()) return "";
   std::string out = indent + design_sentence(d) + ":\n";
@@ -125,7 +125,7 @@ void add_effect(std::string& out, const TracedEffect& e, bool coefficients) {
   out += design_lines(e.design, "      ");
 }
 
-// What "unseen" means here.
+// Explanation of "unseen" in this trace.
 std::string unseen_line(const Trace& t) {
   if (t.unseen == "validation")
     return fmt::format("  unseen: the {} validation tests; before is the law without the effects, "
@@ -143,7 +143,7 @@ std::string unseen_line(const Trace& t) {
       t.validation_searched ? ", those to validate among them, which are few" : "");
 }
 
-// What was left out though it is recorded; the first few of a thousand columns.
+// Columns that are recorded but were not searched; the first few of a possibly long list.
 std::string not_searched_text(const std::vector<std::string>& notes) {
   constexpr std::size_t shown = 5;
   std::string out;
@@ -216,7 +216,7 @@ std::string design_sentence(const Design& d) {
 
 namespace {
 
-// "v_rel_mm_s (p = 0.001, would take 15.0 to about 10.2 MPa)"
+// Example: "v_rel_mm_s (p = 0.001, would take 15.0 to about 10.2 MPa)"
 std::string unconfirmed_text(const Lead& lead) {
   std::string text = fmt::format("{} (p = {:.2g}", lead_name(lead), lead.p_value);
   if (lead.with_MPa < lead.without_MPa)
@@ -236,7 +236,7 @@ std::string not_confirmed(const Trace& t) {
 
 namespace {
 
-// What is not confirmed, or that nothing was found; with what is left over.
+// Findings that are not confirmed, or that nothing was found; with the remaining structure.
 std::string nothing_text(const Trace& t) {
   if (t.least_p_value > t.alpha) return "nothing that so few tests can prove";
   std::string text = not_confirmed(t);
@@ -328,7 +328,7 @@ std::string trace_brief(const Trace& t) {
 
 namespace {
 
-// "; batch cannot be told from sigma_n_MPa"
+// Columns that are confounded with a state, after a semicolon.
 std::string aliases_in_short(const Trace& t) {
   std::string text;
   for (const Alias& alias : t.cannot_tell)

@@ -1,4 +1,4 @@
-// A trace in words: what the summary on the terminal and the report say of it.
+// A trace in words, for the terminal summary and the report.
 #pragma once
 
 #include <string>
@@ -8,26 +8,28 @@
 
 namespace frictab::trace {
 
-// Verdict, effects, errors before and after, what is left, leads and what was tried.
+// Formats verdict, effects, errors before and after, remaining structure, leads and the extent of
+// the search.
 std::string trace_text(const Trace& trace, bool coefficients = false);
-// The same without what is left and tried, and of leads that were not found their names.
+// The same without remaining structure and extent; leads that were not found appear by name only.
 std::string trace_brief(const Trace& trace);
-// "not confirmed: v_rel_mm_s (p = 0.001, would take 15.0 to about 10.2 MPa)": what was found and is
-// not delivered; empty: there is none.
+// Lists findings that are not delivered: "not confirmed: v_rel_mm_s (p = 0.001, would take 15.0 to
+// about 10.2 MPa)"; empty: none.
 std::string not_confirmed(const Trace& trace);
-// Where training tests that were left out would not have been enough: that, without a full stop;
-// empty: they were.
+// Remark, without a full stop, that the validation tests were needed because left-out training
+// tests were inconclusive; empty: they were conclusive.
 std::string shown_by_validation(const Trace& trace);
-// What is missing and what adding it gained: one line without its end.
+// Summary in one line without a line end: the missing effects and the gain of adding them.
 std::string trace_in_short(const Trace& trace);
-// `frictab trace --power`: what this campaign could have shown, and what would help.
+// Report of `frictab trace --power`: what this campaign could have detected, and what would improve
+// that.
 std::string detectable_text(const Trace& trace);
 
 // "humidity_pct", "friction_work (from s_mm)".
 std::string lead_name(const Lead& lead);
-// What the proposed tests would show and how probably, without the tests themselves.
+// Result and probability of the proposed tests, without the tests themselves.
 std::string design_sentence(const Design& design);
-// The tests as rows of a table: how many are alike, then the values. The first row has the
+// The tests as rows of a table: number of equal tests, then the values. The first row has the
 // headings.
 std::vector<std::vector<std::string>> design_rows(const Design& design);
 

@@ -8,8 +8,8 @@ using Eigen::MatrixXd;
 
 namespace {
 
-// What each test says about the parameters, by whitened residuals. (Nuisance columns are projected
-// out of all tests together; what a test's own share in them is worth is not counted.)
+// Contribution of each test to the sandwich, from whitened residuals. (Nuisance columns are
+// projected out of all tests together; the share of a single test in them is ignored.)
 std::vector<calibrate::ExperimentSums> sums_by_test(const Campaign& campaign, const Rival& rival) {
   const Whitener whitener(rival.weights, rival.predicted, campaign.blocks, campaign.nuisance);
   MatrixXd jacobian = rival.jacobian;

@@ -6,7 +6,7 @@
 
 namespace frictab::trace {
 
-// The cluster sandwich of the residuals as the rival's weights whiten them.
+// Cluster sandwich of the residuals as whitened by the rival's weights.
 calibrate::Uncertainty uncertainty_of(const Campaign& campaign, const Rival& rival);
 
 } // namespace frictab::trace

@@ -1,4 +1,4 @@
-// Verdict and the sentences about what is left.
+// Verdict, and sentences about the remaining structure.
 #include "trace/verdict.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace frictab::trace {
 
 namespace {
 
-// "12.6 %", "0.034 %": three digits.
+// Three digits: "12.6 %", "0.034 %".
 std::string percent(double share) {
   return fmt::format("{:.3g} %", 100 * share);
 }
@@ -21,8 +21,8 @@ bool scatters_more(const Trace& t) {
   return t.repeatability && t.scatter_at_least > *t.repeatability;
 }
 
-// Few repeats know the repeatability badly, so that the scatter could hardly be shown to exceed it.
-// It must therefore also be about as small.
+// Few repeats determine the repeatability poorly, so that the scatter would hardly ever exceed it
+// significantly. So it must also be of about the same size.
 bool agrees_with_repeats(const Trace& t) {
   constexpr double about = 1.2;
   return t.repeatability && !scatters_more(t) && t.scatter_between <= about * *t.repeatability;
