@@ -43,7 +43,7 @@ QuantileRange attainable_quantiles(std::size_t experiments) {
 }
 
 std::optional<double> gain_at_quantile(std::span<const double> gains, double quantile) {
-  constexpr double rounding = 1e-12; // 0.05 of 19 experiments is the first, not a bit below it
+  constexpr double rounding = 1e-12; // 0.05 of 19 experiments is exactly the first one
   const double rank = quantile * (static_cast<double>(gains.size()) + 1) - 1;
   const double last = static_cast<double>(gains.size()) - 1;
   if (gains.empty() || rank < -rounding || rank > last + rounding) return std::nullopt;

@@ -1,4 +1,4 @@
-// Counts them, input by input.
+// Counts rows outside the clamped range, input by input.
 #include "calibrate/beyond_ends.h"
 
 #include <algorithm>

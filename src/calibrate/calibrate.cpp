@@ -1,4 +1,4 @@
-// The calibration stage: which laws the columns allow, their parameters, their errors, the ranking.
+// Calibration stage: laws that the columns allow, their parameters, their errors, the ranking.
 #include <algorithm>
 #include <chrono>
 #include <set>
@@ -36,7 +36,7 @@ using models::Calibrated;
 
 namespace {
 
-// How many experiments are left out together, at most.
+// Largest number of experiments that are left out together.
 std::size_t most_kin(const CalibrationInput& input) {
   const data::Units units = data::units_of(input.training);
   std::vector<std::size_t> size(units.count, 0);
@@ -45,7 +45,8 @@ std::size_t most_kin(const CalibrationInput& input) {
   return *std::max_element(size.begin(), size.end());
 }
 
-// A state may vary by one experiment alone: without it a trained law has no input.
+// Whether some state varies without each experiment: a state may vary in a single experiment only,
+// and without it a trained law has no input.
 bool varies_without_each(const models::Law& law, const CalibrationInput& input) {
   if (input.judged_by != JudgedBy::leave_one_out) return true;
   for (std::size_t e = 0; e < input.training.experiments.size(); ++e)
@@ -73,7 +74,7 @@ std::vector<std::string> missing_for(const models::Law& law, const models::Conve
   return missing;
 }
 
-// What a user's formula may have meant.
+// Names that a user's formula may have meant.
 std::vector<std::string> names_known(const models::Law& law, const Dataset& data) {
   std::vector<std::string> names = models::parameter_names(law);
   for (const data::Column& column : data.columns)
@@ -83,7 +84,8 @@ std::vector<std::string> names_known(const models::Law& law, const Dataset& data
   return names;
 }
 
-// A column that has the name of a parameter could become an input beside it, by tracing.
+// Rejects a column with the name of a parameter: tracing could make it an input in addition to that
+// parameter.
 void check_parameters(const models::Law& law, const Dataset& data, const Place& place,
                       FaultList& faults) {
   if (models::is_registered(law)) return; // effects::symbol_of knows their names
@@ -96,12 +98,12 @@ void check_parameters(const models::Law& law, const Dataset& data, const Place& 
                    "call it something else");
 }
 
-// The law is asked for, and the data lack what it needs.
+// Reports that the data lack columns of a law that was requested.
 void tell_missing(const models::Law& law, const std::vector<std::string>& missing,
                   const CalibrationInput& input, FaultList& faults) {
   const LeftOut left{law.name, join(missing, ", ")};
   const auto named = law.places.find(missing.front());
-  const bool is_named = named != law.places.end(); // in a formula of the user's
+  const bool is_named = named != law.places.end(); // in a user's formula
   faults.add(is_named ? named->second : input.models.place,
              "law " + left.text() + ", which the data do not have",
              is_named ? suggest(missing.front(), names_known(law, input.training))
@@ -109,7 +111,7 @@ void tell_missing(const models::Law& law, const std::vector<std::string>& missin
                         "or leave the law out of models.use");
 }
 
-// A constant of the literature is there to be compared with, unless the job names it.
+// Whether a law is a constant from the literature for comparison only, i.e. not named by the job.
 bool is_reference(const models::Law& law, const ModelOptions& options) {
   return law.calibrated == Calibrated::fixed && models::is_registered(law) &&
          std::find(options.use.begin(), options.use.end(), law.name) == options.use.end();
@@ -162,7 +164,7 @@ void tell_beyond_ends(ModelFit& fit, const models::AssembledLaw& law, const Inpu
     add(input_columns(law, law.inputs, input.validation), input.validation, "validation");
 }
 
-// On the rows that are held; of condensed data judge_on_rows does all this.
+// Judges the law on the rows in memory; for condensed data judge_on_rows does this.
 void judge_fit(ModelFit& fit, const models::AssembledLaw& law, const Predicted& trained,
                const CalibrationInput& input) {
   tell_beyond_ends(fit, law, trained.columns, input);
@@ -213,7 +215,7 @@ void judge_by_the_fit(std::vector<ModelFit>& fits, const CalibrationInput& input
   }
 }
 
-// Of the undivided data: recordings that validation has, or tests.
+// Number of units of the undivided data that are held out: recordings in validation, or tests.
 std::size_t units_held_out(const CalibrationInput& input) {
   const bool whole = data::units_of(*input.undivided).count < input.undivided->experiments.size();
   if (!whole) return input.validation.experiments.size();
@@ -221,7 +223,7 @@ std::size_t units_held_out(const CalibrationInput& input) {
   return std::set(held.begin(), held.end()).size();
 }
 
-// The split drawn again and again: each experiment predicted by laws fitted without its fold.
+// Draws the split repeatedly, and predicts each experiment by laws fitted without its fold.
 void add_other_splits(Calibration& calibration, const models::Conventions& conventions,
                       const CalibrationInput& input) {
   if (!input.undivided || calibration.choice.draws == 0) return;

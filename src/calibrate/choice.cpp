@@ -1,4 +1,4 @@
-// The choice of a law made again, on other tests.
+// Repeats the selection of a law on other tests.
 #include "calibrate/choice.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ double mae_of(const LawErrors& law, std::span<const double> times) {
   return rows > 0 ? sum / rows : 0;
 }
 
-// The first of those whose error is the same, as in the ranking.
+// Index of the best law; the first of those with equal errors, as in the ranking.
 std::size_t best_of(Laws laws, std::span<const double> times) {
   std::vector<double> mae;
   for (const LawErrors& law : laws)
@@ -44,7 +44,7 @@ std::vector<Choice::Share> shares_of(Laws laws, const std::vector<std::size_t>& 
   return shares;
 }
 
-// Of single experiments: errors of the laws that won without them.
+// Errors of single experiments, by the laws that won without them.
 class LeftOutErrors {
 public:
   explicit LeftOutErrors(std::size_t experiments) : absolute_(experiments), draws_(experiments) {}

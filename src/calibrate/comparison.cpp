@@ -23,8 +23,9 @@ namespace {
 constexpr std::size_t most_resamples = 10'000;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-12; // of the sum of two errors
-// Of a standard error, that a resample's may be: one that has hardly any of the few experiments in
-// which two laws differ would say that it knows the difference to any number of digits.
+// Minimum ratio of a resample's standard error to that of the data: a resample with hardly any of
+// the few experiments in which two laws differ would otherwise claim an arbitrarily precise
+// difference.
 constexpr double least_error = 0.1;
 
 // One measure of error of all laws in one resample.
@@ -72,7 +73,7 @@ Problem problem_of(std::span<const LawErrors> laws, Measure measure) {
 }
 
 // A difference in standard errors; `scale` is the sum of the two errors. A difference without
-// scatter is infinitely clear; one of not more than `least` of the scale is none.
+// scatter is infinite; one of at most `least` of the scale is 0.
 double studentised(double difference, double error, double scale, double least) {
   if (std::abs(difference) <= least * scale) return 0;
   return error > rounding * scale ? difference / error : std::copysign(infinite, difference);
@@ -82,7 +83,8 @@ std::size_t pair_index(std::size_t i, std::size_t j, std::size_t laws) { // i < 
   return i * laws - i * (i + 1) / 2 + (j - i - 1);
 }
 
-// What the data say, and t of every pair (law j minus law i) in every resample, centred.
+// Errors of the laws, and the centred t statistic of every pair (law j minus law i) in every
+// resample.
 struct Studentised {
   std::vector<double> value;                // per law
   std::vector<double> difference, error, t; // per pair
@@ -124,8 +126,8 @@ double share_beyond(std::size_t beyond, std::size_t resamples) {
   return (static_cast<double>(beyond) + 1) / (static_cast<double>(resamples) + 1);
 }
 
-// The value that fewer than 5 % of all values, and the one tested, exceed: an interval made with it
-// leaves 0 out exactly where p < 0.05.
+// Critical value, exceeded by less than 5 % of all values with the tested one among them: an
+// interval made with it excludes 0 exactly if p < 0.05.
 double critical_value(std::vector<double> size) {
   const double rank = std::ceil(0.95 * (static_cast<double>(size.size()) + 1));
   if (rank > static_cast<double>(size.size())) return infinite;
@@ -144,13 +146,13 @@ Difference difference_of(const Studentised& s, std::size_t pair) {
   d.value_MPa = s.difference[pair];
   d.p_value = share_beyond(static_cast<std::size_t>(beyond), size.size());
   double half = s.error[pair] == 0 ? 0 : critical_value(std::move(size)) * s.error[pair];
-  if (s.t[pair] == 0) half = std::max(half, std::abs(d.value_MPa)); // the same
+  if (s.t[pair] == 0) half = std::max(half, std::abs(d.value_MPa)); // equal laws
   d.interval = {d.value_MPa - half, d.value_MPa + half};
   return d;
 }
 
-// A pair's p-value, and those that its resamples would have had: their ranks, with the data's own
-// difference as one of them.
+// p-value of a pair, and those of its resamples: their ranks, with the data's own difference as one
+// of them.
 struct PairRanks {
   double p_value = 1;
   std::vector<double> again;
@@ -170,7 +172,7 @@ PairRanks ranks_of(const Studentised& s, std::size_t pair) {
   return {size.front(), {size.begin() + 1, size.end()}};
 }
 
-// "No candidate is better than law i". Never less than the p-value of a pair that i loses.
+// p-value of "no candidate is better than law i"; at least the p-value of any pair that i loses.
 double best_p_value(const Studentised& s, const std::vector<PairRanks>& ranks,
                     std::span<const LawErrors> laws, std::size_t i) {
   const std::size_t resamples = s.again.empty() ? 0 : s.again.front().size();
@@ -179,7 +181,7 @@ double best_p_value(const Studentised& s, const std::vector<PairRanks>& ranks,
   for (std::size_t j = 0; j < laws.size(); ++j) {
     if (j == i || !laws[j].candidate) continue;
     const std::size_t pair = pair_index(std::min(i, j), std::max(i, j), laws.size());
-    if (s.t[pair] == 0) continue; // the same
+    if (s.t[pair] == 0) continue; // equal laws
     if (s.value[j] < s.value[i]) now = std::min(now, ranks[pair].p_value);
     for (std::size_t b = 0; b < resamples; ++b)
       least[b] = std::min(least[b], ranks[pair].again[b]);
@@ -198,7 +200,7 @@ bool loses_for_certain(const Studentised& s, const std::vector<PairRanks>& ranks
   return false;
 }
 
-// Of all laws: NaN where one is no candidate.
+// Values of all laws; NaN for those that are not candidates.
 std::vector<double> best_p_values_of(const Studentised& s, std::span<const LawErrors> laws) {
   std::vector<PairRanks> ranks(s.t.size());
   parallel_for(ranks.size(), [&](std::size_t pair) { ranks[pair] = ranks_of(s, pair); });
@@ -216,7 +218,7 @@ std::vector<double> best_p_values_of(const Studentised& s, std::span<const LawEr
   return p;
 }
 
-// The candidates, by rank.
+// Names of the candidates, by rank.
 std::vector<std::string> candidates_of(const Comparisons& c) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < c.laws.size(); ++i)
@@ -291,7 +293,7 @@ void add_comparisons(Calibration& calibration, const CalibrationInput& input) {
     laws[i] = {fit.model.law->name, by_recording(unseen_sums(fit, input.validation)),
                !fit.reference};
   });
-  lower_noise_floors(calibration); // traced laws may err less
+  lower_noise_floors(calibration); // traced laws may have smaller errors
   calibration.comparisons = compare(laws, input.options.bootstrap, input.options.seed);
   const Choice before = std::move(calibration.choice);
   std::erase_if(laws, [](const LawErrors& law) { return !law.candidate; });

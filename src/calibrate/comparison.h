@@ -1,4 +1,4 @@
-// Is law A better than law B on these validation experiments? Paired by experiment.
+// Comparison of laws on the validation experiments, paired by experiment.
 #pragma once
 
 #include <cstdint>
@@ -14,47 +14,50 @@ namespace frictab::calibrate {
 struct Calibration;
 struct CalibrationInput;
 
-// Of the MAE: errors of two laws that are closer are the same. A fit's tolerance leaves a law that
-// is written in two ways 1e-5 apart, without scatter, which is no difference between laws.
+// Relative difference of the MAE below which two laws count as equal. The tolerance of a fit leaves
+// a law written in two ways 1e-5 apart, without scatter; that is not a difference between laws.
 inline constexpr double same_error = 1e-4;
 
-// Sums per validation experiment of one law. No candidate: it is compared, and cannot be the best.
+// Error sums of one law per validation experiment. Laws that are not candidates are compared, but
+// cannot be the best.
 struct LawErrors {
   std::string law;
   std::vector<ErrorSums> sums;
   bool candidate = true;
 };
 
-// All pairs of laws, in the order given. Per pair: symmetric bootstrap-t over whole experiments,
-// both laws on the same resamples; interval and p-value are of that one pair.
+// Compares all pairs of laws, in the order given. Per pair: symmetric bootstrap-t over whole
+// experiments, both laws on the same resamples; interval and p-value are those of that one pair.
 //
-// For the best (multiple comparisons with the best: Hsu 1984): best_p_values[i] tests "no candidate
-// has a smaller MAE than law i" by the least p-value of the pairs in which another leads it,
-// against the least p-value of all its pairs in the resamples, where the rank of a difference among
-// its own resamples is its p-value (min-P: Westfall and Young 1993, 2.3; balanced: Beran 1988). So
-// every pair counts alike. The largest studentised difference (max-T), which this was, is ruled by
-// the pair whose difference hardly varies: two constants that lie below every measured stress are
-// apart by the same in nearly every test, resamples without the few others studentise to any
-// number, and a law that all others beat with p < 0.001 "may be the best". As the pairs are, it is
-// symmetric: a law that no other beats in a pair of its own stays possible.
+// For the best (multiple comparisons with the best: Hsu 1984), best_p_values[i] tests the null
+// hypothesis that no candidate has a smaller MAE than law i. The statistic is the least p-value of
+// the pairs in which another law leads law i. Its null distribution is the least p-value of all
+// pairs of law i in the resamples, where the rank of a difference among its own resamples is its
+// p-value (min-P: Westfall and Young 1993, 2.3; balanced: Beran 1988), so that every pair has equal
+// weight. The largest studentised difference (max-T), used earlier, is dominated by the pair whose
+// difference hardly varies: two constants below every measured stress differ by the same amount in
+// nearly every test, resamples without the few others studentise to arbitrarily large numbers, and
+// a law that all others beat with p < 0.001 remained "possibly the best". Like the pairs, the test
+// is symmetric: a law that no other beats in its own pair stays possible.
 //
-// Last, p-values are made to fall with the MAE where a loss is certain: a law is in wherever one
-// with a larger MAE is in that loses a pair (p < 0.05) and owes its place to there being many laws.
-// This only adds laws: those with p >= 0.05 hold the true best with 95 %, although the data chose
-// which one leads. tests/properties/comparison_test.cpp measures it. Fewer than 2 experiments or
-// resamples = 0: nothing is compared.
+// Finally, p-values are made monotone in the MAE where a loss is certain: a law stays possible if a
+// law with a larger MAE does that loses a pair (p < 0.05) and is possible only because there are
+// many laws. This only adds laws: those with p >= 0.05 contain the true best with 95 % confidence,
+// although the data selected the leader. tests/properties/comparison_test.cpp measures the
+// coverage. With fewer than 2 experiments or resamples = 0, nothing is compared.
 Comparisons compare(std::span<const LawErrors> laws, std::size_t resamples, std::uint64_t seed);
 
-// Laws that may be the best, by rank: best_p_values >= 0.05.
+// Returns the laws that may be the best (best_p_values >= 0.05), by rank.
 std::vector<std::string> possibly_best(const Comparisons& comparisons);
-// Candidates that the first of them is not distinguishable from, pair by pair.
+// Returns the candidates that cannot be distinguished from the first one, pair by pair.
 std::vector<std::string> as_good_as_first(const Comparisons& comparisons);
-// One sentence each of the two, without a full stop at the end; empty where nothing was compared.
+// One sentence for each of the two lists, without a full stop at the end; empty if nothing was
+// compared.
 std::string pairwise_sentence(const Comparisons& comparisons);
 std::string family_sentence(const Comparisons& comparisons);
 
 // Fills calibration.comparisons, .choice and .recommended for its ranked laws on the validation
-// experiments; shares of other splits stay as they are.
+// experiments; shares of other splits stay unchanged.
 void add_comparisons(Calibration& calibration, const CalibrationInput& input);
 
 } // namespace frictab::calibrate

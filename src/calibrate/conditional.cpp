@@ -1,4 +1,4 @@
-// A gain per experiment, how far it is to be believed, and the errors it leaves.
+// Gain per experiment, its weight, and the remaining errors.
 #include "calibrate/conditional.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ Range range_of(const Dataset& data, std::size_t e) {
   return {data.first_row[e], data.first_row[e + 1] - data.first_row[e]};
 }
 
-// sum measured predicted / sum predicted^2 over the rows on one side of x; 0 where there is none.
+// sum measured predicted / sum predicted^2 over the rows on one side of x; 0 without rows.
 double gain_of(const TestRows& rows, double x_mm, bool beyond) {
   double product = 0, square = 0;
   for (std::size_t i = 0; i < rows.s_mm.size(); ++i)
@@ -44,7 +44,7 @@ double gain_of(const TestRows& rows, double x_mm, bool beyond) {
   return square > 0 ? product / square : 0;
 }
 
-// The rows beyond x of every experiment that has some.
+// Errors on the rows beyond x of every experiment that has some.
 struct Rest {
   std::vector<ErrorSums> plain, gained;
 };
@@ -90,7 +90,7 @@ GainPrior prior_of(const models::Model& model, const Dataset& training, double x
   return gain_prior(training, predict(model, training), x_mm);
 }
 
-// With and without the gain, on the rests of the experiments of `data`.
+// Adds errors with and without the gain, on the rests of the experiments of `data`.
 void add_rests(std::vector<LawErrors>& both, const models::Model& model, const GainPrior& prior,
                const Dataset& data, double x_mm) {
   const std::vector<double> plain = predict(model, data);
@@ -101,7 +101,7 @@ void add_rests(std::vector<LawErrors>& both, const models::Model& model, const G
   both[1].sums.insert(both[1].sums.end(), rest.plain.begin(), rest.plain.end());
 }
 
-// Each experiment by the law fitted without it, and what the others say of its gain.
+// Predicts each experiment by the law fitted without it, with a prior from the others.
 void add_left_out_rests(std::vector<LawErrors>& both, const ModelFit& fit, const Dataset& data,
                         double x_mm) {
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
@@ -257,7 +257,7 @@ void add_conditional(Calibration& calibration, const CalibrationInput& input) {
     c.n_without_start += !(*low <= c.condition_on_mm);
     c.n_without_rest += !(*high > c.condition_on_mm);
   }
-  // No law is needed for it: any prediction does.
+  // any prediction gives the same number of rows
   c.usual_rows = static_cast<std::size_t>(
       gain_prior(input.training, input.training.values("tau_R_MPa"), c.condition_on_mm).usual_rows);
   c.laws.resize(calibration.fits.size());

@@ -9,32 +9,33 @@
 
 namespace frictab::calibrate {
 
-// Rows with s_mm <= x of one experiment, and what they say.
+// Rows of one experiment with s_mm <= x, and their gain.
 struct FirstPart {
   std::size_t rows = 0;
   double gain = 1; // sum tau_meas tau_pred / sum tau_pred^2; 1 without rows or without prediction
 };
 
-// What the gain of a first part says about the rest, from the training experiments. Their usual
-// (mean) gains are taken out: a law that misses the run-in has a wrong gain there in every test.
-// The covariance of the two gains is the variance `between` experiments, whatever the rows'
-// autocorrelation; what the variance of the first part's gain has on top is `error`, of an
-// experiment with the usual (median) number of rows in its first part.
+// Prior for the gain of the rest of a test, given that of its first part, from the training
+// experiments. Their mean gains are subtracted, because a law that misses the run-in has a wrong
+// gain there in every test. The covariance of the two gains estimates the variance `between`
+// experiments, unaffected by autocorrelation of the rows; the additional variance of the first
+// part's gain is `error`, for an experiment with the median number of rows in its first part.
 struct GainPrior {
   double usual_first = 1; // gain of the first part
   double usual_rest = 1;  // gain of the rest: about 1 for a calibrated law
   double between = 0;
   double error = 0;
   double usual_rows = 0;
-  // How far a first part is believed: between/(between + error max(1, usual_rows/rows)), the share
-  // of its deviation that comes from the experiment and not from the shortness of the part; 0 for 0
+  // Weight of a first part: between/(between + error max(1, usual_rows/rows)), the share of its
+  // deviation that comes from the experiment rather than from the shortness of the part; 0 for 0
   // rows.
   double trust(std::size_t rows) const;
-  // Of the rest: usual_rest + trust (gain of the first part - usual_first), at least 0.
+  // Expected gain of the rest: usual_rest + trust (gain of the first part - usual_first), at least
+  // 0.
   double gain(const FirstPart& first) const;
 };
 
-// Of one experiment; `weights`: how many rows each stands for, empty: one each.
+// Rows of one experiment; `weights`: number of rows each represents, empty: 1.
 struct TestRows {
   std::span<const double> s_mm, measured, predicted, weights = {};
   double weight(std::size_t i) const { return weights.empty() ? 1 : weights[i]; }
@@ -42,16 +43,16 @@ struct TestRows {
 FirstPart first_part(const TestRows& rows, double x_mm);
 GainPrior gain_prior(const data::Dataset& training, std::span<const double> predicted, double x_mm);
 
-// Predictions times the gain of their experiment's rest, kept to tau_R <= `limit` (per row;
-// empty: no limit).
+// Multiplies predictions by the gain of their experiment's rest, clamped to tau_R <= `limit` (per
+// row; empty: no limit).
 std::vector<double> conditioned_predictions(const data::Dataset& data,
                                             std::span<const double> predicted,
                                             std::span<const double> limit, const GainPrior& prior,
                                             double x_mm);
 
-// Throws InputError where the data have no s_mm, or x leaves no rows beyond it.
+// Throws InputError if the data have no s_mm, or no rows beyond x.
 void check_conditional(const CalibrationInput& input);
-// Fills calibration.conditional where the job asks for it.
+// Fills calibration.conditional if the job requests it.
 void add_conditional(Calibration& calibration, const CalibrationInput& input);
 
 } // namespace frictab::calibrate

@@ -1,4 +1,4 @@
-// Folds in parallel: each has its own copy of the data, shared by all laws.
+// Runs folds in parallel; each has its own copy of the data, shared by all laws.
 #include "calibrate/cross_validation.h"
 
 #include <algorithm>

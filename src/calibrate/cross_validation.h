@@ -1,4 +1,4 @@
-// Experiments predicted by laws that have not seen them.
+// Predictions of experiments by laws fitted without them.
 #pragma once
 
 #include <span>
@@ -8,18 +8,18 @@
 
 namespace frictab::calibrate {
 
-// Without an experiment and those of its recording (data/recordings.h).
+// Returns the data without an experiment and those of its recording (data/recordings.h).
 data::Dataset without_kin(const data::Dataset& data, std::size_t experiment);
 
-// Per law, in the order given.
+// Results per law, in the order given.
 struct CrossValidation {
   std::vector<std::vector<models::Model>> without;  // per fold: the law fitted without it
   std::vector<std::vector<ExperimentError>> errors; // per experiment, by the fit without it
-  std::vector<BandCheck> bands; // the same; `experiments` are those whose fit has a band
+  std::vector<BandCheck> bands; // of the same fits; `experiments` counts those whose fit has a band
 };
 
-// fold_of: of each experiment, 0, 1, ... without a gap. Everything that calibration decides is
-// decided anew in each fold, the network's weight decay included.
+// Cross-validates. fold_of: fold of each experiment, 0, 1, ... without a gap. Every decision of the
+// calibration is repeated in each fold, the network's weight decay included.
 CrossValidation cross_validate(std::span<const models::Law* const> laws,
                                const models::Conventions& conventions, const data::Dataset& data,
                                const CalibrationOptions& options,

@@ -1,4 +1,4 @@
-// Correlations of parameters, and how far beyond the tests they let a law be followed.
+// Correlations of parameters, and their effect on the extrapolation of a law beyond the tests.
 #include "calibrate/determined.h"
 
 #include <algorithm>
@@ -22,35 +22,35 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double tied = 0.95;   // |correlation| of two parameters
-constexpr double its_own = 0.9; // and of a parameter with the change of the stress
-// Of ln tau over a doubling. The exponents of the literature that are listed here change it by 0.28
-// at most (wang_soap, T^-0.403; filzek_ludwig, wzl less): an interval that reaches further to both
-// sides tells none of them from another.
+constexpr double its_own = 0.9; // |correlation| of a parameter with the change of the stress
+// Change of ln tau over a doubling. Literature exponents listed here change it by at most 0.28
+// (wang_soap, T^-0.403; less for filzek_ludwig and wzl), so an interval that is wider on both sides
+// cannot distinguish between them.
 constexpr double sensible_change = 0.3;
-constexpr double step_K = 50;       // of a temperature, which is not doubled
-constexpr double of_bounds = 0.5;   // share of them that an interval may cover
-constexpr double level_share = 0.5; // by which the slope of a level may change over the data
+constexpr double step_K = 50;       // for a temperature, instead of doubling
+constexpr double of_bounds = 0.5;   // share of the bounds that an interval may cover
+constexpr double level_share = 0.5; // relative change of a level's derivative over the data
 
-// A state that the tests could be run at, and the data's own range of it.
+// A state that the tests could be run at, and its range in the data.
 struct Reach {
   std::size_t input;
   std::string name;
-  bool kelvins;  // differences count, not ratios
-  double lowest; // that has a meaning
+  bool kelvins;  // steps are differences, not ratios
+  double lowest; // least physically meaningful value
   double low, middle, high;
 
   double stepped(bool above) const {
     if (kelvins) return above ? middle + step_K : std::max(middle - step_K, lowest);
     return above ? 2 * middle : std::max(0.5 * middle, lowest);
   }
-  // A test this side of the data, and far enough from their middle to tell something.
+  // Value for a test on one side of the data, far enough from their middle to be informative.
   double proposed(bool above) const {
     if (kelvins) return above ? std::max(high, middle + 30) : std::min(low, middle - 30);
     return above ? std::max(high, 1.5 * middle) : std::max(std::min(low, middle / 1.5), lowest);
   }
 };
 
-// "670": what a rig is set to.
+// Rounds to two significant digits, as a rig is set: "670".
 std::string rounded(double value) {
   if (value == 0) return "0";
   const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1);
@@ -82,7 +82,7 @@ public:
     add_tied();
     for (const Determination::Open& open : fit_.determination.not_determined)
       fit_.remarks.push_back(open.text);
-    add_told(); // remarks of the fit already
+    add_told(); // already remarks of the fit
   }
 
 private:
@@ -128,7 +128,7 @@ private:
     fit_.determination.not_determined.push_back(std::move(open));
   }
 
-  // Along each state: how well the change of the stress over a doubling is known.
+  // Adds parameters that make the change of the stress over a doubling of a state uncertain.
   void add_open() {
     const auto in_middle = error_.known() ? error_.slope(middle_) : std::nullopt;
     if (!in_middle || experiments_ < 2) return;
@@ -155,7 +155,7 @@ private:
     }
   }
 
-  // An interval over most of what a parameter may be.
+  // Adds parameters whose interval covers most of their bounds.
   void add_wide() {
     if (experiments_ < 2) return;
     for (std::size_t p = 0; p < size(); ++p) {
@@ -171,7 +171,7 @@ private:
     }
   }
 
-  // Whether the stress is proportional to it, nearly, over the data.
+  // Whether the stress is nearly proportional to the parameter over the data.
   bool is_level(std::size_t p) const {
     const auto at = static_cast<Index>(p);
     const auto here = error_.slope(middle_);
@@ -199,7 +199,7 @@ private:
       }
   }
 
-  // What the fit has said itself.
+  // Adds parameters that the fit itself reported.
   void add_told() {
     for (std::size_t p = 0; p < size(); ++p)
       if (!u_.why_none[p].empty())
@@ -211,7 +211,7 @@ private:
   const Uncertainty& u_;
   StressError error_;
   std::size_t experiments_;
-  double t_; // a 95 % interval is so many standard errors either way
+  double t_; // half width of a 95 % interval in standard errors
   std::vector<double> middle_;
   std::vector<Reach> reaches_;
   std::set<std::size_t> open_;

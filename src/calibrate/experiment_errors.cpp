@@ -1,4 +1,4 @@
-// Sums over each experiment become its errors.
+// Converts sums over each experiment to its errors.
 #include "calibrate/experiment_errors.h"
 
 #include <cmath>
@@ -50,7 +50,7 @@ std::vector<ErrorSums> sums_of(const std::vector<ExperimentError>& errors) {
 std::vector<ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& validation) {
   if (!fit.unseen.empty()) {
     std::vector<ErrorSums> sums = sums_of(fit.unseen);
-    if (validation.recording.size() == sums.size()) // files do not say them
+    if (validation.recording.size() == sums.size()) // files do not contain them
       for (std::size_t e = 0; e < sums.size(); ++e)
         sums[e].recording = validation.recording[e];
     return sums;
@@ -64,7 +64,8 @@ std::vector<ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& val
 
 namespace {
 
-// Of the laws that were not judged on the rows of condensed data, as those of an earlier run.
+// Reads the rows for laws that were not judged on the rows of condensed data, such as those of an
+// earlier run.
 void look_where_unknown(std::vector<ErrorsOfLaw>& laws, const Calibration& calibration,
                         const data::Dataset& training, const data::Dataset& validation) {
   std::vector<std::size_t> unknown;

@@ -1,4 +1,4 @@
-// Errors of every law for every experiment: which test is the outlier?
+// Errors of every law for every experiment, which show outlying tests.
 #pragma once
 
 #include <string>
@@ -11,22 +11,24 @@ namespace frictab::calibrate {
 
 struct ErrorsOfLaw {
   std::string law;
-  std::vector<ExperimentError> experiments; // as filed, training first; left out: each once
+  // in file order, training first; in leave-one-out each once
+  std::vector<ExperimentError> experiments;
 };
 
 ExperimentError error_of(const std::string& experiment, bool held_out, const ErrorSums& sums,
                          double gain);
-// Of every experiment in `data`; `held_out` is what they are called.
+// Computes the errors of every experiment in `data`; `held_out`: whether the law was fitted without
+// them.
 std::vector<ExperimentError> experiment_errors(const models::Model& model,
                                                const data::Dataset& data, bool held_out);
 
-// Back to sums over rows.
+// Converts errors back to sums over rows.
 std::vector<ErrorSums> sums_of(const std::vector<ExperimentError>& errors);
 
-// Of the law on the validation experiments; fit.unseen where there is one.
+// Returns the sums of the law on the validation experiments, or of fit.unseen if it has any.
 std::vector<ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& validation);
 
-// Laws as ranked.
+// Collects the errors of all laws in ranking order.
 std::vector<ErrorsOfLaw> errors_by_experiment(const Calibration& calibration,
                                               const data::Dataset& training,
                                               const data::Dataset& validation);

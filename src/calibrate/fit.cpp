@@ -18,9 +18,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// What a step moves: the parameter, or its logarithm where its bounds say that it is a positive
+// Quantity moved by a step: the parameter, or its logarithm if its bounds identify it as a positive
 // scale of unknown size. In C p^a the scale C and the exponent a trade off against each other along
-// a curved valley; with ln C it is a straight one, along which a step can go.
+// a curved valley; in ln C the valley is straight, so that a step can follow it.
 double to_step_scale(const models::Parameter& p, double value) {
   return is_scale(p) ? std::log(value) : value;
 }
@@ -28,8 +28,8 @@ double from_step_scale(const models::Parameter& p, double moved) {
   return std::clamp(is_scale(p) ? std::exp(moved) : moved, p.lower, p.upper);
 }
 
-// Parameters that may move: not those at a bound that the descent pushes them against, nor those
-// without any influence.
+// Parameters that may move: all except those without influence, and those at a bound against which
+// the descent pushes them.
 std::vector<Index> free_parameters(const FitProblem& problem, const NormalEquations& n,
                                    const std::vector<double>& x) {
   std::vector<Index> free;
@@ -42,7 +42,7 @@ std::vector<Index> free_parameters(const FitProblem& problem, const NormalEquati
   return free;
 }
 
-// Damped and scaled normal equations: independent of the parameters' units.
+// Solves damped and scaled normal equations; independent of the parameters' units.
 VectorXd solve_damped(const NormalEquations& n, const std::vector<Index>& free,
                       const VectorXd& descent, const VectorXd& damping) {
   const auto size = static_cast<Index>(free.size());
@@ -64,7 +64,7 @@ struct Step {
   double predicted = 0; // reduction of the cost by the quadratic model
 };
 
-// A parameter that would leave its bounds is put on the bound, and the others are solved again.
+// Fixes a parameter that would leave its bounds at the bound, and solves for the others again.
 Step bounded_step(const FitProblem& problem, const NormalEquations& n, std::vector<Index> free,
                   const std::vector<double>& x, const VectorXd& damping) {
   VectorXd step = VectorXd::Zero(n.descent.size());
@@ -105,15 +105,15 @@ double mean_square(std::span<const double> values) {
   return sum / static_cast<double>(values.size());
 }
 
-// What damping is multiplied with after a step that gained `ratio` of what the quadratic model had
-// promised.
+// Factor of the damping after a step whose gain was `ratio` times the prediction of the quadratic
+// model.
 double damping_change(double ratio) {
   if (ratio > 0.9) return 0.01;
   if (ratio > 0.5) return 0.2;
   return ratio > 0.1 ? 1 : 3;
 }
 
-// One fit: its parameters, the normal equations there, and the damping of the next step.
+// State of a fit: its parameters, the normal equations there, and the damping of the next step.
 class Solver {
 public:
   Solver(const FitProblem& problem, const LossFunction& loss, std::vector<double> start,
@@ -157,7 +157,7 @@ private:
     return n;
   }
 
-  // Why the fit has ended, or nullptr.
+  // Makes one step; returns the reason if the fit has ended, else nullptr.
   const char* iterate() {
     const auto free = free_parameters(problem_, here_, x_);
     if (free.empty()) return "converged: every parameter is held by a bound or without influence";
@@ -167,18 +167,18 @@ private:
     largest_ = largest_.cwiseMax(here_.hessian.diagonal());
     const Step best =
         bounded_step(problem_, model_, free, x_, undamped * model_.hessian.diagonal());
-    // (A negative promise comes from bounds that bend the step uphill; damping straightens it.)
+    // (A negative prediction comes from bounds that bend the step uphill; damping straightens it.)
     if (std::abs(best.predicted) <= options_.tolerance * here_.cost)
       return "converged: no step promises a gain";
     const double before = here_.cost;
     close_ = best.predicted < 1e-3 * before;
     if (!descend(free)) return "converged: no step improves the fit";
-    // Near a kink of the law the promise is wrong for ever: three negligible gains end the fit too.
+    // Near a kink of the law the prediction stays wrong, so three negligible gains end the fit too.
     small_gains_ = before - here_.cost <= options_.tolerance * before ? small_gains_ + 1 : 0;
     return small_gains_ >= 3 ? "converged: the gains have become negligible" : nullptr;
   }
 
-  // The normal equations with the correction, where that leaves a minimum to step to.
+  // Adds the correction to the normal equations if they keep a minimum to step to.
   NormalEquations corrected(const std::vector<Index>& free) {
     NormalEquations model = here_;
     const auto size = static_cast<Index>(free.size());
@@ -194,7 +194,8 @@ private:
     return model;
   }
 
-  // What the step has shown of the curvature: symmetric rank one, in scaled parameters.
+  // Updates the correction by the curvature seen along the step: symmetric rank one, in scaled
+  // parameters.
   void learn(const std::vector<double>& to, const NormalEquations& there) {
     const Index size = correction_.rows();
     VectorXd step(size), scale(size);
@@ -209,7 +210,7 @@ private:
     const double size_of_missed = missed.cwiseQuotient(scale).norm();
     if (std::abs(along) > 1e-3 * size_of_missed * step.cwiseProduct(scale).norm())
       correction_ += missed * missed.transpose() / along;
-    // A correction larger than the curvature itself comes from a kink that was crossed: forget it.
+    // A correction larger than the curvature itself comes from a crossed kink and is discarded.
     const MatrixXd relative =
         scale.cwiseInverse().asDiagonal() * correction_ * scale.cwiseInverse().asDiagonal();
     if (!(relative.norm() < 3)) correction_.setZero();
@@ -248,11 +249,11 @@ private:
   std::vector<double> x_;
   NormalEquations here_;
   double damping_;
-  double exact_; // L2 below which only rounding is left
+  double exact_; // L2 loss below which only rounding is left
   MatrixXd correction_;
-  VectorXd largest_; // curvature seen by each parameter: what damping is measured in (More 1978)
+  VectorXd largest_;      // curvature seen by each parameter: unit of the damping (More 1978)
   NormalEquations model_; // here_ with the correction
-  bool close_ = false;    // to the minimum: gradients tell about curvature
+  bool close_ = false;    // to the minimum, where gradients reveal curvature
   int small_gains_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Constants, means, fits, the network and the polynomial, as one.
+// Fits constants, means, parameters, the network and the polynomial through one interface.
 #include "calibrate/fit_law.h"
 
 #include <algorithm>
@@ -19,8 +19,8 @@ using models::Calibrated;
 
 namespace {
 
-// Sum and rows of tau over `per` in an experiment, each row by its weight; of condensed data over
-// the rows behind them, or of blocks where these differ in their uncertainty.
+// Sum and rows of tau over `per` in an experiment, weighted by row; for condensed data over the
+// source rows, or over blocks if these differ in their uncertainty.
 data::RatioSum ratio_in(const Dataset& data, std::size_t e, std::span<const double> per,
                         bool over_pressure, double factor, std::span<const double> weights) {
   if (data.condensed && !has_uncertainties(data)) {
@@ -54,7 +54,7 @@ struct Mean {
   double off(std::size_t e) const { return parts[e].sum - value * parts[e].rows; }
 };
 
-// Rows of an experiment in which nothing presses, or nothing resists.
+// Number of rows of an experiment without load or without resistance.
 std::size_t count_unloaded(const Dataset& data, std::size_t e, std::span<const double> per,
                            const data::RatioSum& ratio) {
   if (!has_uncertainties(data)) return data.rows_behind(e) - static_cast<std::size_t>(ratio.rows);
@@ -63,7 +63,7 @@ std::size_t count_unloaded(const Dataset& data, std::size_t e, std::span<const d
       std::count_if(of_test.begin(), of_test.end(), [](double x) { return !(x > 0); }));
 }
 
-// Covariance of means of experiments, and where they are without each.
+// Covariance of means of experiments, and their values without each experiment.
 Uncertainty uncertainty_of(const std::vector<Mean>& means) {
   const auto size = static_cast<Eigen::Index>(means.size());
   const std::size_t experiments = means.front().parts.size();
@@ -96,8 +96,8 @@ Uncertainty uncertainty_of(const std::vector<Mean>& means) {
   return u;
 }
 
-// The paper's calibration: the mean over all rows of mu_meas = tau/sigma_N or m_meas = tau/k, with
-// the standard error of a mean of experiments.
+// Calibrates as in the paper: the mean over all rows of mu_meas = tau/sigma_N or m_meas = tau/k,
+// with the standard error of a mean of experiments.
 void fit_means(ModelFit& fit, const Dataset& data) {
   std::vector<Mean> means;
   const std::vector<double> weights = fit_weights(data);
@@ -132,7 +132,7 @@ void remark_constant_inputs(ModelFit& fit, const InputColumns& columns) {
                    [](double e) { return std::isnan(e); }))
     return;
   const auto ranges = columns.ranges();
-  for (const std::string& name : columns.names()) // in their order
+  for (const std::string& name : columns.names()) // in the order of inputs
     if (const auto range = ranges.find(name);
         range != ranges.end() && range->second.first == range->second.second)
       fit.remarks.push_back(
@@ -147,9 +147,9 @@ double largest_change(const std::vector<double>& a, const std::vector<double>& b
   return most;
 }
 
-// Histories that follow the law's own shear stress (friction work) and its parameters in turn, from
-// Coulomb friction with the mean coefficient on. Never of the measured stress: its noise would be
-// in both sides of the fit.
+// Alternates between histories that follow the law's own shear stress (friction work) and its
+// parameters, starting from Coulomb friction with the mean coefficient. The measured stress is
+// never used, because its noise would enter both sides of the fit.
 std::vector<double> settled_tau(ModelFit& fit, const Dataset& data,
                                 const CalibrationOptions& options) {
   constexpr int most_rounds = 40;
@@ -199,7 +199,7 @@ void fit_parameters(ModelFit& fit, const Dataset& data, const CalibrationOptions
   remark_constant_inputs(fit, problem.columns());
 }
 
-// Its bins of rows are weighted by what it finds of their scatter.
+// Remarks that the law weights its bins of rows by their estimated scatter.
 void remark_uncertainties(ModelFit& fit, const Dataset& data) {
   if (has_uncertainties(data))
     fit.remarks.push_back("does not use tau_R_error_MPa: it estimates the scatter itself");
@@ -228,7 +228,7 @@ void fit_ensemble(ModelFit& fit, const Dataset& data, const CalibrationOptions& 
   fit.network = record;
 }
 
-// Without one row and its column.
+// Removes one row and its column.
 Eigen::MatrixXd without_row(const Eigen::MatrixXd& m, std::size_t which) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < m.rows(); ++i)
@@ -236,7 +236,7 @@ Eigen::MatrixXd without_row(const Eigen::MatrixXd& m, std::size_t which) {
   return m(kept, kept);
 }
 
-// The distance of its states first; the law that is delivered has it as a number.
+// Finds the slip distance of the law's states first; the delivered law has it as a number.
 ModelFit fit_at_slip_distance(const models::Law& law, std::size_t parameter,
                               const models::Conventions& conventions, const Dataset& data,
                               const CalibrationOptions& options) {

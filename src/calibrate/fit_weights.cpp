@@ -1,4 +1,4 @@
-// Rows behind a block, and the uncertainty of its stress.
+// Source rows of a block, and the uncertainty of its stress.
 #include "calibrate/fit_weights.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What each row counts in a fit.
+// Weights of rows in a fit.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,10 @@
 
 namespace frictab::calibrate {
 
-// The rows behind it (condensed data), over the square of the owner's standard uncertainty of its
-// tau_R (column tau_R_error_MPa) where there is one, in the mean one of the latter. Whatever the
-// loss. Empty: all rows alike. Errors of laws are never weighted by it: a row is a row there.
+// Returns the weight of each row, for any loss: the number of rows it represents (condensed data),
+// divided by the square of the user's standard uncertainty of its tau_R (column tau_R_error_MPa)
+// where given; the latter factor is scaled to a mean of 1. Empty: equal weights. Errors of laws are
+// never weighted by the uncertainty: there every row counts as one.
 std::vector<double> fit_weights(const data::Dataset& data);
 
 // Whether rows differ in that uncertainty.

@@ -1,4 +1,4 @@
-// Tests left out, one at a time.
+// Leaves out tests, one at a time.
 #include "calibrate/influence.h"
 
 #include <algorithm>
@@ -21,12 +21,12 @@ using Eigen::Index;
 
 namespace {
 
-// Of one law: so many tests are fitted without, where one step says that they matter.
+// Tests per law without which it is refitted if one step indicates their influence.
 constexpr std::size_t most_refits = 3;
-// One step is a little off where a law is not linear.
+// Tolerance for the first step, which is slightly off if a law is not linear.
 constexpr double nearly = 0.8;
 
-// Standard errors: told before anything else.
+// Shift in standard errors above which a test is reported first.
 constexpr double far_moved = 2;
 
 double size_of(const Influence::Moved& m) {
@@ -37,7 +37,7 @@ double size_of(const Influence& one) {
   return one.moved.empty() ? 0 : size_of(one.moved.front());
 }
 
-// What the law without a test says.
+// Shifts of the parameters by a law fitted without a test.
 Influence moved_by(const ModelFit& fit, const std::string& experiment,
                    const models::Model& without) {
   Influence found{fit.model.law->name, experiment, {}, ""};
@@ -54,7 +54,7 @@ Influence moved_by(const ModelFit& fit, const std::string& experiment,
   return found;
 }
 
-// Tests that may move it, by one step each; the furthest first.
+// Tests that may move the law according to one step each, largest shift first.
 std::vector<std::size_t> suspects(const Uncertainty& u) {
   std::vector<std::pair<double, std::size_t>> found;
   for (Index e = 0; e < u.moved_without.cols(); ++e) {
@@ -71,7 +71,7 @@ std::vector<std::size_t> suspects(const Uncertainty& u) {
   return tests;
 }
 
-// Of one law; the furthest first.
+// Influential tests of one law, largest shift first.
 std::vector<Influence> of_law(const ModelFit& fit, const models::Conventions& conventions,
                               const CalibrationInput& input) {
   const std::vector<std::string>& tests = input.training.experiments;
@@ -93,8 +93,8 @@ std::vector<Influence> of_law(const ModelFit& fit, const models::Conventions& co
   return found;
 }
 
-// The law with the least error where one test (or none: as many as there are) does not judge; of
-// equal ones the first.
+// Law with the least error when one test does not judge (`test` = number of tests: all judge); the
+// first of equal ones.
 std::size_t first_without(const std::vector<std::vector<ErrorSums>>& laws, std::size_t test) {
   std::vector<double> mae;
   for (const std::vector<ErrorSums>& sums : laws) {
@@ -124,7 +124,8 @@ void add_first_places(Calibration& calibration, const CalibrationInput& input) {
     laws.push_back(unseen_sums(fit, input.validation));
   }
   if (laws.size() < 2) return;
-  if (first_without(laws, judges.size()) != 0) return; // ranked on rows that are not held
+  // it was ranked on rows that are not in memory
+  if (first_without(laws, judges.size()) != 0) return;
   const std::string& leader = names.front();
   for (std::size_t e = 0; e < judges.size(); ++e) {
     const std::size_t first = first_without(laws, e);
@@ -157,7 +158,7 @@ void add_influence(Calibration& calibration, const models::Conventions& conventi
 std::string influence_sentence(const Calibration& calibration) {
   const auto& all = calibration.influence;
   if (all.empty()) return "";
-  // What moves the better law far, before a first place, before what moves a law at all.
+  // A large shift of a better law comes first, then a change of the first place, then any shift.
   const auto far = std::find_if(all.begin(), all.end(),
                                 [](const Influence& one) { return size_of(one) > far_moved; });
   const auto first =

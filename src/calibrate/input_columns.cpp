@@ -1,4 +1,4 @@
-// Finds recorded columns, derives histories, and follows those that need the law's own stress.
+// Finds recorded columns, derives histories, and iterates those that need the law's own stress.
 #include "calibrate/input_columns.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 constexpr double settled_change = 1e-12; // relative change between two rounds
 constexpr int plain_rounds = 20, most_rounds = 400;
 
-// (A column that has the name of a history is not it.)
+// Finds a recorded column; one with the name of a history does not count.
 const data::Column* recorded_column(const std::string& name, const Dataset& data) {
   if (data::find_derived(name)) return nullptr;
   if (const data::Column* column = data.find(name)) return column;
@@ -31,7 +31,7 @@ const data::Column* recorded_column(const std::string& name, const Dataset& data
   return nullptr;
 }
 
-// What a history lacks to be derived.
+// Columns that a history needs and the data lack.
 std::vector<std::string> missing_needs(const data::DerivedQuantity& derived, const Dataset& data) {
   std::vector<std::string> names;
   for (const std::string& need : derived.needs)
@@ -48,10 +48,11 @@ Place place_of(const Dataset& data) {
   return {join(data.sources, ", "), 0, 0};
 }
 
-// A text column's numbers by the law's levels: files number those that they have.
+// Numbers a text column by the law's levels, because files number only the levels that they
+// contain.
 std::vector<double> renumbered(const data::Column& column, const std::vector<std::string>& levels,
                                const Dataset& data) {
-  if (data::is_empty(column)) { // in these rows; elsewhere it is text
+  if (data::is_empty(column)) { // empty in these rows, but a text column
     data::Column text = column;
     data::make_empty_text(text);
     return renumbered(text, levels, data);
@@ -75,14 +76,14 @@ std::vector<double> renumbered(const data::Column& column, const std::vector<std
   return values;
 }
 
-// "row 3 of 'E1'"
+// Example: "row 3 of 'E1'"
 std::string row_name(const Dataset& data, std::size_t row) {
   const auto next = std::upper_bound(data.first_row.begin(), data.first_row.end(), row) - 1;
   const auto e = static_cast<std::size_t>(next - data.first_row.begin());
   return fmt::format("row {} of '{}'", row - data.first_row[e] + 1, data.experiments[e]);
 }
 
-// Rows whose value is no number.
+// Rows whose value is not a number.
 struct NoNumbers {
   std::size_t first = 0, count = 0;
 
@@ -90,14 +91,14 @@ struct NoNumbers {
     for (std::size_t row = values.size(); row-- > 0;)
       if (!std::isfinite(values[row])) first = row, ++count;
   }
-  // "row 3 of 'E1' and 7 more"
+  // Example: "row 3 of 'E1' and 7 more"
   std::string text(const Dataset& data) const {
     const std::string name = row_name(data, first);
     return count > 1 ? name + " and " + thousands(count - 1) + " more" : name;
   }
 };
 
-// No law has a stress where a state has no value, and no fit a sum over such rows.
+// Rejects empty cells: without a value of a state, laws have no stress and fits no sum.
 void check_cells(const data::Column& column, const models::Law& law, const Dataset& data) {
   const NoNumbers empty(column.values);
   if (empty.count == 0) return;
@@ -154,7 +155,7 @@ const double* InputColumns::find(const models::Law& law, std::size_t input) {
   const auto levels = law.levels.find(name);
   if (column && levels == law.levels.end()) {
     if (!column->levels.empty()) {
-      const auto& all = column->levels; // the first may be that of empty cells
+      const auto& all = column->levels; // the first level may stand for empty cells
       const std::string& word = all.front().empty() ? all.back() : all.front();
       throw InputError(place_of(*data_),
                        "column " + column->name + " holds text, where " + law.name +
@@ -217,8 +218,8 @@ double largest(std::span<const double> values) {
   return most;
 }
 
-// One round: `tau` becomes `next`, or half of both where it would swing: where `may_halve` and this
-// step goes against the one before, which it replaces. The change, relative.
+// Replaces `tau` by `next` or, if `may_halve` and the step opposes the previous one (oscillation),
+// by the mean of both. Updates `step`; returns the relative change.
 double replace_tau(std::vector<double>& tau, const std::vector<double>& next,
                    std::vector<double>& step, bool may_halve) {
   double along = 0;
@@ -240,7 +241,7 @@ double replace_tau(std::vector<double>& tau, const std::vector<double>& next,
                    "calibrate and trace again without that effect ([trace] ignore)");
 }
 
-// The inputs of the law among more columns.
+// Selects the inputs of the law among more columns.
 std::vector<const double*> pointers_to(const InputColumns& columns,
                                        const std::vector<std::string>& names) {
   std::vector<const double*> out;

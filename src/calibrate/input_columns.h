@@ -1,5 +1,4 @@
-// The columns of a dataset that a law's inputs stand for: recorded ones, and histories along each
-// experiment.
+// Columns of a dataset for a law's inputs: recorded ones, and histories along each experiment.
 #pragma once
 
 #include <map>
@@ -13,36 +12,37 @@
 
 namespace frictab::calibrate {
 
-// Which of these inputs the data neither record nor allow to derive: "humidity_pct", "friction_work
-// (from s_mm)".
+// Returns the inputs that the data neither record nor allow to derive: "humidity_pct",
+// "friction_work (from s_mm)".
 std::vector<std::string> missing_inputs(const std::vector<std::string>& names,
                                         const data::Dataset& data);
 
-// An input with the name of a derived quantity (data/derived.h) is that, whatever is recorded; any
-// other is a recorded column, found by its name or by its symbol_of. Numbers of a text column are
-// those of the law's levels, whatever the file's.
+// Columns by input. An input with the name of a derived quantity (data/derived.h) is always
+// derived, even if a column of that name is recorded; any other is a recorded column, found by its
+// name or by its symbol_of. Text columns are numbered by the law's levels, not by the file's.
 class InputColumns {
 public:
-  // The data must outlive this. Throws InputError that names all inputs the data do not have,
-  // levels the law does not know, and a column of numbers with a cell that has none.
+  // The data must outlive this. Throws InputError that names all inputs missing from the data,
+  // levels unknown to the law, or a numeric column with an empty cell.
   InputColumns(const models::Law& law, std::vector<std::string> names, const data::Dataset& data);
 
-  InputColumns(InputColumns&&) = default; // not copied: columns may lie in it
+  InputColumns(InputColumns&&) = default; // not copied: pointers_ may point into it
   InputColumns& operator=(InputColumns&&) = default;
 
-  // Some follow the shear stress of the law itself: friction work and power. They are 0 until
+  // Whether some follow the law's own shear stress (friction work and power). These are 0 until
   // derive_from_tau().
   bool need_tau() const;
-  // Derives those from it.
+  // Derives those inputs from the stress.
   void derive_from_tau(std::span<const double> tau);
 
   const std::vector<std::string>& names() const { return names_; }
   const std::vector<const double*>& pointers() const { return pointers_; }
   std::span<const double> operator[](std::size_t input) const;
   std::vector<std::vector<double>> values() const; // copies
-  // Least and largest of each by name, empty cells left aside; none where all cells are empty.
+  // Returns the range of each input by name, ignoring empty cells; inputs without a value are
+  // omitted.
   std::map<std::string, std::pair<double, double>> ranges() const;
-  // Of one, over the rows behind condensed data; NaN where all cells are empty.
+  // Range of one input, over the source rows of condensed data; NaN if all cells are empty.
   std::pair<double, double> range(std::size_t input) const;
 
 private:
@@ -55,8 +55,8 @@ private:
   std::vector<const double*> pointers_;
 };
 
-// These columns at the model's own shear stress (self-consistent, never the measured one), and that
-// stress. The inputs must hold those of the model's law.
+// Columns at the model's own shear stress (self-consistent, never the measured one), and that
+// stress. `names` must include the inputs of the model's law.
 struct Predicted {
   InputColumns columns;
   std::vector<double> tau_MPa;
@@ -64,10 +64,10 @@ struct Predicted {
 Predicted predict_with_columns(const models::AssembledLaw& law, std::vector<std::string> names,
                                const data::Dataset& data);
 
-// Throws InputError where a formula has no value, as a logarithm below 0.
+// Throws InputError if a formula has no value in a row, such as the logarithm of a negative number.
 void check_stress(const std::string& law, const Predicted& predicted, const data::Dataset& data);
 
-// The columns alone; nothing is predicted where no history asks for it.
+// Returns the columns alone; predicts the stress only if a history needs it.
 InputColumns input_columns(const models::AssembledLaw& law, std::vector<std::string> names,
                            const data::Dataset& data);
 

@@ -1,4 +1,4 @@
-// Where to start, and how to get from few rows to all of them.
+// Start values, and the way from few rows to all of them.
 #include "calibrate/law_problem.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace frictab::calibrate {
 
 namespace {
 
-constexpr std::size_t few_rows = 256;     // enough to tell one minimum from another
+constexpr std::size_t few_rows = 256;     // enough to distinguish minima
 constexpr std::size_t coarse_rows = 2800; // enough to come within a standard error of the optimum
 
 std::vector<double> default_start(const FitProblem& problem) {
@@ -38,7 +38,7 @@ std::vector<double> halton_start(const FitProblem& problem, std::size_t index) {
   return start;
 }
 
-// NLopt's DIRECT-L over the bounds.
+// Global search over the bounds by NLopt's DIRECT-L.
 std::vector<double> direct_start(const FitProblem& problem, const LossFunction& loss) {
   const std::size_t size = problem.parameters.size();
   std::vector<double> lower, upper, x = default_start(problem);
@@ -66,7 +66,7 @@ std::vector<double> direct_start(const FitProblem& problem, const LossFunction& 
   return x;
 }
 
-// Best first, without those that came to the same minimum, without hopeless ones.
+// Keeps the best fits, sorted, without duplicates of a minimum and without hopeless ones.
 void keep_best(std::vector<FitResult>& fits, double slack) {
   std::stable_sort(fits.begin(), fits.end(),
                    [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
@@ -80,7 +80,7 @@ void keep_best(std::vector<FitResult>& fits, double slack) {
   fits = std::move(kept);
 }
 
-// The few that lie lowest: neighbours lead to the same minimum.
+// Keeps the few best starts, because neighbours lead to the same minimum.
 std::vector<std::vector<double>> best_starts(const FitProblem& problem,
                                              std::vector<std::vector<double>> starts) {
   constexpr std::size_t few = 4;
@@ -120,19 +120,20 @@ void refine(FitResult& fit, const FitProblem& problem, const LossFunction& loss,
   fit.evaluations += before;
 }
 
-// L1 rounded off over `share` of the residuals' scale.
+// L1 smoothed over `share` of the residuals' scale.
 LossFunction rounded(double scale, double share) {
   return {Loss::l1, share * scale, 6 * share * scale};
 }
 
-// On all rows, to the end. The fewer the rows, the more each corner of L1 matters.
+// Fits to all rows until convergence. The fewer the rows, the more each corner of L1 matters.
 void polish(FitResult& fit, const FitProblem& all, const LossFunction& loss) {
   const FitOptions options{.tolerance = 1e-8, .damping = 1e-9};
   if (loss.kind != Loss::l1) return refine(fit, all, loss, options);
   if (all.parameters.size() == 1) return exact_median(all, fit);
   const double rows = static_cast<double>(all.measured.size());
   const double last = std::clamp(7e-8 * rows, 1e-5, 3e-3);
-  // Few rows come here from least squares, and by small steps: corners part minima.
+  // With few rows the start is the least-squares fit, and smoothing decreases in small steps,
+  // because corners separate minima.
   const bool straight = rows < 4.0 * coarse_rows;
   for (double share = straight ? 0.1 : 3e-3; share > last * 1.5; share /= straight ? 3 : 6)
     refine(fit, all, rounded(loss.width_MPa, share), options);
@@ -167,7 +168,7 @@ LawProblem::Starts LawProblem::law_starts() const {
   return law_.starts(conventions_, rows);
 }
 
-// Evenly spaced rows, so that every experiment is seen in proportion.
+// Adds a level of evenly spaced rows, so that every experiment is represented in proportion.
 void LawProblem::add_thinned(std::size_t rows) {
   Level& level = levels_.emplace_back();
   const auto keep = [&](std::span<const double> values) {
@@ -193,8 +194,8 @@ FitProblem LawProblem::problem(const Level& level) const {
   return {*level.formula, level.measured, law_.parameters, level.weights};
 }
 
-// Distinct minima on one level, best first. Least squares find them, `loss` ranks them; for L1
-// sets its rounding by the residuals that are left.
+// Finds distinct minima on one level, best first: by least squares, ranked by `loss`. For L1 also
+// sets its smoothing by the remaining residuals.
 std::vector<FitResult> LawProblem::search(const Level& level, const Starts& offered,
                                           LossFunction& loss) const {
   const FitProblem rows = problem(level);
@@ -209,7 +210,7 @@ std::vector<FitResult> LawProblem::search(const Level& level, const Starts& offe
   try_start(default_start(rows));
   for (const auto& start : best_starts(rows, offered))
     try_start(start);
-  // Until two starts, of a few, have come to the same lowest minimum.
+  // Stops when two starts, of at least a few, have reached the same lowest minimum.
   const std::size_t few = rows.parameters.size() > 1 ? rows.parameters.size() + 2 : 2;
   const std::size_t most = few + 6;
   for (std::size_t i = 0; offered.empty() && (fits.size() < few || !agree(fits)); ++i) {
@@ -286,7 +287,8 @@ void LawProblem::add_uncertainty(LawFit& fit, Loss kind, double huber_delta_MPa,
                                  const data::Dataset& data) const {
   const FitProblem all = problem(levels_.back());
   FitResult& result = fit.result;
-  // For L1 the cost is the mean residual: the score is its sign, but for a thousandth of that.
+  // For L1 the cost is the mean residual, so smoothing over a thousandth of it leaves the score
+  // almost the sign.
   const LossFunction loss = kind == Loss::l1 ? LossFunction{kind, 1e-3 * result.cost, result.cost}
                                              : LossFunction{kind, huber_delta_MPa};
   const auto uncertainty = [&] {
@@ -302,7 +304,8 @@ void LawProblem::add_uncertainty(LawFit& fit, Loss kind, double huber_delta_MPa,
   result.evaluations += settled.evaluations;
   if (settled.cost > here * (1 + 1e-9)) return;
   result.parameters = settled.parameters;
-  fit.uncertainty = uncertainty(); // of these ones: one that was at a bound may have left it
+  // for the moved parameters: one that was at a bound may have left it
+  fit.uncertainty = uncertainty();
 }
 
 } // namespace frictab::calibrate

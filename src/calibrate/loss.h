@@ -10,8 +10,8 @@ namespace frictab::calibrate {
 
 struct LossFunction {
   Loss kind = Loss::l2;
-  double width_MPa = 10; // Huber: where it turns linear; L1: eps, where it is rounded off
-  double kernel_MPa = 0; // L1: rows within this much of 0 tell the curvature
+  double width_MPa = 10; // Huber: |r| at which it becomes linear; L1: eps, the smoothing width
+  double kernel_MPa = 0; // L1: residuals within this distance of 0 estimate the curvature
 
   double cost(double r) const {
     switch (kind) {
@@ -36,8 +36,8 @@ struct LossFunction {
     }
     return 0;
   }
-  // L1 has no curvature of its own: what its mean has is twice the density of the residuals at 0,
-  // by Epanechnikov's kernel.
+  // Curvature for standard errors. L1 has none of its own: the curvature of its mean is twice the
+  // density of the residuals at 0, estimated by Epanechnikov's kernel.
   double curvature(double r) const {
     switch (kind) {
     case Loss::l2:
@@ -51,7 +51,7 @@ struct LossFunction {
     }
     return 0;
   }
-  // What a step takes for the curvature: it holds a little of the weight, so that steps stay short
+  // Curvature used for steps: it includes a small part of the weight, so that steps stay short
   // where no row has any curvature.
   double step_curvature(double r) const {
     switch (kind) {

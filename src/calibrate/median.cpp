@@ -12,12 +12,12 @@ namespace frictab::calibrate {
 namespace {
 
 struct Point {
-  double at;     // the parameter that would put the law through this row
+  double at;     // parameter value for which the law passes through this row
   double weight; // |d tau/d p|, times the row's
 };
 
-// The smallest `at` below and at which lies half of the weight. Only what a pivot leaves undecided
-// is looked at again: linear in the rows.
+// Smallest `at` up to which half of the weight lies. Each pivot halves the undecided rows, so the
+// cost is linear in the rows.
 double weighted_median(std::vector<Point> points) {
   double total = 0;
   for (const Point& p : points)
@@ -52,7 +52,7 @@ void exact_median(const FitProblem& problem, FitResult& fit) {
   fit.cost = mean_cost(problem, absolute, fit.parameters);
   ++fit.evaluations;
   fit.termination = "converged: weighted median";
-  constexpr int most = 20; // a law that is linear in its parameter needs one
+  constexpr int most = 20; // one suffices for a law that is linear in its parameter
   for (int i = 0; i < most; ++i) {
     const double p = fit.parameters[0];
     std::vector<Point> points;

@@ -1,13 +1,13 @@
-// Least absolute deviations in one parameter, exactly.
+// Exact least absolute deviations in one parameter.
 #pragma once
 
 #include "calibrate/fit.h"
 
 namespace frictab::calibrate {
 
-// For a law with one parameter p: where tau = p g(state), the L1 optimum is the median of tau/g
-// weighted by |g|. Elsewhere (limits, saturation) the law is taken as linear around the given fit,
-// and the median replaces it where its mean |r| is smaller. Sets cost to the mean |r|.
+// Refines the fit of a law with one parameter p: where tau = p g(state), the L1 optimum is the
+// median of tau/g weighted by |g|. Elsewhere (limits, saturation) the law is linearised around the
+// given fit, and the median is used if its mean |r| is smaller. Sets the cost to the mean |r|.
 void exact_median(const FitProblem& problem, FitResult& fit);
 
 } // namespace frictab::calibrate

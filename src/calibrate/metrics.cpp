@@ -33,8 +33,8 @@ std::vector<double> column_of(std::span<const ErrorSums> sums, double ErrorSums:
   return values;
 }
 
-// Infinite where the error is no more than rounding of `size`: a resample that drew one experiment
-// every time has no scatter.
+// Infinite if the error is only rounding of `size`: a resample that drew one experiment every time
+// has no scatter.
 double in_standard_errors(double step, double error, double size) {
   if (error > 1e-12 * size) return step / error;
   if (step == 0 || std::isnan(step)) return 0;
@@ -68,13 +68,13 @@ Estimate estimate(const std::vector<double>& x, const std::vector<double>& n, Me
     t = {-student[x.size() - 2], student[x.size() - 2]};
   else
     t = studentised(x, n, measure, result.value, draws);
-  // No scatter at all leaves nothing to multiply, were t infinite.
+  // without scatter, t is infinite and has nothing to multiply
   result.interval = se > 0 ? Interval{result.value - t.high * se, result.value - t.low * se}
                            : Interval{result.value, result.value};
   return result;
 }
 
-// An error is not below 0, whatever the interval's formula says.
+// Clamps to 0, because an error is not negative even if the interval's formula gives that.
 Interval not_negative(Interval interval) {
   return {std::isnan(interval.low) ? interval.low : std::max(0.0, interval.low), interval.high};
 }

@@ -1,4 +1,4 @@
-// The training of the neural network, from rows to an ensemble.
+// Training of the neural network, from rows to an ensemble.
 #include "calibrate/network.h"
 
 #include <algorithm>
@@ -26,15 +26,15 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr std::size_t hidden_units = 8, repeats = 4, most_folds = 5;
-// More bins bring no accuracy: rows closer than this are alike.
+// More bins do not improve accuracy: rows closer than this are alike.
 constexpr std::size_t bins_per_experiment = 11;
-// In units of the noise; the winner has always been well inside.
+// In units of the noise; the chosen one has always been well inside this range.
 const std::vector<double> decays{100, 30, 10, 3, 1, 0.3};
 
 // Means of a column over the bins of each experiment.
 struct Binning {
-  std::vector<std::size_t> first; // row of each bin, and the end
-  std::vector<Index> first_bin;   // of each experiment, and the end
+  std::vector<std::size_t> first; // first row of each bin; last, the number of rows
+  std::vector<Index> first_bin;   // first bin of each experiment; last, the number of bins
 
   const data::Dataset& data;
 
@@ -76,7 +76,7 @@ struct Binning {
 models::NetworkInput scaling(const std::string& name, double smallest, const VectorXd& bins) {
   models::NetworkInput input{.name = name};
   const double low = bins.minCoeff(), high = bins.maxCoeff();
-  // Degrees Celsius have no zero to count decades from.
+  // Degrees Celsius have an arbitrary zero, so decades are meaningless.
   input.log =
       data::find_quantity(name)->unit != "degC" && smallest >= 0 && low > 0 && high >= 10 * low;
   if (input.log) {
@@ -86,16 +86,16 @@ models::NetworkInput scaling(const std::string& name, double smallest, const Vec
   const VectorXd u = bins.unaryExpr([&](double x) { return input.u(x); });
   input.centre = u.mean();
   const double spread = std::sqrt((u.array() - input.centre).square().mean());
-  input.scale = spread > 1e-9 * std::abs(input.centre) ? spread : 1; // varies inside bins only
+  input.scale = spread > 1e-9 * std::abs(input.centre) ? spread : 1; // it varies inside bins only
   return input;
 }
 
 struct TrainingSet {
-  data::Units units; // that folds do not part
+  data::Units units; // units that folds keep together
   std::vector<models::NetworkInput> inputs;
   NetworkBins bins;
   NetworkShape shape;
-  double mu0 = 0; // Coulomb's least squares; 0 without any load
+  double mu0 = 0; // Coulomb's least squares; 0 without load
 };
 
 TrainingSet prepare(const models::Law& law, const data::Dataset& data,
@@ -128,7 +128,8 @@ TrainingSet prepare(const models::Law& law, const data::Dataset& data,
   return set;
 }
 
-// Uneven, so that units differ, and small at the output, so that the first net is nearly Coulomb.
+// Random weights differ between units, and are small at the output, so that the first net is nearly
+// Coulomb.
 VectorXd random_weights(const NetworkShape& shape, Random random) {
   VectorXd w(shape.weights());
   Index at = 0;
@@ -162,7 +163,7 @@ public:
 
   std::size_t folds() const { return folds_; }
 
-  // One fit per decay of the path, each started from the one before.
+  // Fits one net per decay of the path, each started from the previous one.
   std::vector<NetworkFit> path(std::size_t repeat, std::size_t fold, NetworkScatter scatter,
                                const std::vector<double>& path_decays) const {
     const auto fold_of = experiment_folds(set_.units, folds_, seed_, repeat);
@@ -177,7 +178,7 @@ public:
     return fits;
   }
 
-  // All folds of `count` repeats, by repeat and fold.
+  // Trains all folds of `count` repeats, sorted by repeat and fold.
   std::vector<std::vector<NetworkFit>> all_paths(std::size_t count, NetworkScatter scatter,
                                                  const std::vector<double>& path_decays) const {
     std::vector<std::vector<NetworkFit>> paths(count * folds_);
@@ -189,8 +190,8 @@ public:
     return paths;
   }
 
-  // Variance components of the residuals of held-out experiments (method of moments), from nets
-  // trained without them.
+  // Estimates variance components of the residuals of held-out experiments (method of moments),
+  // from nets trained without them.
   NetworkScatter scatter() const {
     const VectorXd coulomb = network_residual(set_.bins, set_.mu0 * set_.bins.stress);
     const double rms = std::sqrt(coulomb.squaredNorm() / static_cast<double>(coulomb.size()));
@@ -221,7 +222,8 @@ public:
   }
 
   // Ratio of measured to predicted stress (least squares) of each experiment, predicted by the nets
-  // that did not see it; at their last iteration, since the best one was chosen by the experiment.
+  // that did not see it. Uses their last iteration, because the best one was selected by the
+  // experiment.
   std::vector<double> held_out_gains(const std::vector<std::vector<NetworkFit>>& paths,
                                      std::size_t decay) const {
     const NetworkBins& bins = set_.bins;
@@ -252,8 +254,8 @@ private:
   std::size_t folds_;
 };
 
-// A net that failed stands out on the experiments as a whole. Those it left out alone would not do:
-// one unusual experiment would cost every net that did not see it.
+// Removes failed nets, which stand out on all experiments together. Their held-out experiments
+// alone do not suffice: one unusual experiment would exclude every net that did not see it.
 std::vector<VectorXd> without_failed(const TrainingSet& set, std::vector<VectorXd> members) {
   std::vector<double> squares;
   for (const VectorXd& w : members)

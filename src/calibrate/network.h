@@ -1,5 +1,5 @@
-// Trains the neural network: an ensemble of small nets, weight decay chosen by cross-validation
-// over experiments.
+// Training of the neural network: an ensemble of small nets, weight decay chosen by
+// cross-validation over experiments.
 #pragma once
 
 #include <optional>
@@ -11,16 +11,17 @@
 
 namespace frictab::calibrate {
 
-// What was tried and what came out; goes to calibration.json.
+// Record of the training; goes to calibration.json.
 struct NetworkRecord {
   std::vector<std::string> inputs;
-  std::size_t hidden = 0;          // tanh units of the one hidden layer
-  std::size_t members = 0;         // nets in the ensemble
-  std::size_t dropped = 0;         // nets left out: far worse than the others on the experiments
+  std::size_t hidden = 0;  // tanh units of the one hidden layer
+  std::size_t members = 0; // nets in the ensemble
+  // nets excluded because they are far worse than the others on the experiments
+  std::size_t dropped = 0;
   std::size_t weights = 0;         // of one net
   std::size_t bins = 0;            // bins of rows trained on
   std::size_t folds = 0;           // groups of experiments, each held out once ...
-  std::size_t repeats = 0;         // ... in each repeat
+  std::size_t repeats = 0;         // in each repeat
   std::vector<double> decays;      // tried, strongest first
   std::vector<double> cv_rmse_MPa; // of the bins of held-out experiments, per decay
   double decay = 0;                // chosen
@@ -41,14 +42,14 @@ struct TrainedNetwork {
   NetworkRecord record;
 };
 
-// The least number of experiments: below, none can be held out to choose the decay.
+// Least number of experiments; with fewer, none can be held out to choose the decay.
 constexpr std::size_t network_experiments = 5;
 
-// Of the states that the law may use, those that vary in the data.
+// Returns the states that the law may use and that vary in the data.
 std::vector<std::string> network_inputs(const models::Law& law, const data::Dataset& data);
 
-// Trains on whole experiments of `training` (at least network_experiments, at least one input);
-// the result depends on data and seed alone, not on the number of threads.
+// Trains on whole experiments of `training` (at least network_experiments, at least one input). The
+// result depends only on data and seed, not on the number of threads.
 TrainedNetwork train_network(const models::Law& law, const data::Dataset& training,
                              const models::Conventions& conventions, std::uint64_t seed);
 

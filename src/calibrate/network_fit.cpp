@@ -34,8 +34,8 @@ NetworkBins NetworkBins::of(std::span<const std::size_t> chosen) const {
 
 namespace {
 
-// tanh(a + bias) by the exponential, which Eigen vectorises where it calls libm for tanh; within
-// a few units of 1e-16 of it, and right where the exponential overflows.
+// tanh(a + bias) by the exponential, which Eigen vectorises, whereas it calls libm for tanh;
+// accurate to a few units of 1e-16, and correct where the exponential overflows.
 template <class Vector> VectorXd tanh_of(const Vector& a, double bias) {
   return 1 - 2 / ((2 * (a.array() + bias)).exp() + 1);
 }
@@ -89,7 +89,7 @@ GainDirection gain_direction(const NetworkBins& bins, double mu0) {
 
 namespace {
 
-// The loss of one net: half of r' V^-1 r, with V of the scatter, plus half the decay of w'w.
+// Loss of one net: half of r' V^-1 r, with V from the scatter, plus half the decay of w'w.
 class NetworkLoss {
 public:
   explicit NetworkLoss(const NetworkProblem& problem)
@@ -110,7 +110,7 @@ public:
                   weights.dot(decay_.cwiseProduct(weights)));
   }
 
-  // Gauss-Newton curvature and the descent (minus the gradient); gives the loss.
+  // Computes the Gauss-Newton curvature and the descent (minus the gradient); returns the loss.
   double linearise(const VectorXd& weights, MatrixXd& curvature, VectorXd& descent) const {
     MatrixXd j;
     const VectorXd tau = network_tau(problem_.training, problem_.shape, problem_.mu0, weights, &j);
@@ -160,7 +160,7 @@ double held_out_square(const NetworkProblem& problem, const VectorXd& weights) {
 
 NetworkFit fit_network(const NetworkProblem& problem, VectorXd start) {
   constexpr std::size_t max_iterations = 30, patience = 5;
-  constexpr double smallest_gain = 1e-4; // relative; what is left is far below the scatter
+  constexpr double smallest_gain = 1e-4; // relative; the remaining gain is far below the scatter
   const NetworkLoss loss(problem);
   NetworkFit fit{start, std::move(start), std::numeric_limits<double>::infinity(), 0};
   VectorXd& w = fit.last;

@@ -40,8 +40,9 @@ void add_residual(ErrorSums& sums, double r) {
 
 constexpr std::size_t no_row = static_cast<std::size_t>(-1);
 
-// Row of experiment `other` that stands at row `row` of experiment `own`; the same position where
-// its sliding distance fits, else the nearest distance. `s` may be empty: position alone counts.
+// Row of experiment `other` that corresponds to `row` of experiment `own`: at the same position if
+// its sliding distance agrees, else at the nearest distance. `s` may be empty; then only the
+// position counts.
 class Partner {
 public:
   Partner(const data::Dataset& data)
@@ -55,7 +56,7 @@ public:
     const std::size_t same = begin + row - first_[own];
     if (s_.empty()) return same < end ? same : no_row;
     if (same < end && std::abs(s_[same] - s_[row]) <= 1e-6 * tolerance_) return same;
-    // Sliding distance does not shrink along an experiment.
+    // Sliding distance does not decrease along an experiment.
     const auto at = std::lower_bound(s_.begin() + static_cast<long>(begin),
                                      s_.begin() + static_cast<long>(end), s_[row]);
     std::size_t best = std::min(static_cast<std::size_t>(at - s_.begin()), end - 1);
@@ -69,7 +70,8 @@ private:
   double tolerance_ = 0;
 };
 
-// One experiment against the others of its group, scaled to the scatter of a single one.
+// Adds the differences of one experiment from the others of its group, scaled to the scatter of a
+// single one.
 void add_differences(ErrorSums& sums, const std::vector<std::size_t>& group, std::size_t own,
                      const data::Dataset& data, const Partner& partner) {
   const Rows tau = data.values("tau_R_MPa");
@@ -83,15 +85,15 @@ void add_differences(ErrorSums& sums, const std::vector<std::size_t>& group, std
     }
     if (others == 0) continue;
     const double r = (tau[i] - sum / others) * std::sqrt(others / (others + 1));
-    if (data.condensed) // whose rows scatter about their means as those of the others do
+    if (data.condensed) // assumes the other experiments' scatter of rows about means
       add_block(sums, r, data.condensed->rows[i], data.condensed->within_MPa2[i]);
     else
       add_residual(sums, r);
   }
 }
 
-// Least-squares line through a window that slides along an experiment; sums are kept, so the cost
-// does not grow with the window.
+// Least-squares line through a window that slides along an experiment. Sums are updated, so the
+// cost does not depend on the window's length.
 struct Window {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   void take(double at, double value, double sign) {
@@ -101,7 +103,8 @@ struct Window {
     xx += sign * at * at;
     xy += sign * at * value;
   }
-  // Residual of one of its rows over sqrt(1 - leverage): its mean square is the scatter's variance.
+  // Residual of one of its rows over sqrt(1 - leverage); its mean square is the variance of the
+  // scatter.
   double scatter(double at, double value) const {
     const double mean = x / n, sxx = xx - x * mean, sxy = xy - x * y / n;
     const double slope = sxx > 0 ? sxy / sxx : 0;
@@ -114,7 +117,7 @@ constexpr std::size_t least_window = 9;
 
 } // namespace
 
-// Rows are evenly spaced enough along the sliding distance for the row number to stand for it.
+// The row number replaces the sliding distance, along which rows are spaced evenly enough.
 ErrorSums scatter_within(Rows tau) {
   ErrorSums sums;
   const std::size_t n = tau.size();
@@ -210,7 +213,7 @@ void add_noise_floors(Calibration& calibration, const CalibrationInput& input,
         both.push_back(*floor);
       }
     std::stable_sort(both.begin(), both.end(), [](const NoiseFloor& a, const NoiseFloor& b) {
-      return a.n_groups > b.n_groups; // 0 but for replicates
+      return a.n_groups > b.n_groups; // 0 except for replicates
     });
     calibration.noise_floors.insert(calibration.noise_floors.end(), both.begin(), both.end());
   }
@@ -218,7 +221,7 @@ void add_noise_floors(Calibration& calibration, const CalibrationInput& input,
 }
 
 void lower_noise_floors(Calibration& calibration) {
-  if (calibration.judged_by == JudgedBy::fit) return; // no law has met an unseen test
+  if (calibration.judged_by == JudgedBy::fit) return; // no law was judged on an unseen test
   const auto lower = [](Interval& interval, double most) {
     interval = {std::min(interval.low, most), std::min(interval.high, most)};
   };
@@ -251,7 +254,7 @@ std::string noise_floor_name(const NoiseFloor& floor) {
 }
 
 std::string noise_floor_limits(const NoiseFloor& floor) {
-  if (floor.measured_MPa > 0) return ""; // of repeats it says too much, of rows too little
+  if (floor.measured_MPa > 0) return ""; // replicates overestimate it, rows underestimate it
   if (floor.lower_bound) return ", scatter between experiments not included";
   return floor.part == "training" ? ", of the training data" : "";
 }
@@ -269,7 +272,7 @@ std::string noise_floor_sentence(const Calibration& calibration, int decimals) {
 
 std::string noise_floor_advice(const Calibration& calibration) {
   const auto& floors = calibration.noise_floors;
-  // An end of the interval that was lowered as well: more than chance.
+  // The lower end of the interval was lowered too, so the difference exceeds chance.
   if (!floors.empty() && floors.front().measured_MPa > 0 && !floors.front().lower_bound &&
       floors.front().mae_interval.low == floors.front().mae_MPa)
     return "the repeated tests differ in something that no column tells";

@@ -10,7 +10,7 @@ namespace frictab::calibrate {
 
 namespace {
 
-// Eight sums side by side: a fixed order that the compiler can vectorise.
+// Eight partial sums: a fixed order that the compiler can vectorise.
 FRICTAB_WIDE double dot(const double* a, const double* b, std::size_t n) {
   double part[8] = {};
   std::size_t i = 0;
@@ -41,7 +41,7 @@ FRICTAB_WIDE double sum(const double* a, std::size_t n) {
 
 constexpr std::size_t block = expr::Program::block;
 
-// What the loss makes of a block's residuals.
+// Values of the loss for the residuals of a block.
 struct Terms {
   double residual[block];
   double cost[block];
@@ -89,7 +89,7 @@ FRICTAB_WIDE void fill(Terms& t, const LossFunction& loss, const double* measure
   }
 }
 
-// Each row as often as its weight says.
+// Multiplies the terms of each row by its weight.
 void weigh(Terms& t, Loss kind, const double* weight, std::size_t n, bool slopes) {
   for (std::size_t i = 0; i < n; ++i)
     t.cost[i] *= weight[i];
@@ -107,7 +107,7 @@ void fill_block(Terms& t, const FitProblem& problem, const LossFunction& loss,
     weigh(t, loss.kind, problem.weights.data() + b.first, b.count, slopes);
 }
 
-// What means over the rows are divided by.
+// Divisor of means over the rows.
 double rows_of(const FitProblem& problem) {
   return problem.weights.empty() ? static_cast<double>(problem.law.rows())
                                  : sum(problem.weights.data(), problem.weights.size());

@@ -1,4 +1,4 @@
-// The normal equations of a fit: sums over rows that every step needs.
+// Normal equations of a fit: the sums over rows that every step needs.
 #pragma once
 
 #include <functional>
@@ -11,9 +11,9 @@
 
 namespace frictab::calibrate {
 
-// Mean loss and what a step needs to lower it, at one set of parameters.
+// Mean loss at one set of parameters, with its gradient and curvature.
 struct NormalEquations {
-  double cost = 0;         // infinity where the law is not finite
+  double cost = 0;         // infinity if the law is not finite
   Eigen::VectorXd descent; // mean of loss'(r) J: minus the gradient
   Eigen::MatrixXd hessian; // mean of step curvature J'J
 };
@@ -23,7 +23,8 @@ double mean_cost(const FitProblem& problem, const LossFunction& loss,
 NormalEquations normal_equations(const FitProblem& problem, const LossFunction& loss,
                                  std::span<const double> parameters);
 
-// Scores and curvature (loss.curvature, not the step's) of each experiment, at the optimum.
+// Sums scores and curvature (loss.curvature, not that of steps) over each experiment, at the
+// optimum.
 std::vector<ExperimentSums> sums_by_experiment(const FitProblem& problem, const LossFunction& loss,
                                                std::span<const double> parameters,
                                                std::span<const std::size_t> first_row);

@@ -1,4 +1,4 @@
-// [models] and [calibration] of a job.
+// Options of the sections [models] and [calibration] of a job.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,15 @@ namespace frictab::calibrate {
 
 enum class Loss { l2, l1, huber };
 
-// What the delivered laws are fitted to: the training experiments, as they were judged, or all.
+// Experiments to which the delivered laws are fitted: the training experiments, as when judged, or
+// all.
 enum class Deliver { training, all };
 
 struct ModelOptions {
   std::vector<std::string> use;       // empty: all that the columns allow
   std::vector<std::string> files;     // of laws
-  std::vector<models::LawText> texts; // laws of the job's own, as they are written
-  models::Laws laws;                  // with those
+  std::vector<models::LawText> texts; // laws written in the job
+  models::Laws laws;                  // including those of the job
   models::ShearYield shear_yield = models::ShearYield::mises;
   bool shear_limit = true; // tau_R <= k
   Place place;
@@ -29,7 +30,7 @@ struct ModelOptions {
 
 struct CalibrationOptions {
   Loss loss = Loss::l2;
-  double huber_delta_MPa = 10; // where |residual| turns from square to linear
+  double huber_delta_MPa = 10; // |residual| at which the loss becomes linear
   std::uint64_t seed = 1;
   std::size_t bootstrap = 1000;          // resamples of experiments for intervals and comparisons
   std::optional<double> condition_on_mm; // gain per experiment from its first millimetres

@@ -1,4 +1,4 @@
-// The polynomial, from rows to a law.
+// Fit of the polynomial, from rows to a law.
 #include "calibrate/polynomial.h"
 
 #include <algorithm>
@@ -74,7 +74,8 @@ VectorXd errors_of_experiments(const PolynomialBins& bins, const VectorXd& tau) 
 
 // The fits of order 1, 2 and 3 of the same bins.
 struct OrderFits {
-  std::vector<PolynomialDegrees> terms; // of the highest order: those of a lower one stand in front
+  // of the highest order, which begin with those of the lower ones
+  std::vector<PolynomialDegrees> terms;
   std::vector<PolynomialProblem> problems;
   std::vector<PolynomialFit> fits;
   Eigen::MatrixXd errors; // experiments x orders, as summed above
@@ -97,7 +98,7 @@ OrderFits fit_orders(const PolynomialBins& bins) {
   return all;
 }
 
-// How often each order has the least error where experiments are drawn again.
+// Frequency with which each order has the least error in resampled experiments.
 VectorXd shares_of_orders(const Eigen::MatrixXd& errors, std::uint64_t seed) {
   VectorXd shares = VectorXd::Zero(errors.cols());
   VectorXd times(errors.rows());
@@ -110,7 +111,7 @@ VectorXd shares_of_orders(const Eigen::MatrixXd& errors, std::uint64_t seed) {
   return shares;
 }
 
-// The mean of the fits by their shares, as one fit of the highest order that has any.
+// Averages the fits by their shares; the result has the highest order with a share.
 PolynomialFit averaged(const OrderFits& all, const VectorXd& shares) {
   Index highest = shares.size() - 1;
   while (highest > 0 && !(shares(highest) > 0))
@@ -185,7 +186,7 @@ FittedPolynomial coulomb_instead(const data::Dataset& data, std::vector<std::str
   return fitted;
 }
 
-// What there is to say but for the terms.
+// Fills the record except for the terms.
 PolynomialRecord describe_polynomial(const PolynomialBins& bins, const OrderFits& all,
                                      const VectorXd& shares, const PolynomialFit& fit) {
   PolynomialRecord record;

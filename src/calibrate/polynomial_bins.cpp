@@ -1,4 +1,4 @@
-// Experiments cut into bins by their states.
+// Cuts experiments into bins by their states.
 #include "calibrate/polynomial_bins.h"
 
 #include <algorithm>
@@ -18,19 +18,20 @@ using models::PolynomialState;
 
 namespace {
 
-// Fewer blur the run-in, more say the same again: 7, 9 and 12 are alike within 0.4 % of the error.
+// Fewer bins blur the run-in, more repeat information: errors with 7, 9 and 12 agree within 0.4 %.
 constexpr std::size_t bins_of_an_experiment = 9;
-// Of more rows those between two edges stay together: what scatters from row to row, and is
-// averaged in condensed rows, then decides no cut.
+// With more rows, those between two edges stay together. Scatter from row to row, which is averaged
+// in condensed rows, then does not decide any cut.
 constexpr std::size_t cells_of_an_experiment = 880;
-// Of the middle coefficient of all bins: less is noise about zero, of which a logarithm makes much.
+// Fraction of the median coefficient of all bins; smaller values are noise around zero, which a
+// logarithm would amplify.
 constexpr double least_share = 0.02;
-// How far beyond its outermost bins a state is followed, in shares of their range.
+// Distance beyond its outermost bins over which a state is followed, as a share of their range.
 constexpr double beyond_bins = 0.1;
 
-// What 95 % of the positive values exceed; 0 where there is none.
+// Value exceeded by 95 % of the positive values; 0 if there are none.
 double exceeded_by_most(const data::Dataset& data, std::span<const double> rows) {
-  std::vector<std::pair<double, double>> positive; // with the rows that each stands for
+  std::vector<std::pair<double, double>> positive; // with the number of rows that each represents
   double all = 0;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (rows[i] > 0) {
@@ -51,9 +52,9 @@ double exceeded_by_most(const data::Dataset& data, std::span<const double> rows)
   return 0;
 }
 
-// Where a state reaches (nearly) zero its logarithm is taken of x + offset, the offset being what
-// 95 % of its positive values exceed. Degrees Celsius have no zero to count decades from, and a
-// signed state has no logarithm.
+// Chooses the coordinate of a state: its logarithm or, if it (nearly) reaches zero, that of x +
+// offset, where the offset is exceeded by 95 % of its positive values. Degrees Celsius have an
+// arbitrary zero, so decades are meaningless, and a signed state has no logarithm.
 PolynomialState coordinate(const std::string& name, const data::Dataset& data) {
   PolynomialState state{.name = name};
   const auto rows = data.values(name);
@@ -65,7 +66,7 @@ PolynomialState coordinate(const std::string& name, const data::Dataset& data) {
   return state;
 }
 
-// Rows before each row, and of all: those that condensed ones stand for.
+// Number of source rows before each row; last, their total.
 std::vector<double> rows_before(const data::Dataset& data) {
   std::vector<double> before{0};
   for (std::size_t i = 0; i < data.rows(); ++i)
@@ -73,19 +74,19 @@ std::vector<double> rows_before(const data::Dataset& data) {
   return before;
 }
 
-// Where experiments may be cut.
+// Positions at which experiments may be cut.
 struct Cells {
-  std::vector<Index> edges; // rows at which a cell begins, and the end
-  std::vector<Index> first; // edge at which each experiment begins, and the last
-  std::vector<double> rows; // before each edge, those that condensed ones stand for
-  MatrixXd sums;            // of the standardised states over those, edges x states
+  std::vector<Index> edges; // first row of each cell; last, the number of rows
+  std::vector<Index> first; // first edge of each experiment; last, the last edge
+  std::vector<double> rows; // source rows before each edge
+  MatrixXd sums;            // of the standardised states over the source rows, edges x states
 
   double rows_in(Index from, Index to) const {
     return rows[static_cast<std::size_t>(to)] - rows[static_cast<std::size_t>(from)];
   }
 };
 
-// Of each experiment edges that part its rows evenly; every row where there are few.
+// Adds edges that divide the rows of each experiment evenly; with few rows, an edge at every row.
 void add_edges(Cells& cells, const data::Dataset& data, const std::vector<double>& before) {
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const std::size_t begin = data.first_row[e], end = data.first_row[e + 1];
@@ -110,7 +111,7 @@ void add_edges(Cells& cells, const data::Dataset& data, const std::vector<double
     cells.rows.push_back(before[static_cast<std::size_t>(edge)]);
 }
 
-// By mean and standard deviation of the cells' means.
+// Standardises by mean and standard deviation of the cells' means.
 void standardise(Eigen::Ref<VectorXd> sums, const Cells& cells) {
   const Index count = sums.size() - 1;
   if (count == 0) return;
@@ -145,7 +146,7 @@ Cells cells_of(const data::Dataset& data, const MatrixXd& u) {
   return cells;
 }
 
-// The cuts of one experiment, as edges of its cells.
+// Tree of the cuts of one experiment, as edges of its cells.
 class StateTree {
 public:
   explicit StateTree(const Cells& cells) : cells_(cells), sums_(cells.sums) {}
@@ -171,7 +172,7 @@ private:
   struct Part {
     Index from, to;
     Index cut = -1;   // -1: a single cell
-    double gain = -1; // what the cut takes off the sum of squares
+    double gain = -1; // reduction of the sum of squares by the cut
   };
 
   Part best_cut(Index from, Index to) const {
@@ -203,7 +204,7 @@ struct BinOfRows {
   VectorXd u;
 };
 
-// Means over the rows under load; rows = 0 where there are none.
+// Means over the rows under load; rows = 0 if there are none.
 BinOfRows bin_of(const RowColumns& columns, Index from, Index to) {
   BinOfRows bin;
   bin.u = VectorXd::Zero(columns.u.cols());
@@ -255,8 +256,8 @@ std::vector<std::vector<BinOfRows>> cut_experiments(const data::Dataset& data,
   return bins;
 }
 
-// From the bins: where each state is held, its centre and half its range; without those that vary
-// inside bins only.
+// Scales states by the bins: sets the clamped range, the centre and half the range of each, and
+// removes states that vary inside bins only.
 void scale_states(PolynomialBins& bins, const MatrixXd& u) {
   std::vector<Index> kept;
   std::vector<PolynomialState> states;

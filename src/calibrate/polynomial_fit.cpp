@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::size_t noise_logs = 5;
 constexpr double usual_spread = 0.05;
-// Standard deviation of the logarithms about their defaults: so wide that it decides only where the
-// data say nothing.
+// Standard deviation of the logarithms about their defaults, so wide that it decides only where the
+// data are uninformative.
 constexpr double prior_width = 10;
 
 unsigned highest_order(const PolynomialProblem& problem) {
@@ -33,7 +33,8 @@ struct LogBounds {
   double low, high;
 };
 
-// Beyond a third of the stroke the slow part could not be told from the gain, and would swallow it.
+// Upper bound of about a third of the stroke: a slower part could not be distinguished from the
+// gain and would absorb it.
 LogBounds bounds_of(std::size_t log) {
   if (log == 3) return {std::log(0.02), std::log(0.4)};
   return {std::log(1e-4), std::log(3.0)};
@@ -48,7 +49,7 @@ std::vector<double> usual_logs(const PolynomialProblem& problem) {
   return logs;
 }
 
-// One experiment's V and its derivatives by the logarithms of the noise.
+// V of one experiment and its derivatives by the logarithms of the noise.
 struct ExperimentNoise {
   MatrixXd gain, slope, slow, white, by_length;
 
@@ -74,7 +75,7 @@ PolynomialNoise noise_of(std::span<const double> logs) {
           std::exp(logs[4])};
 }
 
-// The normal equations at one set of standard deviations.
+// Solution of the normal equations at one set of standard deviations.
 class RidgeSolution {
 public:
   RidgeSolution(const PolynomialProblem& problem, std::span<const double> logs)
@@ -82,7 +83,7 @@ public:
         matrix_(MatrixXd::Zero(problem.design.cols(), problem.design.cols())),
         right_(VectorXd::Zero(problem.design.cols())), weight_(problem.first.size() - 1) {
     const double mean_rows =
-        problem.rows.size() > 0 ? problem.rows.mean() : 1; // the bins that white is said of
+        problem.rows.size() > 0 ? problem.rows.mean() : 1; // the bins that white refers to
     relative_rows_ = problem.rows / mean_rows;
     for (std::size_t e = 0; e < weight_.size(); ++e)
       add(e);
@@ -161,7 +162,7 @@ private:
     }
   }
 
-  // d criterion = (trace(P dV) - r'W dV W r)/2 with r = y - A b and P = W - W A (...)^-1 A'W.
+  // Adds d criterion = (trace(P dV) - r'W dV W r)/2 with r = y - A b and P = W - W A (...)^-1 A'W.
   void add_gradient(std::size_t e, std::span<double> out) const {
     const auto [from, count] = bins_of(e);
     const MatrixXd half = factor_.matrixL().solve(weighted(e).transpose());
@@ -212,7 +213,7 @@ std::vector<double> best_logs(const PolynomialProblem& problem, std::size_t& eva
   double least = 0;
   try {
     search.optimize(logs, least);
-  } catch (const std::runtime_error&) { // it sees no further: logs are the best so far
+  } catch (const std::runtime_error&) { // no further improvement; logs are the best so far
   }
   return logs;
 }

@@ -1,4 +1,4 @@
-// The rule of one standard error, and what it says.
+// One-standard-error rule, and its sentence.
 #include "calibrate/recommended.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The laws once more, on all experiments.
+// Fits the laws again to all experiments.
 #include "calibrate/refit.h"
 
 #include <algorithm>
@@ -28,8 +28,8 @@ using data::Dataset;
 
 namespace {
 
-// From so many experiments on, ten folds: each leaves out a tenth, and the network is trained ten
-// times and not a hundred.
+// With so many experiments, ten folds: each leaves out a tenth, so that the network is trained ten
+// times instead of a hundred.
 constexpr std::size_t many_experiments = 30, usual_folds = 10;
 
 ModelFit fitted_to(const Dataset& all, const models::Law& law,
@@ -60,7 +60,7 @@ void cross_validate_fits(std::vector<ModelFit>& fits, const CrossValidation& cro
   }
 }
 
-// Of condensed data, by a second look at their rows.
+// Judges condensed data by a second reading of their rows.
 void judge_on_rows(std::vector<ModelFit>& fits, const CrossValidation& cross,
                    std::span<const std::size_t> fold_of, const Dataset& all,
                    const CalibrationOptions& options) {
@@ -101,7 +101,7 @@ std::string experiments_words(std::size_t n) {
   return fmt::format("{} experiment{}", thousands(n), n == 1 ? "" : "s");
 }
 
-// Where the laws are fitted to all experiments whatever the job says.
+// Sentence for the case that the laws are fitted to all experiments with any `deliver`.
 std::string nothing_left_to_add(const Calibration& c) {
   if (c.deliver == Deliver::training) return "";
   const std::string all = experiments_words(c.fits.front().training.n_experiments);
@@ -112,7 +112,7 @@ std::string nothing_left_to_add(const Calibration& c) {
                      all);
 }
 
-// Laws with effects that are not fitted again (trace/refit_traced.h).
+// Names laws with effects that are not refitted (trace/refit_traced.h).
 std::string traced_words(const Calibration& c) {
   std::vector<std::string> names;
   for (const ModelFit& fit : c.fits)

@@ -17,9 +17,9 @@ namespace {
 
 constexpr std::size_t parts = 10;
 
-using Profile = std::vector<double>; // inputs x parts, in shares of the input's range
+using Profile = std::vector<double>; // inputs x parts, as shares of the input's range
 
-// The input's values in its own coordinate, scaled so that the range is 1; empty where constant.
+// Scales the input's values in its own coordinate to a range of 1; empty if constant.
 std::vector<double> scaled(const data::Quantity& quantity, std::span<const double> values) {
   std::vector<double> x(values.begin(), values.end());
   if (x.empty()) return {};
@@ -47,13 +47,13 @@ void append_means(Profile& profile, std::span<const double> x) {
 
 // ---- recorded columns ----
 
-// A column of few levels that changes within tests (a direction) is told by the share of rows at
-// each of them; more levels are a reading.
+// A column of few levels that changes within tests (a direction) is compared by the share of rows
+// at each level; a column of more levels is a reading.
 constexpr std::size_t few_levels = 12;
 constexpr double same_share = 0.1;
 
-// What a column says of each test: alike where no two numbers at one place are further apart than
-// `tolerance`. Nothing where it tells no tests apart.
+// Values of a column by test: two tests agree if no two numbers at one position differ by more than
+// `tolerance`. Empty if the column does not distinguish tests.
 struct Setting {
   std::vector<Profile> of_tests;
   double tolerance = 0;
@@ -64,7 +64,7 @@ bool may_be_set(const data::Column& column) {
          column.name != data::origin_column;
 }
 
-// The step in which a column is written: 1, 0.1, ... 1e-6; 0 for finer ones.
+// Step in which a column is written: 1, 0.1, ... 1e-6; 0 for finer ones.
 double written_step(std::span<const double> values) {
   for (double step = 1; step > 5e-7; step /= 10)
     if (std::all_of(values.begin(), values.end(), [&](double v) {
@@ -85,7 +85,8 @@ std::string without_digits(const std::string& text) {
   return stem;
 }
 
-// Numbers and names that no two tests share: 1, 2, 3 ...; S01, S02 ...; dates.
+// Whether a column numbers or names the tests, without a repeated value: 1, 2, 3 ...; S01, S02 ...;
+// dates.
 bool counts_tests(const data::Column& column, const std::vector<double>& values,
                   const std::set<double>& levels) {
   if (levels.size() < values.size() || column.role == data::Role::setting ||
@@ -101,8 +102,9 @@ bool counts_tests(const data::Column& column, const std::vector<double>& values,
          });
 }
 
-// One value in each test. Levels that tests share are set: they agree or do not. A reading of its
-// own in each test (a humidity) agrees within the step it is written in, or 1 % of its span.
+// Settings with one value in each test. Levels that tests share are set: they are equal or differ.
+// A reading with its own value in each test (a humidity) agrees within the step it is written in,
+// or 1 % of its span.
 Setting set_by_test(const data::Column& column, const std::vector<double>& values) {
   const std::set<double> levels(values.begin(), values.end());
   if (levels.size() < 2 || counts_tests(column, values, levels)) return {};
@@ -111,7 +113,7 @@ Setting set_by_test(const data::Column& column, const std::vector<double>& value
     setting.of_tests.push_back({value});
   const double span = *levels.rbegin() - *levels.begin();
   const double share = replicate_tolerance * span;
-  if (column.levels.empty()) // a hair to either side for rounding
+  if (column.levels.empty()) // slightly wider, for rounding
     setting.tolerance = 2 * levels.size() <= values.size()
                             ? (1 - 1e-9) * share
                             : (1 + 1e-9) * std::max(share, written_step(values));
@@ -177,7 +179,7 @@ std::vector<std::vector<std::size_t>> replicate_groups(const data::Dataset& data
     const Setting setting = setting_of(column, data);
     if (setting.of_tests.empty()) continue;
     ++inputs;
-    // A tolerance of 0 parts whatever differs.
+    // With a tolerance of 0 any difference separates tests.
     const double scale = replicate_tolerance / std::max(setting.tolerance, 1e-12);
     for (std::size_t e = 0; e < profiles.size(); ++e)
       for (const double value : setting.of_tests[e])

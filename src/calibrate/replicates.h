@@ -1,4 +1,4 @@
-// Experiments with the same set levels, recognised by what was recorded.
+// Recognition of experiments with the same set levels from the recorded columns.
 #pragma once
 
 #include <vector>
@@ -7,16 +7,20 @@
 
 namespace frictab::calibrate {
 
-// Two experiments are replicates where every recorded model input is alike in each tenth of the
-// rows: the means differ by at most 1 % of the input's range in `data`, in ln where the input spans
-// decades (sigma_n_MPa, psi, v_rel_mm_s, sigma_f_MPa), and every other column of one value per test
-// agrees: text and levels that tests share are the same, a reading of its own in each test (a
-// humidity) within the step it is written in or 1 % of its span. A column of few levels that change
-// within tests (a direction) agrees where the shares of rows do, to 0.1. What counts or names the
-// tests, what is measured along with friction, and what Column::role says is no setting are not
-// asked. Intervals of one recording are no replicates of each other.
-// Groups of at least 2, as indices of experiments; each experiment is in one group at most, joined
-// to the first experiment it is like. Empty where nothing that varies tells experiments apart.
+// Groups replicates. Two experiments are replicates if every recorded model input agrees in each
+// tenth of the rows, and every other column with one value per test agrees.
+//
+// Inputs agree if their means differ by at most 1 % of the input's range in `data`, in ln where the
+// input spans decades (sigma_n_MPa, psi, v_rel_mm_s, sigma_f_MPa). Text, and levels that tests
+// share, must be the same; a reading with its own value in each test (a humidity) agrees within the
+// step it is written in or 1 % of its span. A column of few levels that change within tests (a
+// direction) agrees if the shares of rows at each level do, to 0.1.
+//
+// Ignored are columns that count or name the tests, columns measured along with friction, and
+// columns that Column::role marks as not being settings. Intervals of one recording are not
+// replicates of each other. Returns groups of at least 2, as indices of experiments; each
+// experiment is in at most one group, that of the first experiment it agrees with. Empty if no
+// varying column distinguishes experiments.
 std::vector<std::vector<std::size_t>> replicate_groups(const data::Dataset& data);
 
 constexpr double replicate_tolerance = 0.01;

@@ -86,7 +86,7 @@ double ratio_of(std::span<const double> x, std::span<const double> n, std::span<
     rows += times[e] * n[e];
   }
   const double mean = sum / rows;
-  double value = mean, slope = 1; // of the mean
+  double value = mean, slope = 1; // derivative by the mean
   if (measure == Measure::root_mean) {
     value = std::sqrt(mean);
     slope = value > 0 ? 0.5 / value : 0;

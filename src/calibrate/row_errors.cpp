@@ -1,4 +1,4 @@
-// Rows are read experiment by experiment, and every law predicts each of them.
+// Reads rows experiment by experiment, and predicts each of them by every law.
 #include "calibrate/row_errors.h"
 
 #include <deque>
@@ -14,7 +14,7 @@ using data::Dataset;
 
 namespace {
 
-// What one experiment says of one law.
+// Results of one law on one experiment.
 struct Judged {
   ExperimentError error;
   RowsBeyond beyond;

@@ -1,5 +1,5 @@
-// A second look at the rows behind condensed data: what laws make of every row, not of the means of
-// blocks. Every look reads the files once, whatever number of laws is asked for.
+// Errors on the source rows of condensed data, instead of on the means of blocks. Each call reads
+// the files once, for any number of laws.
 #pragma once
 
 #include <functional>
@@ -13,29 +13,30 @@
 
 namespace frictab::calibrate {
 
-// What the rows of one dataset say.
+// Results from the rows of one dataset.
 struct RowFindings {
   std::vector<std::vector<ExperimentError>> errors; // per law and experiment
   std::vector<RowsBeyond> beyond;                   // per law
   std::vector<ErrorSums> scatter;                   // per experiment: scatter_within
 };
 
-// The law that predicts an experiment: one for all, or that which was fitted without it.
+// Selects the law that predicts an experiment: one for all, or the one fitted without it.
 using LawOfExperiment =
     std::function<const models::AssembledLaw&(std::size_t law, std::size_t experiment)>;
 
 struct RowsToJudge {
   const data::Dataset* data; // condensed
-  bool held_out = false;     // what its experiments are called
+  bool held_out = false;     // the law was fitted without its experiments
   LawOfExperiment law;
 };
 
-// One entry per dataset. Throws InputError where the files have changed since they were condensed.
+// Reads and judges the rows; one entry per dataset. Throws InputError if files have changed since
+// they were condensed.
 std::vector<RowFindings> look_at_rows(std::span<const RowsToJudge> all, std::size_t laws);
 
-// Fills ModelFit::on_rows and what follows from it: errors and band on training and validation
-// experiments (judged_by; experiments left out: by `without`), remarks on rows beyond the ends.
-// Nothing where the data hold their rows.
+// Fills ModelFit::on_rows and results derived from it: errors and band on training and validation
+// experiments (judged_by; in leave-one-out by `without`), remarks on rows outside the clamped
+// range. Does nothing if the data are not condensed.
 ScatterWithin judge_on_rows(const std::vector<ModelFit*>& fits, const CalibrationInput& input);
 
 } // namespace frictab::calibrate

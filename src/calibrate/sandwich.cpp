@@ -1,4 +1,5 @@
-// Standard errors with the experiment as the statistical unit, and what the data do not determine.
+// Standard errors with the experiment as the statistical unit, and parameters that the data do not
+// determine.
 #include "calibrate/sandwich.h"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ std::string settled_by(const std::vector<const Parameter*>& parameters) {
   return text + " would settle " + (parameters.size() > 1 ? "them" : "it");
 }
 
-// The parameters that the curvature tells something about, in units in which it is 1.
+// Parameters with curvature, in units in which it is 1.
 struct Scaled {
   std::vector<Index> used;
   VectorXd scale;
@@ -57,7 +58,7 @@ struct Scaled {
 };
 
 constexpr const char* at_its_bound = "at its bound";
-constexpr double undetermined = 1e-10; // of the scaled curvature: below, a direction is flat
+constexpr double undetermined = 1e-10; // of the scaled curvature; below this a direction is flat
 
 Scaled scale_by(const MatrixXd& hessian, std::vector<Index> used) {
   const auto size = static_cast<Index>(used.size());
@@ -73,11 +74,11 @@ Scaled scale_by(const MatrixXd& hessian, std::vector<Index> used) {
   return s;
 }
 
-// The sandwich (scaled), each experiment's score corrected for its leverage: CR2 of Bell and
-// McCaffrey 2002, which for equal curvature in all rows needs the p x p sums of an experiment only.
-// `alone` are the directions that a single experiment determines: no scatter can be seen there.
-// `without` (scaled, a column per experiment): where the fit of the others is, and its own part of
-// the standard errors.
+// Sandwich (scaled) with each experiment's score corrected for its leverage: CR2 of Bell and
+// McCaffrey 2002, which for equal curvature in all rows needs only the p x p sums of an experiment.
+// `alone`: directions that a single experiment determines, in which scatter cannot be estimated.
+// `without` (scaled, a column per experiment): the shift of the fit to the others, and the
+// experiment's own part of the standard errors.
 struct Without {
   MatrixXd moved, part;
 };
@@ -105,7 +106,7 @@ MatrixXd covariance(const Scaled& s, std::span<const ExperimentSums> sums,
   return s.root * meat * s.root;
 }
 
-// Of the largest to the smallest curvature of a scaled law.
+// Ratio of the largest to the smallest curvature of a scaled law.
 double condition_of(const Scaled& s) {
   const VectorXd& values = s.eigen.eigenvalues(); // ascending
   const double least = values(0), most = values(values.size() - 1);
@@ -127,8 +128,8 @@ std::string names(const std::vector<const Parameter*>& parameters) {
   return text + (parameters.size() > 1 ? " are" : " is");
 }
 
-// Marks the parameters along flat directions, and moves them along these to where they are nearest
-// to their default starts.
+// Marks the parameters along flat directions, and moves them along these as near as possible to
+// their default starts.
 std::vector<char> settle(Parameters parameters, const Scaled& s, std::vector<double>& settled) {
   std::vector<char> flat(s.used.size(), 0);
   for (Index d = 0; d < s.scale.size(); ++d) {
@@ -147,8 +148,8 @@ std::vector<char> settle(Parameters parameters, const Scaled& s, std::vector<dou
   return flat;
 }
 
-// A standard error as wide as the bounds says nothing: the loss is not flat to the last bit there,
-// but hardly changes from bound to bound.
+// Whether a standard error is as wide as the bounds: the loss is then not exactly flat, but hardly
+// changes from bound to bound.
 bool spans_its_bounds(const Parameter& p, double value, double error) {
   return is_scale(p) ? error > value * std::log(p.upper / p.lower) : error > p.upper - p.lower;
 }
@@ -202,7 +203,7 @@ private:
     return std::move(result_);
   }
 
-  // Parameters that the data say something about, and that no bound holds.
+  // Parameters with curvature that are not at a bound.
   std::vector<Index> not_held(const MatrixXd& hessian) {
     std::vector<Index> used;
     for (std::size_t i = 0; i < values_.size(); ++i) {

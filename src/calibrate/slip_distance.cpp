@@ -24,13 +24,13 @@ using models::Law;
 
 namespace {
 
-// Errors of GSL come back as values, instead of ending the program. Its handler is one for the
-// whole process: a thread that changed it for a while would take it from the others.
+// Makes GSL return errors as values instead of ending the program. Its handler is shared by the
+// whole process, so a thread that changed it temporarily would affect the others.
 [[maybe_unused]] const gsl_error_handler_t* const of_the_library = gsl_set_error_handler_off();
 
 constexpr std::size_t tries = 25; // of a scan: five decades in steps of 1.6
 constexpr int refinements = 12;
-constexpr double settled = 1e-3; // of ln D: what four digits of the name can tell
+constexpr double settled = 1e-3; // of ln D: resolution of the four digits in the name
 
 struct Search {
   const Law& law;
@@ -51,7 +51,7 @@ double loss_of(double ln_distance, void* search) {
   return static_cast<const Search*>(search)->loss(ln_distance);
 }
 
-// The least loss between two tries on either side of the best one.
+// Finds the least loss between the two tries on either side of the best one.
 double refined(Search& search, double low, double best, double high, std::size_t& evaluations) {
   gsl_function function{loss_of, &search};
   const std::unique_ptr<gsl_min_fminimizer, void (*)(gsl_min_fminimizer*)> brent(
@@ -127,7 +127,7 @@ std::string slope_name(const std::string& family) {
   return "slope_of_" + family;
 }
 
-// The law with its distance as a parameter of the formula: state = value + (D - D0) slope.
+// Adds the distance to the law as a parameter of its formula: state = value + (D - D0) slope.
 Law along_distance(const Law& law, const std::string& name, double distance_mm) {
   std::map<std::string, expr::Expr> straight;
   for (const auto& [family, rule] : data::slip_states())

@@ -1,4 +1,4 @@
-// Derivatives of the law's formula, and its covariance.
+// Derivatives of the law's formula, combined with its covariance.
 #include "calibrate/stress_error.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
-// The standard error of a law's stress at any state, by the covariance of its parameters: the delta
-// method, u^2 = g' V g with g = d tau/d p. What the shear limit cuts off is as uncertain as if it
-// did not: where the limit begins depends on the law.
+// Standard error of a law's stress at any state from the covariance of its parameters, by the delta
+// method: u^2 = g' V g with g = d tau/d p. The shear limit is ignored, because where it begins
+// depends on the law.
 #pragma once
 
 #include <optional>
@@ -15,10 +15,10 @@
 
 namespace frictab::calibrate {
 
-// Beyond the tests a law is followed where its own standard error stays below this share of the
-// stress: with 95 % it is then within a factor of 1.4 or so, which is about what a coefficient that
-// is held at the nearest test is off by where the pressure falls to a tenth (the published exponent
-// of wzl is -0.154: 10^0.154 = 1.4). A law that is known worse says less than that.
+// Relative standard error below which a law is followed beyond the tests: with 95 % it is then
+// within a factor of about 1.4. That is about the error of a coefficient clamped at the nearest
+// test where the pressure falls to a tenth (the published exponent of wzl is -0.154: 10^0.154 =
+// 1.4); a less certain law predicts worse than that coefficient.
 inline constexpr double allowed_error = 0.2;
 
 class StressError {
@@ -28,14 +28,15 @@ public:
 
   // Whether the model has a covariance.
   bool known() const { return known_; }
-  // Derivatives of ln tau_R by the parameters at a state in the order of `inputs`; nothing where
-  // the law has no stress there.
+  // Returns the derivatives of ln tau_R by the parameters at a state, in the order of `inputs`;
+  // none if the law has no stress there.
   std::optional<Eigen::VectorXd> slope(std::span<const double> state) const;
-  // Standard error of what changes with `slope`, and its covariance with each parameter. NaN where
-  // a parameter of no known error (at a bound, determined by one experiment) has a part in it.
+  // Covariance of a quantity that changes with `slope` with each parameter, and its standard error.
+  // NaN if it depends on a parameter without a known error (at a bound, determined by one
+  // experiment).
   Eigen::VectorXd with(const Eigen::VectorXd& slope) const;
   double of(const Eigen::VectorXd& slope) const;
-  // Relative to the stress. Nothing where it is not known.
+  // Standard error at a state, relative to the stress; none if not known.
   std::optional<double> at(std::span<const double> state) const;
 
 private:
