@@ -94,7 +94,7 @@ struct Choice {
 struct Recommended {
   std::string law; // empty: no tests judge the laws
   std::string best;
-  std::size_t numbers = 0; // of fitted quantities: parameters, weights, terms
+  std::size_t numbers = 0; // number of fitted quantities: parameters, weights, terms
   std::size_t numbers_of_best = 0;
   double behind_MPa = 0;    // MAE on unseen tests minus that of the best law
   double std_error_MPa = 0; // of that difference, paired by experiment

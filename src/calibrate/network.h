@@ -20,7 +20,7 @@ struct NetworkRecord {
   std::size_t dropped = 0;
   std::size_t weights = 0;         // of one net
   std::size_t bins = 0;            // bins of rows trained on
-  std::size_t folds = 0;           // groups of experiments, each held out once ...
+  std::size_t folds = 0;           // groups of experiments, each held out once
   std::size_t repeats = 0;         // in each repeat
   std::vector<double> decays;      // tried, strongest first
   std::vector<double> cv_rmse_MPa; // of the bins of held-out experiments, per decay

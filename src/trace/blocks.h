@@ -11,7 +11,7 @@
 
 namespace frictab::trace {
 
-// Up to so many experiments, each may have the largest number of blocks.
+// Number of experiments up to which each may have the largest number of blocks.
 inline constexpr std::size_t uncut_experiments = 200, most_blocks = 40;
 inline constexpr std::size_t block_budget = uncut_experiments * most_blocks; // of all experiments
 
@@ -38,10 +38,9 @@ struct Blocks {
 Blocks make_blocks(const data::Dataset& data, std::size_t most);
 
 // The same with at most 40 per experiment, enough for a single long one. Above 200 experiments all
-// share a budget of 40 x 200 blocks, so that the work does not grow with their number, and each may
-// still have 8: 405 experiments have 19 each, 1,000 and more have 8. Structure that many
-// experiments share shows in the sum over them; waves or a run-in shorter than an eighth of the
-// stroke are detected less well.
+// share a budget of 40 x 200 blocks, which limits the work, but each may still have 8: 405
+// experiments have 19 each, 1,000 and more have 8. Structure that many experiments share shows in
+// the sum over them; waves or a run-in shorter than an eighth of the stroke are detected less well.
 Blocks make_blocks(const data::Dataset& data);
 
 } // namespace frictab::trace

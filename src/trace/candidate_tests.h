@@ -8,7 +8,7 @@
 
 namespace frictab::trace {
 
-// A quantity that a test can be set to: a column that every test holds constant, or the mean of a
+// A quantity that a test can be set to: a column that is constant within tests, or the mean of a
 // state (the state is then scaled as a whole, a temperature shifted; twice the speed takes half the
 // time).
 struct Setting {

@@ -187,7 +187,7 @@ struct Trace {
   std::vector<TracedEffect> effects;
   // `validation` holds errors on unseen tests: the validation tests, or training tests left out by
   // the nested search where there are few validation tests.
-  TraceErrors as_calibrated; // by the calibration stage; always on the validation tests
+  TraceErrors as_calibrated; // by the calibration stage; `validation` is always on those tests
   TraceErrors before;        // the same law, fitted with the same weights as `after`
   TraceErrors after;
   // validation | nested_cross_validation | leave_one_out: nothing was found | nothing: one test, so
@@ -211,7 +211,7 @@ struct Trace {
   std::optional<double> repeatability;  // given by the user, or estimated from repeated tests
   std::string repeatability_from;       // given | repeats; empty: not known
   // Relative difference between two halves of the tests, along a column that is constant within
-  // tests, that would have been seen with 80 % probability; infinite: none.
+  // tests, that would have been detected with 80 % probability; infinite: none.
   double smallest_seen = 0;
   OrderStructure order;
   Remaining remaining;
