@@ -19,7 +19,7 @@ class TableAccessor:
 
     def __init__(self, dataset):
         if "value" not in dataset:
-            raise FrictabError("there is no variable 'value': this is no friction table")
+            raise FrictabError("there is no variable 'value': this is not a friction table")
         value = dataset["value"]
         axes = [axis_of(d, dataset[d].data, plain(dataset[d].attrs)) for d in value.dims]
         self.table = Table("the dataset", axes, np.asarray(value.data, float), plain(value.attrs),

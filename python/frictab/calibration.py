@@ -96,7 +96,7 @@ def _read(path, kind):
             record = json.load(file)
         schema = record.get("schema", "") if isinstance(record, dict) else ""
     except FileNotFoundError:
-        raise FrictabError(f"{path}: there is no such file") from None
+        raise FrictabError(f"{path}: no such file") from None
     except (ValueError, OSError):
         raise FrictabError(f"{path}: is no JSON file") from None
     if schema != f"frictab/{kind}/1":

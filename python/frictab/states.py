@@ -95,7 +95,7 @@ def _numbers(one, column):
     try:
         return column.astype(float)
     except (TypeError, ValueError):
-        raise FrictabError(f"{one.name} is no number") from None
+        raise FrictabError(f"{one.name} is not a number") from None
 
 
 def sides(inputs, columns):

@@ -140,7 +140,7 @@ class Table:
 
     def _constant(self, name):
         if not isinstance(self.attributes.get(name), (int, float)):
-            raise FrictabError(f"{self.source}: the formula uses '{name}', which is no state and "
+            raise FrictabError(f"{self.source}: the formula uses '{name}', which is not a state and "
                                "no number attribute of 'value'")
         return float(self.attributes[name])
 
@@ -254,7 +254,7 @@ def open_table(path):
     import h5py
     path = os.fspath(path)
     if not os.path.exists(path):
-        raise FrictabError(f"{path}: there is no such file")
+        raise FrictabError(f"{path}: no such file")
     try:
         file = h5py.File(path, "r")
     except OSError:
@@ -269,7 +269,7 @@ def open_table(path):
 def _read(file, path):
     value = file.get("value")
     if value is None or not hasattr(value, "dims"):
-        raise FrictabError(f"{path}: there is no dataset 'value': this is no friction table")
+        raise FrictabError(f"{path}: there is no dataset 'value': this is not a friction table")
     axes = []
     for d in range(value.ndim):
         if len(value.dims[d]) == 0:

@@ -219,7 +219,7 @@ void fit_ensemble(ModelFit& fit, const Dataset& data, const CalibrationOptions& 
   fit.termination = fmt::format("trained: {} nets, decay {} of {}", record.nets, record.decay,
                                 record.decays.size());
   if (options.loss != Loss::l2)
-    fit.remarks.push_back("trained on squared residuals, whatever calibration.loss says");
+    fit.remarks.push_back("trained on squared residuals, regardless of calibration.loss");
   remark_uncertainties(fit, data);
   if (record.dropped > 0)
     fit.remarks.push_back(fmt::format("{} of {} nets failed and are not in the ensemble",
@@ -278,7 +278,7 @@ void fit_terms(ModelFit& fit, const Dataset& data, const CalibrationOptions& opt
   fit.termination = "closed form, scatter and ridge by restricted likelihood";
   fit.remarks = std::move(fitted.remarks);
   if (options.loss != Loss::l2)
-    fit.remarks.push_back("by generalised least squares, whatever calibration.loss says");
+    fit.remarks.push_back("by generalised least squares, regardless of calibration.loss");
   remark_uncertainties(fit, data);
   fit.model.experiment_gains = gains_of_new_experiments(std::move(fitted.held_out_gains), 0);
   fit.polynomial = std::move(fitted.record);

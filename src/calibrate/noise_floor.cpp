@@ -275,7 +275,7 @@ std::string noise_floor_advice(const Calibration& calibration) {
   // The lower end of the interval was lowered too, so the difference exceeds chance.
   if (!floors.empty() && floors.front().measured_MPa > 0 && !floors.front().lower_bound &&
       floors.front().mae_interval.low == floors.front().mae_MPa)
-    return "the repeated tests differ in something that no column tells";
+    return "the repeated tests differ in something that no column records";
   const bool known = !floors.empty() && !floors.front().lower_bound;
   return known ? "" : "repeat some tests at the same set levels to know it";
 }

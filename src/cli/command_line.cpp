@@ -47,7 +47,7 @@ Number whole_number(const char* option, const std::string& text, Number most) {
   const auto [stopped, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || stopped != end || text.empty() || value > most)
     throw CLI::ConversionError(
-        fmt::format("{}: '{}' is no whole number from 0 to {}", option, text, most));
+        fmt::format("{}: '{}' is not a whole number from 0 to {}", option, text, most));
   return value;
 }
 
@@ -200,7 +200,7 @@ int told_all(int exit_code) {
   const int why = errno; // 0 if an earlier write failed
   fmt::print(stderr,
              "error: what was to be printed cannot be written{}\n  hint: is the disk full, "
-             "or the file or pipe behind stdout closed?\n",
+             "or the file or pipe of stdout closed?\n",
              why == 0 ? "" : std::string(": ") + std::strerror(why));
   return 3;
 }

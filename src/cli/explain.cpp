@@ -53,7 +53,7 @@ std::optional<Explanation> explain_own_law(const std::string& name, std::string 
 int print_toml(const std::string& name) {
   const std::string text = job::literature_text(name);
   if (text.empty())
-    throw InputError({"--toml"}, fmt::format("'{}' is no law of the literature", name),
+    throw InputError({"--toml"}, fmt::format("'{}' is not a law of the literature", name),
                      "`frictab list models` names them");
   fmt::print("{}", text);
   return 0;

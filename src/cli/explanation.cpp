@@ -110,7 +110,7 @@ Explanation about(const effects::EffectForm& effect) {
 Explanation about(const codegen::Exporter& target) {
   Explanation out{target.name, "target", target.title, {}, "choices in [export.options]", {}};
   out.fields = {{"signature", target.signature_source}, {"notes", target.notes}};
-  if (target.combines()) out.fields.push_back({"laws told apart by", target.several_laws});
+  if (target.combines()) out.fields.push_back({"laws distinguished by", target.several_laws});
   for (const codegen::ExportOption& option : target.options) {
     Explanation::Item& item = out.items.emplace_back();
     item = {option.name, option.meaning, {}};
@@ -224,7 +224,7 @@ Explanation about_table_layout() {
        "and constants; a long one goes on in extension_2, extension_3, ...",
        {}},
       {"/: range_low_STATE, range_high_STATE",
-       "range of a state of combine that is no axis, for verify; what is no canonical state is an "
+       "range of a state of combine that is not an axis, for verify; a name that is not a canonical state is an "
        "input only where these are there",
        {}},
       {"/: units_STATE, long_name_STATE, levels_STATE",

@@ -46,7 +46,7 @@ int init_empty(const Options& options, const CommonOptions& common) {
   write_job(options.directory, common.force, job::job_template());
   const std::string file = (fs::path(options.directory) / "job.toml").string();
   fmt::print("{}\n", file);
-  note(common, fmt::format("next: put the tribometer data beside it, set data.training, then: "
+  note(common, fmt::format("next: put the tribometer data next to it, set data.training, then: "
                            "frictab run {}\n(no data yet? frictab twin DIR makes a synthetic "
                            "campaign; data files there? frictab init DIR --from FILES)",
                            file));

@@ -99,7 +99,7 @@ table::StateRange asked_range(const std::string& name, const std::string& text) 
   if (dots == text.npos || !io::read_number(std::string_view(text).substr(0, dots), '.', low) ||
       !io::read_number(std::string_view(text).substr(dots + 2), '.', high) || !(low < high) ||
       low < meaning.lowest || (meaning.log_axis && !(low > 0)))
-    throw InputError({}, fmt::format("'{}' is no range of {}", text, name),
+    throw InputError({}, fmt::format("'{}' is not a range of {}", text, name),
                      range_option(name, meaning) + ", with LOW < HIGH" +
                          (meaning.log_axis ? " and above 0" : ""));
   return {name, low, high, "command line"};

@@ -33,7 +33,7 @@ Explanation about_units() {
                   "topic",
                   "every quantity has one unit inside and in every file; data in others are "
                   "converted, where the job or the header says which",
-                  {{"in the header", "behind a name, as in `Normalkraft [kN]`, `F_R (N)`, `T / "
+                  {{"in the header", "after a name, as in `Normalkraft [kN]`, `F_R (N)`, `T / "
                                      "degC`; or in a row of its own (data.units_row)"},
                    {"in the job", "sigma_n_MPa = { column = \"Normal stress\", unit = \"Pa\" }"},
                    {"known", "what UDUNITS-2 knows; what does not convert is an error"},
@@ -52,9 +52,9 @@ Explanation about_csv() {
           "rows as text, one column per quantity; a rig's file is read as it is",
           {{"columns", "canonical names (frictab list quantities), or any, mapped in "
                        "[data.columns]"},
-           {"needed", "experiment, sigma_n_MPa and tau_R_MPa, or F_R_N and F_N_N beside a contact "
+           {"needed", "experiment, sigma_n_MPa and tau_R_MPa, or F_R_N and F_N_N with a contact "
                       "normal stress; more where a law asks for more (frictab explain LAW)"},
-           {"dialect", "delimiter , ; tab or blanks is found; a decimal comma is said, or "
+           {"dialect", "delimiter , ; tab or blanks is found; a decimal comma is set, or "
                        "found by frictab init --from; "
                        "data.delimiter, data.decimal, data.thousands, data.skip_rows say them"},
            {"encoding", "UTF-8, UTF-16, Latin-1; any line ends; preambles above the header"},

@@ -38,11 +38,11 @@ std::string fault_of(const std::string& name, const LawSelector& by) {
   if (by.number) {
     const bool digits = all([](unsigned char c) { return std::isdigit(c); });
     if (digits && !name.empty() && name[0] != '0' && name.size() <= 9) return "";
-    return "is no " + by.meaning;
+    return "is not a " + by.meaning;
   }
   const auto printed = [](unsigned char c) { return c >= 32 && c < 127 && c != '\''; };
   if (name.empty() || !all(printed) || name.front() == ' ' || name.back() == ' ')
-    return "is no " + by.meaning;
+    return "is not a " + by.meaning;
   if (name.size() > longest_law_name)
     return fmt::format("has {} characters; {} are allowed", name.size(), longest_law_name);
   return "";
@@ -58,7 +58,7 @@ void check_names(const std::vector<std::string>& names, const LawSelector& by) {
                  "--combine NAME=TABLE, as the deck has it");
     else if (!seen.insert(lower_case(name)).second)
       faults.add({}, fmt::format("two laws for '{}'", name),
-                 "each name once; decks do not tell small letters from capitals");
+                 "each name once; decks do not distinguish small letters from capitals");
   }
   faults.throw_if_any();
 }

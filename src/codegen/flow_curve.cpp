@@ -29,7 +29,7 @@ void check_curve(const expr::Expr& curve, const table::Table& table) {
     if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
   for (const std::string& name : symbols(curve))
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(curve_place, "the curve has '" + name + "', which is no state",
+      throw InputError(curve_place, "the curve has '" + name + "', which is not a state",
                        suggest(name, known));
   const std::vector<std::string> needed = table.inputs();
   if (std::find(needed.begin(), needed.end(), strain_name) != needed.end())

@@ -58,7 +58,7 @@ double flow_stress_of(const std::string& choice) {
   const std::string number = choice.starts_with("constant:") ? choice.substr(9) : "";
   double value = 0;
   if (!io::read_number(number, '.', value) || !(value > 0))
-    throw InputError(input_place("sigma_f_MPa"), "'" + choice + "' is no flow stress to hold",
+    throw InputError(input_place("sigma_f_MPa"), "'" + choice + "' is not a flow stress to hold",
                      "constant:480");
   return value;
 }

@@ -164,7 +164,7 @@ double read_number(std::string_view text) {
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc{} || stop != end)
-    throw std::runtime_error(fmt::format("'{}' is no number", text));
+    throw std::runtime_error(fmt::format("'{}' is not a number", text));
   return value;
 }
 
@@ -209,7 +209,7 @@ std::vector<double> place_of(const NativeValues& values, std::size_t i) {
 NativeValues values_of_rows(const std::vector<std::vector<double>>& places,
                             const std::vector<double>& value) {
   NativeValues out;
-  const auto fail = [] { throw std::runtime_error("the lines are no complete, ordered grid"); };
+  const auto fail = [] { throw std::runtime_error("the lines are not a complete, ordered grid"); };
   if (places.empty() || places.size() != value.size()) fail();
   std::size_t count = 1;
   for (std::size_t c = 0; c < places.front().size(); ++c) {

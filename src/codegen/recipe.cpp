@@ -157,7 +157,7 @@ std::vector<std::string> files_of_recipe(const std::string& text, const std::str
       throw InputError({file, 0, 0}, "the file name '" + name + "' leads out of the directory");
   }
   if (files.empty())
-    throw InputError({file, 0, 0}, "this is no recipe of generated sources: it lists no files",
+    throw InputError({file, 0, 0}, "this is not a recipe of generated sources: it lists no files",
                      "export again");
   return files;
 }

@@ -88,7 +88,7 @@ public:
     } else if (choice == "property" && !gives_.property.text.empty()) {
       input_.source = Source::property;
     } else if (own_.empty() || choice != own_) {
-      fault(fmt::format("'{}' is no source of a state", choice), "known: " + known_choices());
+      fault(fmt::format("'{}' is not a source of a state", choice), "known: " + known_choices());
     }
   }
 
@@ -147,7 +147,7 @@ private:
     input_.source = Source::history;
     input_.smoothed_over = increments.value_or(2);
     if (!increments || *increments < 2 || *increments > 100000)
-      fault(fmt::format("'{}' is no number of increments from 2 to 100000", text), "smoothed:20");
+      fault(fmt::format("'{}' is not a number of increments from 2 to 100000", text), "smoothed:20");
   }
 
   void fault(const std::string& what, const std::string& hint) {

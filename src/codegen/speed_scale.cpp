@@ -12,7 +12,7 @@ constexpr const char* scale_key = "speed_scale";
 ExportOption speed_scale_option() {
   return {scale_key,
           {"none", "property"},
-          "for simulations scaled in speed or time: a property of the deck, behind those of the "
+          "for simulations scaled in speed or time: a property of the deck, after those of the "
           "states, says how many times faster than the process they run; the law gets the "
           "process's speeds and times"};
 }

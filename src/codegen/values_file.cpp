@@ -56,7 +56,7 @@ ExportOption values_option() {
           {"auto", "source", "file", "file_windows"},
           fmt::format("where the table's values lie: in the source, or in {}, which the routine "
                       "reads at its first call (the choice of \"auto\" above {} numbers); Fortran "
-                      "for Windows has to be told",
+                      "for Windows has to be set",
                       values_file_name, thousands(most_baked_numbers))};
 }
 

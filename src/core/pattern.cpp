@@ -52,7 +52,7 @@ Pattern::Pattern(const std::string& text, const Place& place) : text_(text), pla
                                          PCRE2_UTF, &error, &at, nullptr);
   if (!code)
     throw InputError(place,
-                     fmt::format("'{}' is no regular expression: {}, at character {}", text,
+                     fmt::format("'{}' is not a regular expression: {}, at character {}", text,
                                  message_of(error), at + 1),
                      "a group with a name is written (?<name>...); \\d is a digit, \\w a letter, "
                      "digit or _, + one or more of them, and \\. a point");

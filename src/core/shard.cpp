@@ -21,7 +21,7 @@ Shard read_shard(const std::string& text) {
   if (slash < text.size() && read(all.substr(0, slash), shard.number) &&
       read(all.substr(slash + 1), shard.of) && shard.number <= shard.of)
     return shard;
-  throw InputError({"--shard", 0, 0}, fmt::format("'{}' is no shard", text),
+  throw InputError({"--shard", 0, 0}, fmt::format("'{}' is not a shard", text),
                    "write i/n with i from 1 to n: --shard 3/8");
 }
 

@@ -177,7 +177,7 @@ Split hold_out(const Dataset& data, double share, std::uint64_t seed) {
   if (data.experiments.size() < 2)
     throw InputError({join(data.sources, ", "), 0, 0},
                      "there is only one experiment: none can be held out to validate",
-                     "give data.validation, or an experiment column that tells the tests apart; "
+                     "give data.validation, or an experiment column that distinguishes the tests; "
                      "without data.holdout laws are fitted to it and judged by nothing");
   const Units units = units_of(data);
   const auto wanted =

@@ -247,7 +247,7 @@ private:
     std::vector<Hdf5Single> all;
     const auto take = [&](const Hdf5Single& one, const char* what) {
       if (taken.count(one.name))
-        left_.add("", one.name, fmt::format("{}, beside columns of that name", what));
+        left_.add("", one.name, fmt::format("{}, in addition to columns of that name", what));
       else if (asked_.has(one.name))
         all.push_back(one);
       else
@@ -294,7 +294,7 @@ private:
   void leave(const std::string& group, const std::string& name, const std::string& what) {
     if (asked_.has(name))
       faults_.add({named_, 0, 0},
-                  fmt::format("'{}' is no column: it is {}", hdf5_path(group, name), what),
+                  fmt::format("'{}' is not a column: it is {}", hdf5_path(group, name), what),
                   "a column has a number or a text per row: n, n x 1 or 1 x n");
     else
       left_.add(group, name, what);

@@ -176,7 +176,7 @@ void complete(Dataset& all, const DataOptions& options, const Beside& beside) {
     for (const Dataset::Dropped& dropped : beside.second->dropped)
       all.notes.push_back(
           fmt::format("data.join: {} {} left out ({}): its columns are interpolated "
-                      "between those before and behind",
+                      "between those before and after",
                       thousands(dropped.rows), dropped.rows == 1 ? "row" : "rows", dropped.rule));
   tell_left_out(all);
   tell_signs(all, options.force_zero);

@@ -446,11 +446,11 @@ private:
     for (const Quantity& quantity : quantities())
       if (lower == lower_case(quantity.name))
         faults_.add(header(),
-                    fmt::format("column '{}' is called {} but for upper and lower case{}",
+                    fmt::format("column '{}' differs from {} only in upper and lower case{}",
                                 column.name, quantity.name,
                                 find(quantity.name) ? ", which is there as well" : ""),
                     fmt::format("take one of the two: [data.columns] {} = \"{}\"; or list the "
-                                "columns to keep beside quantities in data.bystanders",
+                                "further columns to keep in data.bystanders",
                                 quantity.name, column.name));
   }
 

@@ -46,7 +46,7 @@ std::string sheet_text(const std::string& path, const std::string& named,
   } catch (const std::runtime_error& error) {
     const std::string said = error.what(); // the command, then the program's output
     throw InputError({named, 0, 0},
-                     sheet.empty() ? "is no workbook that xlsx2csv can read"
+                     sheet.empty() ? "is not a workbook that xlsx2csv can read"
                                    : fmt::format("holds no sheet '{}' that can be read", sheet),
                      "xlsx2csv says: " + last_line(said));
   }

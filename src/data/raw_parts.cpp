@@ -79,7 +79,7 @@ private:
         table.header_line > 0 ? "" : fmt::format(" in row {}", table.line[run.first]);
     throw InputError(
         row_place(table, run.first),
-        fmt::format("experiment '{}' comes again{}, behind rows of another one", run.name, row),
+        fmt::format("experiment '{}' comes again{}, after rows of another one", run.name, row),
         "data that are condensed are read one experiment at a time: sort the file by "
         "experiment, or data.condense = 0 where all rows find room in memory");
   }

@@ -378,7 +378,7 @@ private:
                     all_.experiments.size(), groups_.size(), groups_.size() == 1 ? "" : "s",
                     join(why_, "; "), most);
     text += groups_.size() > 1
-                ? "those of one recording are held out and left out together, and are no repeats "
+                ? "those of one recording are held out and left out together, and are not repeats "
                   "of each other"
                 : "with one recording alone each interval is held out and left out as a test of "
                   "its own, and how another recording would differ is not known";

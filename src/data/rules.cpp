@@ -10,8 +10,8 @@ constexpr const char *by_roles = "data.roles", *by_rows = "data.rows",
 
 constexpr const char *not_a_cause = "no cause of friction",
                      *fitted = "counted and fitted like sliding rows", *left_out = "left out",
-                     *told = "an error where most rows are so, else told with their count",
-                     *remarked = "told, never an error";
+                     *told = "an error where most rows are so, else reported with their count",
+                     *remarked = "reported, never an error";
 
 constexpr FalseCalls of_columns = {0, 788, "columns"}, of_rows = {0, 425940, "rows"},
                      of_campaigns = {0, 100, "campaigns"}, not_measured = {0, 0, ""};
@@ -40,7 +40,7 @@ constexpr ReadingRule all_rules[] = {
      not_a_cause, by_roles, of_columns},
 
     {"rows", "sliding", "under load and in motion", "fitted", by_rows, not_measured},
-    {"rows", "rest", "speed is 0, or below 2 % of the test's and cannot be told from 0", left_out,
+    {"rows", "rest", "speed is 0, or below 2 % of the test's and cannot be distinguished from 0", left_out,
      by_rows, of_rows},
     {"rows", "turning", "where a stroke ends: slow, or the force still builds up", left_out,
      by_rows, of_rows},
@@ -54,7 +54,7 @@ constexpr ReadingRule all_rules[] = {
      by_allowing,
      {1, 425940, "rows"}},
     {"rows", "friction_coefficient",
-     "tau_R_MPa/sigma_n_MPa above 3.6 and far above its test; told: also below 0.001",
+     "tau_R_MPa/sigma_n_MPa above 3.6 and far above its test; reported: also below 0.001",
      "left out up to 5 % of a campaign, else an error", by_allowing, of_rows},
     {"rows",
      "spike",
@@ -78,12 +78,12 @@ constexpr ReadingRule all_rules[] = {
     {"tests", "direction", "the force changes sign with the direction of a stroke",
      "the zero of the force cell is taken off, magnitudes are fitted", "data.force_zero",
      of_campaigns},
-    {"tests", "test_apart", "off the other tests by 1.5 times, with a gap behind it", told,
+    {"tests", "test_apart", "off the other tests by 1.5 times, with a gap next to it", told,
      by_allowing, of_campaigns},
     {"tests", "copied_test", "the rows of another test, value by value", told, by_allowing,
      of_campaigns},
     {"tests", "mixed_units", "off the others by a factor between two units, or by kelvin",
-     "an error where no design does that, else told", by_allowing, of_campaigns},
+     "an error where no design does that, else reported", by_allowing, of_campaigns},
     {"tests", "no_coefficient", "its mean coefficient is not above 0", remarked, by_allowing,
      of_campaigns},
     {"tests", "elapsed_time", "lasts more than 10^7 s or less than 10^-6 s", told, by_allowing,

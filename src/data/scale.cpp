@@ -519,7 +519,7 @@ Implausible normal_to_flow(const Dataset& data) {
   if (!ratio.known() || (ratio.high >= least_of_flow && ratio.low <= most_of_flow)) return {};
   const bool far_below = ratio.high < least_of_flow;
   Implausible out = {"", data.rows_behind(), data.rows_behind(),
-                     fmt::format("sigma_n_MPa is {} beside a flow stress sigma_f_MPa of {}",
+                     fmt::format("sigma_n_MPa is {} at a flow stress sigma_f_MPa of {}",
                                  shown(span_of(data, "sigma_n_MPa")),
                                  shown(span_of(data, "sigma_f_MPa"))),
                      far_below ? "a force in kN, a normal stress in GPa, or a flow stress in kPa? "
@@ -598,7 +598,7 @@ Implausible elapsed_time(const Dataset& data) {
                            shown(all), shown(step));
   }
   out.hint = wrong.high > longest_s
-                 ? "a clock in ms or us, or one that was set anew? `unit` where it is mapped"
+                 ? "a clock in ms or us, or one that was reset? `unit` where it is mapped"
                  : "a clock in days, as spreadsheets hold it, or in min? `unit` where it is mapped";
   return out;
 }

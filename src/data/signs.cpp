@@ -367,18 +367,18 @@ void tell_offsets(Dataset& data, ForceZero said) {
   std::string text = fmt::format(
       "{} has both signs in {}: {}; magnitudes are fitted, `{}` is recorded", both.column,
       tests_text(both.names),
-      fmt::format("the two directions differ by twice {} beside a friction of {} (half the sum and "
+      fmt::format("the two directions differ by twice {} at a friction of {} (half the sum and "
                   "half the difference of their medians)",
                   sizes_text(both.sizes, unit), sizes_text(both.frictions, unit)),
       direction_column);
   text += kept ? "; that difference is kept"
                : "; it is taken off, cycle by cycle, as the zero of the force cell";
   if (said == ForceZero::automatic) {
-    if (why == DirectionsDiffer::by_zero) text += ": it is the same whatever the load";
+    if (why == DirectionsDiffer::by_zero) text += ": it is the same at every load";
     if (why == DirectionsDiffer::by_friction)
       text += ": it is in proportion to the load, so friction";
     if (why == DirectionsDiffer::cannot_tell)
-      text += ". Is it? These loads cannot tell a zero from friction that depends on the direction "
+      text += ". Is it? These loads cannot distinguish a zero error from friction that depends on the direction "
               "(data.force_zero = \"remove\" or \"keep\" says which)";
   }
   tell(data, std::move(text));

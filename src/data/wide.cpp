@@ -81,7 +81,7 @@ private:
                        fmt::format("columns '{}' and '{}' of {} are both {} of test '{}'",
                                    table_.columns[found->second].name, table_.columns[i].name,
                                    table_.file, own, name),
-                       "a group (?<experiment>...) that tells the tests apart");
+                       "a group (?<experiment>...) that distinguishes the tests");
     test->rows = std::max(test->rows, filled_rows(table_.columns[i]));
   }
 

@@ -27,7 +27,7 @@ EffectForm make() {
   EffectForm form;
   form.name = "hinge";
   form.order = 7;
-  form.title = "straight line behind a threshold";
+  form.title = "straight line after a threshold";
   form.formula = "1 + a max(x - x0, 0)/w";
   form.parameters = {{"a", "1", "relative change over w", 0, -10, 10},
                      {"x0", "x", "threshold", 0, -1e12, 1e12},

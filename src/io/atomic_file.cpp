@@ -416,9 +416,8 @@ std::string read_file(const fs::path& file) {
   if (fs::is_directory(file, error))
     throw InputError({file.string(), 0, 0}, "is a directory, a file is needed");
   std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw InputError({file.string(), 0, 0}, "cannot be read",
-                     fs::exists(file, error) ? "check its permissions" : "there is no such file");
+  if (!in && !fs::exists(file, error)) throw InputError({file.string(), 0, 0}, "no such file");
+  if (!in) throw InputError({file.string(), 0, 0}, "cannot be read", "check its permissions");
   std::string text; // read in large pieces: one character at a time is ten times slower
   std::size_t size = 0;
   do {

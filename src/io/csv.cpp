@@ -366,7 +366,7 @@ void tell_ragged(const std::vector<RaggedLine>& ragged, const CsvTable& table, F
     faults.add({table.file, one.line, 0},
                fmt::format("{} cells, the header has {}{}", one.cells, table.columns.size(),
                            and_more(lines - 1, "line")),
-               "a delimiter too many or too few, or a line that is no data (skip_footer)");
+               "a delimiter too many or too few, or a line that is not data (skip_footer)");
     lines = 0;
   }
 }
@@ -420,10 +420,10 @@ std::vector<std::string> notes_of(const CsvPassedOver& lines) {
   if (lines.headers > 0)
     notes.push_back(fmt::format("the header line comes again {} times", lines.headers));
   if (lines.in_front > 0)
-    notes.push_back(fmt::format("{} lines in front of it are no rows", lines.in_front));
+    notes.push_back(fmt::format("{} lines in front of it are not rows", lines.in_front));
   if (lines.delimiters_alone > 0)
     notes.push_back(
-        fmt::format("{} lines hold delimiters alone: they are no rows", lines.delimiters_alone));
+        fmt::format("{} lines hold delimiters alone: they are not rows", lines.delimiters_alone));
   return notes;
 }
 
@@ -518,7 +518,7 @@ std::string_view with_unix_lines(std::string_view text, std::string& storage) {
 
 void check_text(std::string_view text, const std::string& file) {
   if (text.find('\0') != text.npos)
-    throw InputError({file, 0, 0}, "this is no text file", "give CSV text or HDF5");
+    throw InputError({file, 0, 0}, "this is not a text file", "give CSV text or HDF5");
 }
 
 // The part of the text before the first row.

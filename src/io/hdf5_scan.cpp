@@ -317,7 +317,7 @@ void read_values(const std::string& name, hid_t set, const std::vector<std::size
 
 Unreadable not_opened(const std::filesystem::path& file) {
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) return {"cannot be read", "there is no such file"};
+  if (!std::filesystem::exists(file, error)) return {"no such file", ""};
   if (std::filesystem::is_directory(file, error)) return {"is a directory, a file is needed", ""};
   if (::access(file.c_str(), R_OK) != 0) return {"cannot be read", "check its permissions"};
   return {"cannot be opened as HDF5",

@@ -38,7 +38,7 @@ std::uint64_t count_of(const nlohmann::ordered_json& value) {
   const bool whole =
       value.is_number_unsigned() || (value.is_number_integer() && value.get<std::int64_t>() >= 0);
   if (whole && value.get<std::uint64_t>() <= most) return value.get<std::uint64_t>();
-  throw nlohmann::ordered_json::type_error::create(302, value.dump() + " is no count", &value);
+  throw nlohmann::ordered_json::type_error::create(302, value.dump() + " is not a count", &value);
 }
 
 void read_json(const std::string& file, const std::string& mends,

@@ -33,7 +33,7 @@ public:
   void block(const std::string& text, std::size_t first) {
     const bool wide = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
     if (!wide && text.find('\0', first) != text.npos)
-      throw InputError({named_, 0, 0}, "this is no text file", "give CSV text or HDF5");
+      throw InputError({named_, 0, 0}, "this is not a text file", "give CSV text or HDF5");
     const std::size_t last = text.find_last_of("\r\n");
     if (last != text.npos) line_start_ = last + 1;
     if (text.size() - line_start_ > limits_.line_bytes)
@@ -55,9 +55,8 @@ std::ifstream open_text_file(const fs::path& file, const std::string& named) {
   if (fs::is_directory(file, error))
     throw InputError({named, 0, 0}, "is a directory, a file is needed");
   std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw InputError({named, 0, 0}, "cannot be read",
-                     fs::exists(file, error) ? "check its permissions" : "there is no such file");
+  if (!in && !fs::exists(file, error)) throw InputError({named, 0, 0}, "no such file");
+  if (!in) throw InputError({named, 0, 0}, "cannot be read", "check its permissions");
   return in;
 }
 

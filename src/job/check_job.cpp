@@ -158,7 +158,7 @@ void check_rule(JobReader& reader, const std::string& path, data::FileRule& rule
         !near.empty() && near != name)
       reader.fault(
           reader.place_of(path + ".constants." + name),
-          fmt::format("'{}' in [{}.constants] is no quantity", name, path),
+          fmt::format("'{}' in [{}.constants] is not a quantity", name, path),
           fmt::format("did you mean '{}'? A column of your own needs a name less like it", near));
   rule.from_name_place = reader.place_of(path + ".from_name");
   check_pattern(reader, rule.from_name, rule.from_name_place, path + ".from_name");

@@ -75,7 +75,7 @@ template <SourceOf source> std::vector<KeyRule> column_keys(const std::string& s
           section + ".*.unit",
           [](Job & job, const std::string& name) -> auto& { return source(job, name).unit; },
           "the file's unit; values are converted",
-          "what a units row says, or the header behind the name: \"F_N [kN]\"; else the canonical "
+          "what a units row says, or the header after the name: \"F_N [kN]\"; else the canonical "
           "unit",
           "\"Pa\""),
       named<std::string>(
@@ -99,7 +99,7 @@ template <SourceOf source> std::vector<KeyRule> column_keys(const std::string& s
       named<std::string>(
           section + ".*.formula",
           [](Job & job, const std::string& name) -> auto& { return source(job, name).formula; },
-          "computed from other columns, by their names (_ for signs that are no letter or digit): "
+          "computed from other columns, by their names (_ for signs other than letters and digits): "
           "quantities in their canonical units, others as the file gives them; pi is known, "
           "`unit` is that of the result",
           "a column of the file", "\"rpm*radius_mm*2*pi/60\""),

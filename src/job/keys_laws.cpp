@@ -80,7 +80,7 @@ std::vector<KeyRule> law_keys() {
           "models.*.combine", [](Job & job, const std::string& name) -> auto& {
             return law_text(job, name).combine.text;
           },
-          "tau_R of the piece, called `value`: evaluated exactly beside the table",
+          "tau_R of the piece, called `value`: evaluated exactly, outside the table",
           "value*sigma_n_MPa", "\"min(value*sigma_n_MPa, m*k_MPa)\""),
       named<std::string>(
           "models.*.quantity",
@@ -90,7 +90,7 @@ std::vector<KeyRule> law_keys() {
       named<std::string>(
           "models.*.table",
           [](Job & job, const std::string& name) -> auto& { return law_text(job, name).table; },
-          "instead of a formula: a file, beside the job, with a column per axis, one of mu or "
+          "instead of a formula: a file, relative to the job, with a column per axis, one of mu or "
           "tau_R_MPa, and a row per node in any order (CSV, workbook, HDF5), or one of tables/*.h5",
           "a formula says it", "\"mu_of_p_v.csv\""),
       named<std::string>(
@@ -117,7 +117,7 @@ std::vector<KeyRule> law_keys() {
           "models.*.parameters.*.range", [](Job & job, const std::string& name) -> auto& {
             return parameter_text(job, name).range;
           },
-          "where it is looked for", "an error, but for a constant", "[0, 1]"),
+          "where it is looked for", "an error, except for a constant", "[0, 1]"),
       named<std::optional<double>>(
           "models.*.parameters.*.start", [](Job & job, const std::string& name) -> auto& {
             return parameter_text(job, name).start;

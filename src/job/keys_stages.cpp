@@ -169,7 +169,7 @@ std::vector<KeyRule> model_keys() {
       key<std::vector<std::string>>(
           "models.use", [](Job & job) -> auto& { return job.models.use; },
           "friction laws to calibrate: a name, a list, or \"all\", which laws of the literature "
-          "may stand beside; `frictab list models` shows them",
+          "may be added; `frictab list models` shows them",
           "all that the columns allow", "[\"coulomb\", \"orowan\"]") |
           Allowed{"friction law", laws_or_all, false, false, true},
       key<std::vector<std::string>>(
@@ -206,7 +206,7 @@ std::vector<KeyRule> model_keys() {
       key<std::optional<double>>(
           "calibration.condition_on_mm",
           [](Job & job) -> auto& { return job.calibration.condition_on_mm; },
-          "conditional use beside the ranking: each experiment gets one gain, from its own first "
+          "conditional use, apart from the ranking: each experiment gets one gain, from its own first "
           "so many mm of sliding, and is judged on the rest; uses part of every test, so it is "
           "reported apart and never ranked",
           "unconditional laws only", "1.0") |
@@ -265,7 +265,7 @@ std::vector<KeyRule> table_keys() {
           "fitted "
           "to, table1 = "
           "Table 1 of the paper as well, where the data cover half of it; nodes beyond the data "
-          "are told by the summary, the table's file and the report") |
+          "are reported by the summary, the table's file and the report") |
           Allowed{"", reaches},
       key<std::optional<std::size_t>>(
           "table.nodes", [](Job & job) -> auto& { return job.table.nodes; },
@@ -297,7 +297,7 @@ std::vector<KeyRule> table_keys() {
           [](Job & job, const std::string& name) -> auto& { return axis(job, name).outside; },
           "what a query beyond the range gets, at both ends or [low, high]: clamp = the value at "
           "the nearest end, error = NaN, and the solver stops, law = the law's own formula; where "
-          "the state is no axis of a law's table, the formula takes it as it is",
+          "the state is not an axis of a law's table, the formula takes it as it is",
           "clamp; law below the low end of sigma_n_MPa", "[\"clamp\", \"law\"]") |
           Allowed{"", sides} | outside_problem,
       key<bool>(
@@ -311,7 +311,7 @@ std::vector<KeyRule> table_keys() {
           at_least(0, 1 << 24),
       key<std::size_t>(
           "table.hdf5.compress", [](Job & job) -> auto& { return job.table.hdf5.compress; },
-          "deflate level of each chunk, behind a shuffle of bytes; 0 = none") |
+          "deflate level of each chunk, after a shuffle of bytes; 0 = none") |
           at_least(0, 9),
       key<bool>(
           "table.hdf5.fletcher32", [](Job & job) -> auto& { return job.table.hdf5.fletcher32; },
@@ -408,7 +408,7 @@ std::vector<KeyRule> proof_keys() {
           "column that gives the order of tests (a number or a time stamp): drift, wear and batch "
           "are looked for along it",
           "a time stamp, or a column called run_order, test_order, ... that numbers the tests from "
-          "1; without one nothing is said about the order: files are often sorted by condition",
+          "1; without one the order is not examined: files are often sorted by condition",
           "\"run_order\""),
       key<std::string>(
           "trace.tool_distance", [](Job & job) -> auto& { return job.trace.tool_distance; },

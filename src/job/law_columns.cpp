@@ -58,7 +58,7 @@ private:
       faults_.add(header(), "has no column mu or tau_R_MPa",
                   "a law that is a table has a column per axis and one of these");
     if (out_.table.axes.empty())
-      faults_.add(header(), "has no axis", "columns of states beside mu or tau_R_MPa");
+      faults_.add(header(), "has no axis", "columns of states next to mu or tau_R_MPa");
   }
 
   void take_value(const CsvColumn& column, const io::HeaderName& name) {
@@ -78,7 +78,7 @@ private:
       faults_.add(header(), fmt::format("there are two columns '{}'", name.name),
                   "leave one of them");
     else if (quantity && !quantity->state)
-      faults_.add(header(), fmt::format("{} is no state of a contact, and no axis", symbol),
+      faults_.add(header(), fmt::format("{} is not a state of a contact and not an axis", symbol),
                   "leave the column out");
     out_.table.axes.push_back({symbol, false, {}, header()});
     out_.positions.push_back(in_unit(column, name, quantity ? quantity->unit : ""));

@@ -48,7 +48,7 @@ private:
     if (count > rows && count > models::most_law_nodes)
       faults_.add(
           header(),
-          fmt::format("is no full grid: {} rows for {} nodes", thousands(raw_.rows()), sizes()),
+          fmt::format("is not a full grid: {} rows for {} nodes", thousands(raw_.rows()), sizes()),
           "a row for every combination of the axes' values; fit scattered points with a "
           "law, or resample them");
     else if (count > models::most_law_nodes)

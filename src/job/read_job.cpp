@@ -237,7 +237,7 @@ void read_laws(JobReader& reader, const TomlNode& file) {
     if (entry.type == TomlNode::Type::table)
       walk(reader, entry, "models.*", "models." + entry.key, entry.key);
     else
-      reader.fault(entry.key_place, fmt::format("{} is no law", in_quotes(entry.key)),
+      reader.fault(entry.key_place, fmt::format("{} is not a law", in_quotes(entry.key)),
                    "a file of laws holds a table per law: [my_law]");
 }
 

@@ -81,7 +81,7 @@ void check_size(std::string_view text, const std::string& file) {
   if (text.size() > max_bytes)
     throw InputError(
         {file, 0, 0},
-        fmt::format("is no job file: it has {}", human_bytes(static_cast<double>(text.size()))),
+        fmt::format("is not a job file: it has {}", human_bytes(static_cast<double>(text.size()))),
         "name the job file (TOML), not the data");
   std::size_t line = 1, dots = 0;
   for (const char c : text) {

@@ -269,7 +269,7 @@ private:
     std::set<std::string> seen; // in small letters: Fortran knows no other
     const auto check = [&](const std::string& name, const Place& place, const char* noun) {
       if (!expr::is_name(name) || name.size() > longest_name)
-        faults_.add(place, fmt::format("{} '{}' of law {} is no name", noun, name, text_.name),
+        faults_.add(place, fmt::format("{} '{}' of law {} is not a name", noun, name, text_.name),
                     fmt::format("letters, digits and _, no digit first, at most {}", longest_name));
       else if (const std::string taken = taken_by(name); !taken.empty())
         faults_.add(
@@ -278,9 +278,9 @@ private:
             "choose another name");
       else if (!seen.insert(lower_case(name)).second)
         faults_.add(place,
-                    fmt::format("'{}' stands twice in law {}, but for upper and lower case", name,
+                    fmt::format("'{}' stands twice in law {}, apart from upper and lower case", name,
                                 text_.name),
-                    "choose another name: Fortran does not tell them apart");
+                    "choose another name: Fortran does not distinguish them");
     };
     for (const ParameterText& p : text_.parameters)
       check(p.name, p.place, "parameter");
@@ -456,7 +456,7 @@ private:
       else if (quantity && !quantity->state)
         faults_.add(
             place_of(name),
-            fmt::format("law {} depends on {}, which is no state of a contact", text_.name, name),
+            fmt::format("law {} depends on {}, which is not a state of a contact", text_.name, name),
             "states: " + join(state_names(), ", "));
       else if (!quantity)
         law_.places.emplace(name, place_of(name)); // a column, which the data have or not

@@ -69,7 +69,7 @@ void add_delivery(std::string& out, const calibrate::Calibration& calibration, i
 }
 
 void add_published(std::string& out, const calibrate::Calibration& calibration) {
-  out += fmt::format("\n## Published figures beside these\n\n"
+  out += fmt::format("\n## Published figures for comparison\n\n"
                      "{} (*{}*)\n\n| | published MAE / MPa | here MAE / MPa |\n|---|---|---|\n",
                      published_warning, published_source);
   const auto figures = published_figures();

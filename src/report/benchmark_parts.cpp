@@ -152,7 +152,7 @@ void add_comparison(std::string& out, const calibrate::Calibration& calibration,
                   "and p-values are of one pair each; with many pairs some are small by chance. "
                   "The last column is for all candidates together and allows for the data having "
                   "chosen the leader: p of \"no law is better than this one\".\n\n"
-                  "| law | MAE behind the best (95 %) | p | RMSE behind it (95 %) | p | verdict | "
+                  "| law | MAE above the best (95 %) | p | RMSE above it (95 %) | p | verdict | "
                   "may be the best |\n|---|--:|--:|--:|--:|---|---|\n",
                   calibrate::pairwise_sentence(c), calibrate::family_sentence(c), c.resamples,
                   count_of(c.n_experiments, "validation experiment"));

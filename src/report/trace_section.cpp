@@ -169,7 +169,7 @@ std::string alternatives_of(const trace::TracedEffect& effect) {
     list += (list.empty() ? "" : ", ") + svg::escape(a.name);
   }
   std::string text;
-  if (!same.empty()) text += "These experiments cannot tell it from: " + same + ". ";
+  if (!same.empty()) text += "These experiments cannot distinguish it from: " + same + ". ";
   if (!others.empty()) text += "Explain less: " + others + ".";
   return text;
 }

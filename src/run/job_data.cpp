@@ -66,7 +66,7 @@ void check_export_inputs(const codegen::ExportOptions& exports, const data::Data
     if (std::find(known.begin(), known.end(), name) == known.end())
       faults.add(
           place,
-          fmt::format("'{}' in [{}] is no state, history or column", name, key.substr(0, dot)),
+          fmt::format("'{}' in [{}] is not a state, history or column", name, key.substr(0, dot)),
           suggest(name, known));
   }
   faults.throw_if_any();

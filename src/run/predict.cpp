@@ -135,7 +135,7 @@ void check_calibration(const job::Job& job) {
     why = "is stale: " + other;
   if (why.empty()) return;
   throw InputError({(std::filesystem::path(job.directory) / "calibration.json").string(), 0, 0},
-                   why, "`frictab calibrate " + job.arguments() + "` makes it anew");
+                   why, "`frictab calibrate " + job.arguments() + "` rebuilds it");
 }
 
 } // namespace

@@ -40,7 +40,7 @@ void add_left_out(std::string& out, const calibrate::Calibration& calibration) {
     list += (list.empty() ? "" : ", ") + left.law;
   }
   for (const auto& [reason, list] : laws)
-    out += fmt::format("  left out, for want of {}: {}\n", reason, list);
+    out += fmt::format("  skipped, needs {}: {}\n", reason, list);
 }
 std::string range_of(const calibrate::Interval& interval, int decimals) {
   if (!std::isfinite(interval.low) || !std::isfinite(interval.high)) return "-";

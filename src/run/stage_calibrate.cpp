@@ -60,7 +60,7 @@ void load_calibration(Run& run, std::string_view) {
   if (run.calibration->data_hash != wanted)
     throw InputError({run.path("calibration.json"), 0, 0},
                      "was made from other data: their fingerprint is " + run.calibration->data_hash,
-                     "`frictab calibrate " + run.job.arguments() + "` makes it anew");
+                     "`frictab calibrate " + run.job.arguments() + "` rebuilds it");
 }
 
 } // namespace frictab::run

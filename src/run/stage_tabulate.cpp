@@ -110,7 +110,7 @@ void check_origin(Run& run, Table& table, bool to_verify) {
                      fmt::format("was made from other data: their fingerprint is {}, that of "
                                  "calibration.json is {}",
                                  hash, wanted),
-                     "`frictab tabulate " + run.job.arguments() + "` makes it anew");
+                     "`frictab tabulate " + run.job.arguments() + "` rebuilds it");
   const std::optional<bool> as_written = run.workspace.record().is_as_written(path_of(table.model));
   table.drift_is_claimed = !as_written.value_or(false);
   if (as_written.value_or(true)) return;

@@ -21,7 +21,7 @@ void Workspace::check_fresh(const Stage& stage, const std::string& data) const {
   const fs::path result = fs::path(job_.directory) / stage.results.front();
   const fs::path named = result.has_filename() ? result : result.parent_path(); // without its slash
   throw InputError({named.string(), 0, 0}, "is stale: " + why,
-                   fmt::format("`frictab {} {}` makes it anew, `frictab run` everything; `frictab "
+                   fmt::format("`frictab {} {}` rebuilds it, `frictab run` everything; `frictab "
                                "status` shows all stages",
                                stage.name, job_.arguments()));
 }
@@ -31,7 +31,7 @@ void Workspace::check_as_written(std::string_view stage, const std::string& path
   throw InputError(
       {(fs::path(job_.directory) / path).string(), 0, 0},
       fmt::format("was changed since `frictab {}` wrote it", stage),
-      fmt::format("`frictab {} {}` makes it anew; for a law with constants of your own "
+      fmt::format("`frictab {} {}` rebuilds it; for a law with constants of your own "
                   "or a table from elsewhere: `frictab export --law` or `--table`",
                   stage, job_.arguments()));
 }

@@ -194,7 +194,7 @@ private:
       one.factors.resize(study_.factors.size());
       if (!one.name.empty() && !names.insert(one.name).second)
         faults_.add(one.place, fmt::format("there are two campaigns called '{}'", one.name),
-                    "reports tell them apart by name");
+                    "reports distinguish them by name");
     }
   }
 
@@ -212,7 +212,7 @@ Study parse_study(std::string_view text, const std::string& file, const StudyOve
   if (text.size() > largest_file)
     throw InputError(
         {file, 0, 0},
-        fmt::format("is no study file: it has {}", human_bytes(static_cast<double>(text.size()))),
+        fmt::format("is not a study file: it has {}", human_bytes(static_cast<double>(text.size()))),
         "many campaigns stand in a table of their own: campaigns = \"list.csv\"");
   return StudyReader(file, overrides).read(text);
 }

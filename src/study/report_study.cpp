@@ -44,7 +44,7 @@ public:
         ++tally_.counts.failed;
       }
       take_failure(i, fmt::format("its result cannot be read: {}: remove {}, and `frictab study "
-                                  "run` makes it anew",
+                                  "run` rebuilds it",
                                   error.faults().front().what, file_of(state, key).string()));
     }
   }
@@ -117,7 +117,7 @@ std::string report_text(const Plan& plan, const Tally& tally) {
                   tally.synthetic > 0 ? " - SYNTHETIC data among them" : "");
   for (const auto& [name, law] : laws_by_success(tally))
     text +=
-        fmt::format("  {:<20} best in {:>7} of {:>7}, best or not told from it in {:>7}\n", name,
+        fmt::format("  {:<20} best in {:>7} of {:>7}, best or indistinguishable in {:>7}\n", name,
                     thousands(law->best), thousands(law->campaigns), thousands(law->may_be_best));
   for (std::size_t i = 0; i < std::min(tally.failed.size(), most_listed); ++i)
     text += fmt::format("failed: {}: {}\n", plan.study.campaigns[tally.failed[i].campaign].name,

@@ -170,7 +170,7 @@ std::string result_json(const CampaignResult& result, const std::string& key) {
 }
 
 CampaignResult parse_result(std::string_view text, const std::string& file) {
-  const std::string mends = "remove its folder: `frictab study run` makes it anew";
+  const std::string mends = "remove its folder: `frictab study run` rebuilds it";
   const Json json = io::parse_json(text, file);
   io::check_schema(json, schema, file, mends);
   CampaignResult result;

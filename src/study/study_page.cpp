@@ -43,7 +43,7 @@ std::string verdict_text(const Plan& plan, const Tally& tally) {
   const auto [name, law] = laws_by_success(tally).front();
   const std::string judged = of_campaigns(law->may_be_best, tally.compared);
   std::string text =
-      fmt::format("<strong>{}</strong> is best, or cannot be told from the best, in "
+      fmt::format("<strong>{}</strong> is best, or indistinguishable from the best, in "
                   "{} campaigns that compare laws; it is best in {} of {}.",
                   svg::escape(name), judged, thousands(law->best), thousands(law->campaigns));
   if (tally.counts.missing > 0)

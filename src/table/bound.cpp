@@ -342,7 +342,7 @@ std::string obstacle(const models::AssembledLaw& law, const Table& table,
   const std::vector<std::string> axes = axis_names(table);
   for (const std::string& name : law.piece_inputs)
     if (std::find(axes.begin(), axes.end(), name) == axes.end())
-      return "the law's piece depends on " + name + ", which is no axis of the table";
+      return "the law's piece depends on " + name + ", which is not an axis of the table";
   double cells = 1, nodes = 1;
   for (const TableAxis& axis : table.axes)
     nodes *= static_cast<double>(axis.nodes.size());

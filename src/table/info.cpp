@@ -91,7 +91,7 @@ void add_drift(std::string& out, const Table& table) {
   const auto proven = stated(table.record.proven_drift_MPa);
   if (proven)
     out += fmt::format("Proven, as the file says: nowhere above {:.3g} MPa\n", rounded_up(*proven));
-  if (worst || proven) out += "  (`frictab verify --table FILE --model MODEL` measures it anew)\n";
+  if (worst || proven) out += "  (`frictab verify --table FILE --model MODEL` measures it again)\n";
 }
 
 } // namespace

@@ -94,7 +94,7 @@ void check_outside(const models::AssembledLaw& law, const std::string& name,
   if (other == axis.outside.end() || law.piece_inputs.count(name)) return;
   throw InputError(
       axis.place,
-      fmt::format("outside = \"{}\" cannot act: {} is no axis of the table of {}, whose "
+      fmt::format("outside = \"{}\" cannot act: {} is not an axis of the table of {}, whose "
                   "formula takes it as it is, beyond its range too",
                   *other, name, law.model.name()),
       fmt::format("leave outside away from [table.axes.{}]; verify and predict say "
@@ -178,7 +178,7 @@ std::vector<StateRange> table_ranges(const Table& table, const data::Dataset* da
     else
       throw InputError({file, 0, 0},
                        "the range of " + name +
-                           " is not known: it is no axis, and the table has no "
+                           " is not known: it is not an axis, and the table has no "
                            "attributes range_low_" +
                            name + " and range_high_" + name,
                        "add the two attributes, or give --data with that column");

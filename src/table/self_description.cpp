@@ -52,7 +52,7 @@ std::map<std::string, std::string> root_description(const Table& table) {
                             axes.empty() ? "" : " over ", join(axes, ", "))},
       {"source", source(table.record)},
       {"comment", "The friction shear stress in MPa is the formula in the attribute combine of "
-                  "value: of the interpolated value, states and the constants beside it. The "
+                  "value: of the interpolated value, states and the constants next to it. The "
                   "comment of value says how it is interpolated."}};
 }
 

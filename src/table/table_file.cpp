@@ -179,7 +179,7 @@ public:
 
   Table describe() {
     if (!in_.has("value")) {
-      fault("there is no dataset 'value': this is no friction table",
+      fault("there is no dataset 'value': this is not a friction table",
             "a table has one dataset 'value' and one dimension scale per axis");
       faults_.throw_if_any();
     }
@@ -405,7 +405,7 @@ private:
         table_.constants[name] = *number;
       else
         fault(
-            fmt::format("extension uses '{}', which is no axis and no attribute of 'value'", name),
+            fmt::format("extension uses '{}', which is neither an axis nor an attribute of 'value'", name),
             "add the constant as a number attribute of 'value'");
     }
   }
@@ -420,7 +420,7 @@ private:
         table_.constants[name] = *number;
       else
         fault(
-            fmt::format("combine uses '{}', which is no state and no attribute of 'value'", name),
+            fmt::format("combine uses '{}', which is neither a state nor an attribute of 'value'", name),
             "add the constant as a number attribute of 'value', or the range of a recorded column "
             "as range_low_" +
                 name + " and range_high_" + name);

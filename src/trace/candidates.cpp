@@ -169,7 +169,7 @@ private:
     const Column* worn = training_.find(options_.tool_distance);
     if (worn && (!worn->levels.empty() || data::is_measured(worn->name)))
       faults.add(options_.tool_distance_place,
-                 fmt::format("'{}' is no distance: it {}", worn->name,
+                 fmt::format("'{}' is not a distance: it {}", worn->name,
                              worn->levels.empty() ? "is what was measured" : "holds text"),
                  "a column of numbers: how far the tool had slid before the test");
     faults.throw_if_any();

@@ -32,7 +32,7 @@ private:
     for (const JointFinding& finding : result.dropped)
       s_.rejected.push_back(fmt::format(
           "{}: significant (p = {:.3g}), but predicts tests that are left out no better "
-          "beside the others",
+          "together with the others",
           cause_name(finding.cause, s_.candidates), finding.p_value));
     for (const JointFinding& finding : result.unsure)
       s_.rejected.push_back(

@@ -114,15 +114,15 @@ TestDates sort_dates(const std::vector<std::string>& texts) {
     else
       no_date = &text;
   if (stamps.empty()) return {places_of(texts), ""};
-  if (no_date) return {{}, fmt::format("'{}' is no date, as others are", *no_date)};
+  if (no_date) return {{}, fmt::format("'{}' is not a date, as others are", *no_date)};
   std::vector<std::vector<double>> found;
   for (const Reading& as : readings)
     if (auto order = places(stamps, as)) found.push_back(std::move(*order));
-  if (found.empty()) return {{}, fmt::format("'{}' and others are no dates", texts.front())};
+  if (found.empty()) return {{}, fmt::format("'{}' and others are not dates", texts.front())};
   if (std::any_of(found.begin(), found.end(), [&](const auto& o) { return o != found.front(); }))
     return {
         {},
-        fmt::format("of '{}' and the others nothing tells the day from the month", texts.front())};
+        fmt::format("'{}' and the others do not show which number is the day", texts.front())};
   return {found.front(), ""};
 }
 

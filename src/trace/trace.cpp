@@ -61,7 +61,7 @@ public:
 private:
   void add_tried(Trace& trace) const {
     if (!search_.candidates.constant.empty())
-      trace.notes.push_back("never varied, so nothing can be said about it: " +
+      trace.notes.push_back("never varied, so its influence is unknown: " +
                             join(search_.candidates.constant, ", "));
     if (search_.one_factor)
       trace.notes.push_back(
@@ -200,7 +200,7 @@ private:
           {names.name, names.columns, names.derived, other.effects.back().form->name,
            other.effects.back().acts_on, finding.in_set[i],
            finding.in_set[i]
-               ? fmt::format("cannot be told from {} by these experiments", name)
+               ? fmt::format("cannot be distinguished from {} by these experiments", name)
                : fmt::format("explains less than {} (log likelihood {:.1f} lower)", name, behind)});
     }
     effect.design = design_for(search_, finding);

@@ -114,7 +114,7 @@ void add_effect(std::string& out, const TracedEffect& e, bool coefficients) {
   for (const Alternative& a : e.alternatives)
     if (a.in_set) same.push_back(a.name);
   if (!same.empty())
-    out += fmt::format("      these experiments cannot tell it from: {}\n", join(same, ", "));
+    out += fmt::format("      these experiments cannot distinguish it from: {}\n", join(same, ", "));
   if (e.order_confounded)
     out += "      may stand for time: a drift over the tests would look the same; name their order "
            "([trace] order), or run tests at both ends of it in turn\n";
@@ -206,8 +206,8 @@ std::vector<std::vector<std::string>> design_rows(const Design& d) {
 std::string design_sentence(const Design& d) {
   const bool one = d.settles.size() == 1;
   std::string text = fmt::format("{} with a probability of {:.0f} %, if it is as large as it "
-                                 "looks: {} tests like {} but for",
-                                 one ? "would show it" : "would tell them apart",
+                                 "looks: {} tests like {} except for",
+                                 one ? "would show it" : "would distinguish them",
                                  100 * d.probability, d.tests.size(), d.like);
   if (d.tests_needed > static_cast<double>(d.tests.size()))
     text += fmt::format(" (80 % take about {:.0f} such tests)", d.tests_needed);
@@ -252,7 +252,7 @@ std::string headline(const Trace& t) {
   case Verdict::effect_added:
     return "effect added";
   case Verdict::nothing_missing:
-    return "nothing is missing: what is left is no more than the rig repeats";
+    return "nothing is missing: the remaining scatter is within the rig's repeatability";
   case Verdict::nothing_found:
     return nothing_text(t);
   case Verdict::unexplained_structure:
@@ -283,7 +283,7 @@ std::string found_text(const Trace& t, bool coefficients) {
   out += fmt::format("  gained on unseen tests: {}\n", gain_text(t.improvement));
   if (weights_matter(t) && t.over_calibrated)
     out +=
-        fmt::format("  beside the law as it was calibrated: {}\n", gain_text(*t.over_calibrated));
+        fmt::format("  compared with the calibrated law: {}\n", gain_text(*t.over_calibrated));
   out += unseen_line(t);
   if (const std::string shown = shown_by_validation(t); !shown.empty()) out += "  " + shown + "\n";
   return out;
@@ -332,7 +332,7 @@ namespace {
 std::string aliases_in_short(const Trace& t) {
   std::string text;
   for (const Alias& alias : t.cannot_tell)
-    text += fmt::format("; {} cannot be told from {}", alias.column, alias.state);
+    text += fmt::format("; {} cannot be distinguished from {}", alias.column, alias.state);
   return text;
 }
 

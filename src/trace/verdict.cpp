@@ -45,13 +45,13 @@ std::string scatter_sentence(const Trace& t) {
 
 std::string order_sentence(const OrderStructure& order) {
   return fmt::format("friction follows the order of tests ({}), {:.2g} MPa or {} root mean square: "
-                     "drift, wear or batch; no recorded column explains it beside that; the law "
+                     "drift, wear or batch; no recorded column explains it in addition; the law "
                      "holds it at {}",
                      order.column, order.size_MPa, percent(order.share), order.reference);
 }
 
 std::string worlds_sentence(const ValidationShift& worlds) {
-  return fmt::format("the validation tests lie {:+.3g} MPa beside the training tests as a whole "
+  return fmt::format("the validation tests lie {:+.3g} MPa off the training tests as a whole "
                      "(95 %: {:+.3g} to {:+.3g} MPa, {:+.3g} %): another lubricant, tool, rig or "
                      "unit; errors on them say nothing about a law until that is settled",
                      worlds.shift_MPa, worlds.interval.low, worlds.interval.high,

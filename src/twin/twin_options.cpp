@@ -64,7 +64,7 @@ void check_options(const TwinOptions& options) {
   check_choice("--noise", options.noise, {"normal", "t4", "heteroscedastic"}, faults);
   const auto laws = truth_names();
   if (!options.law.empty() && std::find(laws.begin(), laws.end(), options.law) == laws.end())
-    faults.add({"--law"}, "'" + options.law + "' is no law that is fitted to data",
+    faults.add({"--law"}, "'" + options.law + "' is not a law that is fitted to data",
                "known: " + join(laws, ", "));
   check_choice("--profile", options.profile, {"constant", "varied"}, faults);
   check_scatter(options.scatter, faults);

@@ -70,7 +70,7 @@ std::string held_text(const DriftRecord& record) {
   for (const auto& [name, value] : *record.held)
     held += fmt::format("{}{} = {:.6g}", held.empty() ? "" : ", ", name, value);
   const std::string cost =
-      record.n_rows == 0 ? "no rows to tell the cost"
+      record.n_rows == 0 ? "no rows to measure the cost"
                          : fmt::format("mean {:.3g}, largest {:.3g} MPa off the law on the rows",
                                        record.cost_mean_abs_MPa, record.cost_max_abs_MPa);
   return fmt::format("{}: {}", held.empty() ? "no state" : held, cost);

@@ -70,7 +70,7 @@ TEST_F(AssumedUnits, AreAnErrorBesideTheFlowStressWhereAnotherOneFits) {
     const CommandResult result = run_frictab({command, "job.toml"}, directory.path());
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_THAT(result.err,
-                AllOf(HasSubstr("beside a flow stress sigma_f_MPa of 400"),
+                AllOf(HasSubstr("at a flow stress sigma_f_MPa of 400"),
                       HasSubstr("'Load', taken as N: sigma_n_MPa is 0.5"), HasSubstr("in kN 51"),
                       HasSubstr("allow_implausible = [\"flow_stress\"]")));
   }

@@ -92,7 +92,7 @@ TEST_F(CombineCommand, SaysWhatIsWrongWithItsLaws) {
   EXPECT_THAT(fault(both, "abaqus_table"),
               HasSubstr("the solver's own tables are one per contact"));
   EXPECT_THAT(fault(both, "calculix_usrmu"), HasSubstr("do not say which contact it is"));
-  EXPECT_THAT(fault(both, "lsdyna_usrfrc"), HasSubstr("'PUNCH' is no number"));
+  EXPECT_THAT(fault(both, "lsdyna_usrfrc"), HasSubstr("'PUNCH' is not a number"));
   EXPECT_THAT(combine(both, {"--targets", "abaqus_fric"}).err, HasSubstr("give -o DIR"));
   EXPECT_THAT(run({"verify", "--combined", "a"}).err, HasSubstr("there are no combined sources"));
 }

@@ -138,7 +138,7 @@ TEST(CommandLine, ATableThatIsNotThereIsNotCalledCutShort) {
         {"export", "--table", file, "-o", directory.path("out")}}) {
     const CommandResult result = run_frictab(arguments);
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_EQ(result.err, file + ": error: cannot be read\n  hint: there is no such file\n");
+    EXPECT_EQ(result.err, file + ": error: no such file\n");
   }
   EXPECT_EQ(run_frictab({"table", "info", directory.path()}).err,
             directory.path() + ": error: is a directory, a file is needed\n");

@@ -208,8 +208,8 @@ TEST_F(Judgement, OfOneTestErrorsAreOfTheFitAndEveryTextSaysSo) {
   EXPECT_THAT(
       out, testing::StartsWith(
                "Data: 400 rows of 1 experiment, no other to judge the laws by - SYNTHETIC data\n"
-               "  if they are of several tests, data.experiment names the column that tells them "
-               "apart\n\n"
+               "  if they are of several tests, data.experiment names the column that distinguishes "
+               "them\n\n"
                "Laws by mean absolute error on the ONE experiment they are fitted to; no other was "
                "seen (tau_R, MPa):\n"));
   EXPECT_THAT(out, Not(HasSubstr("on new tests expect")));

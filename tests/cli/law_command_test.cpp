@@ -111,7 +111,7 @@ TEST_F(LawCommand, TellsWhatItLacks) {
   EXPECT_THAT(fault({"coulomb", "--param", "mu=0.1", "--range", "psi=1..20"}),
               HasSubstr("coulomb does not take psi"));
   EXPECT_THAT(fault({"coulomb", "--param", "mu=0.1", "--range", "sigma_n_MPa=9..1"}),
-              HasSubstr("'9..1' is no range of sigma_n_MPa"));
+              HasSubstr("'9..1' is not a range of sigma_n_MPa"));
   EXPECT_EQ(run({"export", "--param", "mu=0.1", "-o", "out"}).exit_code, 2);
 }
 

@@ -68,7 +68,7 @@ TEST(LiteratureCommands, ExplainGivesATextToCopy) {
   EXPECT_THAT(text.out, HasSubstr("[models.norton.parameters]\nalpha = { range = "));
   const CommandResult none = run_frictab({"explain", "coulomb", "--toml"});
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_EQ(none.err, "--toml: error: 'coulomb' is no law of the literature\n"
+  EXPECT_EQ(none.err, "--toml: error: 'coulomb' is not a law of the literature\n"
                       "  hint: `frictab list models` names them\n");
 }
 

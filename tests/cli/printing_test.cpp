@@ -107,7 +107,7 @@ TEST_F(Printing, ACountInAResultFileThatIsNoneIsNamed) {
     other.replace(at, key.size(), std::string("\"n_refused\": ") + count);
     directory.write("out/verify.json", other);
     const CommandResult result = frictab({"report", "job.toml", "-q"});
-    EXPECT_THAT(result.err, HasSubstr("is no count")) << count;
+    EXPECT_THAT(result.err, HasSubstr("is not a count")) << count;
     EXPECT_EQ(result.exit_code, 2) << count << result.err;
   }
 }

@@ -89,7 +89,7 @@ TEST_F(Provenance, ChangedTableIsMeasuredAndNotExported) {
   EXPECT_EQ(exported.exit_code, 2);
   EXPECT_THAT(exported.err, HasSubstr("out/tables/levanov.h5: error: was changed since `frictab "
                                       "tabulate` wrote it\n  hint: `frictab tabulate job.toml` "
-                                      "makes it anew"));
+                                      "rebuilds it"));
   ASSERT_EQ(frictab({"export", "job.toml", "-o", "out"}).exit_code, 2);
   const CommandResult verified = frictab({"verify", "job.toml", "--set", "export.targets=[]"});
   EXPECT_EQ(verified.exit_code, 1);

@@ -82,7 +82,7 @@ TEST_F(StagesOfAJob, NameResultsOfOtherData) {
   const CommandResult result = run({"tabulate", "job.toml"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.err, "out/calibration.json: error: is stale: the data have changed since\n"
-                        "  hint: `frictab calibrate job.toml` makes it anew, `frictab run` "
+                        "  hint: `frictab calibrate job.toml` rebuilds it, `frictab run` "
                         "everything; `frictab status` shows all stages\n");
   EXPECT_THAT(status(), HasSubstr("calibrate  stale: the data have changed since\n"));
   EXPECT_EQ(run({"calibrate", "job.toml"}).exit_code, 0);
@@ -104,7 +104,7 @@ TEST_F(SlowStagesOfAJob, NameResultsOfAnotherJob) {
   result = run({"verify", "job.toml"});
   EXPECT_EQ(result.exit_code, 2) << "the sources are of the table before";
   EXPECT_THAT(result.err, HasSubstr("out/export: error: is stale: made before the last `tabulate`\n"
-                                    "  hint: `frictab export job.toml` makes it anew"));
+                                    "  hint: `frictab export job.toml` rebuilds it"));
   ASSERT_EQ(run({"export", "job.toml"}).exit_code, 0);
   EXPECT_EQ(run({"verify", "job.toml"}).exit_code, 0);
 }

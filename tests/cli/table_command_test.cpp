@@ -86,7 +86,7 @@ TEST_F(TableCommand, InfoDescribesATable) {
                                    "Drift, as the file says: 0.25 MPa, the largest found, at "
                                    "psi=1.5\n"
                                    "  (`frictab verify --table FILE --model MODEL` measures it "
-                                   "anew)\n"
+                                   "again)\n"
                                    "Nodes: 6, 48 B of values; 48 B in the file, in one piece\n");
 }
 
@@ -151,7 +151,7 @@ TEST_F(TableCommand, SliceIsDrawnAsAFigureThatStandsAlone) {
 
 TEST_F(TableCommand, SliceNamesWhatIsMissingUnknownOrOutside) {
   EXPECT_EQ(fault({"slice", "a.h5", "--along", "psy"}),
-            "error: 'psy' is no state of this table\n  hint: did you mean 'psi'?\n");
+            "error: 'psy' is not a state of this table\n  hint: did you mean 'psi'?\n");
   EXPECT_EQ(fault({"slice", "a.h5", "--along", "psi", "--at", "sigma_f_MPa=300"}),
             "error: no value is given for sigma_n_MPa (500 .. 2500), v_rel_mm_s (10 .. 20)\n"
             "  hint: --at sigma_n_MPa=500 --at v_rel_mm_s=10\n");
@@ -159,7 +159,7 @@ TEST_F(TableCommand, SliceNamesWhatIsMissingUnknownOrOutside) {
             "error: v_rel_mm_s = 25 is outside the table\n"
             "  hint: its axis runs from 10 to 20\n");
   EXPECT_EQ(fault({"slice", "a.h5", "--along", "psi", "--at", "v_rel_mm_s=ten"}),
-            "error: 'v_rel_mm_s=ten' is no state\n  hint: name=number, for example psi=2\n");
+            "error: 'v_rel_mm_s=ten' is not a state\n  hint: name=number, for example psi=2\n");
   EXPECT_EQ(fault({"slice", "a.h5", "--along", "psi", "--at", "psi=2"}),
             "error: psi is both held and run along\n  hint: keep --at or --along\n");
   EXPECT_EQ(
@@ -173,7 +173,7 @@ TEST_F(TableCommand, StateThatIsNoAxisMayLieBeyondTheVerifiedRangeAndThatIsSaid)
                                            "--along", "v_rel_mm_s", "--points", "2"};
   const CommandResult result = run(arguments);
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err, "note: sigma_n_MPa = 3000 is no axis and outside 500 .. 2500, for which "
+  EXPECT_EQ(result.err, "note: sigma_n_MPa = 3000 is not an axis and lies outside 500 .. 2500, for which "
                         "the table was verified\n");
   EXPECT_THAT(result.out, HasSubstr("\n3000,1,10,800,300\n"));
 }

@@ -202,7 +202,7 @@ TEST_F(TraceCommand, TakesNoOrderFromAColumnThatOrdersNothing) {
   EXPECT_THAT(fault("order=v_rel_mm_s"), HasSubstr("the tests begin with two values only"));
   EXPECT_THAT(fault("order=tool"), HasSubstr("'A' is neither a number nor a time stamp"));
   EXPECT_THAT(fault("order=tau_R_MPa"), HasSubstr("it is what was measured"));
-  EXPECT_THAT(fault("tool_distance=tool"), HasSubstr("'tool' is no distance: it holds text"));
+  EXPECT_THAT(fault("tool_distance=tool"), HasSubstr("'tool' is not a distance: it holds text"));
   EXPECT_THAT(fault("tool_distance=tau_R_MPa"), HasSubstr("it is what was measured"));
 }
 

@@ -113,7 +113,7 @@ TEST_F(TracedLawCommands, RefuseAnInputThatIsNoColumn) {
   const auto result =
       run_frictab({"calibrate", job, "-q", "--set", "export.inputs.humidty_pct=\"field:2\""});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("'humidty_pct' in [export.inputs] is no state, history or "
+  EXPECT_THAT(result.err, HasSubstr("'humidty_pct' in [export.inputs] is not a state, history or "
                                     "column\n  hint: did you mean 'humidity_pct'?"));
 }
 

@@ -23,7 +23,7 @@ namespace {
 Twin campaign(const std::string& design, std::uint64_t seed) {
   twin::TwinOptions options;
   options.seed = seed;
-  options.bystanders = false; // tests with other tools are no repeats
+  options.bystanders = false; // tests with other tools are not repeats
   options.design = twin::parse_design(design, twin::default_design(twin::twin_set("D")));
   Twin twin = twin::make_twin(options);
   twin.training.data.oracle_MPa = twin.training.oracle_MPa;
@@ -106,7 +106,7 @@ TEST(NoiseFloor, IsNotAboveWhatTheBestLawErrs) {
             "noise floor below 0.030 MPa: 22 repeated tests in 2 groups (0.059 MPa, more than the "
             "best law errs)");
   EXPECT_EQ(calibrate::noise_floor_advice(calibration),
-            "the repeated tests differ in something that no column tells");
+            "the repeated tests differ in something that no column records");
   calibration.noise_floors[0].mae_interval.low = 0.02;
   EXPECT_EQ(calibrate::noise_floor_advice(calibration), "") << "it may be chance";
 }

@@ -55,7 +55,7 @@ class Calls(unittest.TestCase):
     def test_names_that_are_wrong_or_missing_are_told(self):
         self.fails("did you mean 'sigma_n_MPa'?", self.table.tau_R, sigma_n=1)
         self.fails(f"needs {self.table.inputs[0]}", self.table.tau_R)
-        self.fails("is no number", self.table.tau_R, {**self.state, self.axis: "much"})
+        self.fails("is not a number", self.table.tau_R, {**self.state, self.axis: "much"})
         self.fails("do not fit together", self.table.tau_R, {
             **self.state, self.axis: [1, 2], self.table.axes[1].name: [1, 2, 3]})
 
@@ -120,7 +120,7 @@ class Calls(unittest.TestCase):
 
     def test_files_of_another_kind_are_told_apart(self):
         self.fails("is no HDF5 file", frictab.open, HERE / "tool.json")
-        self.fails("there is no such file", frictab.open, HERE / "none.h5")
+        self.fails("no such file", frictab.open, HERE / "none.h5")
         self.fails("is no JSON file", frictab.read_model, HERE / "spline.h5")
         self.fails('its schema is "frictab/model/1"', frictab.read_calibration, HERE / "tool.json")
         self.fails("no variable 'value'", lambda: xarray.Dataset().frictab)

@@ -151,17 +151,17 @@ std::string refusal(const std::string& target, const std::map<std::string, std::
 
 TEST(AreaAndSpeedChoices, AreRefusedWhereTheSolverCannotFollowThem) {
   EXPECT_THAT(refusal("abaqus_fric", {{"psi", "area_ratio"}}),
-              testing::HasSubstr("'area_ratio' is no source of a state"));
+              testing::HasSubstr("'area_ratio' is not a source of a state"));
   EXPECT_THAT(refusal("abaqus_fric", {{"v_rel_mm_s", "smoothed:4"}}),
               testing::HasSubstr("the solver gives this state itself"));
   EXPECT_THAT(refusal("abaqus_vfric_coef", {{"psi", "area_ratio"}}),
-              testing::HasSubstr("'area_ratio' is no source of a state"));
+              testing::HasSubstr("'area_ratio' is not a source of a state"));
 }
 
 TEST(AreaAndSpeedChoices, SayWhichNumbersOfIncrementsThereAre) {
   for (const char* none : {"smoothed:1", "smoothed:x", "smoothed:", "smoothed:-3", "smoothed:1e9"})
     EXPECT_THAT(refusal("abaqus_vfric", {{"v_rel_mm_s", none}}),
-                testing::HasSubstr("is no number of increments from 2 to 100000"))
+                testing::HasSubstr("is not a number of increments from 2 to 100000"))
         << none;
   EXPECT_EQ(refusal("abaqus_vfric", {{"v_rel_mm_s", "smoothed:2"}}), "taken");
 }

@@ -102,7 +102,7 @@ TEST(Export, ReportsEveryFaultOfTheJobsInputsInOneGo) {
                                      {"v_rel_mm_z", "property"}}});
   EXPECT_THAT(what, HasSubstr("export.inputs.sigma_n_MPa: error: the solver gives this state"));
   EXPECT_THAT(what, HasSubstr("'abc' is not a number"));
-  EXPECT_THAT(what, HasSubstr("'state' is no source of a state"));
+  EXPECT_THAT(what, HasSubstr("'state' is not a source of a state"));
   EXPECT_THAT(what, HasSubstr("-5 is below the smallest possible sigma_f_MPa"));
   EXPECT_THAT(what, HasSubstr("did you mean 'v_rel_mm_s'?"));
 }

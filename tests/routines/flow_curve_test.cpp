@@ -102,7 +102,7 @@ TEST(FlowCurve, SaysWhatIsWrongWithIt) {
   EXPECT_EQ(said("abaqus_vfric", inputs(curve)), "taken");
   EXPECT_THAT(
       said("abaqus_vfric", inputs("700*strian")),
-      HasSubstr("the curve has 'strian', which is no state\n  hint: did you mean 'strain'?"));
+      HasSubstr("the curve has 'strian', which is not a state\n  hint: did you mean 'strain'?"));
   EXPECT_THAT(said("abaqus_vfric", inputs("700 - T_contact_C")),
               HasSubstr("the curve does not depend on strain"));
   EXPECT_THAT(said("abaqus_vfric", inputs("700*(strain")),
@@ -110,7 +110,7 @@ TEST(FlowCurve, SaysWhatIsWrongWithIt) {
   EXPECT_THAT(said("abaqus_vfric", inputs("1e9*(0.002 + strain)**0.2")),
               HasSubstr("the law was made for 240 .. 960 MPa"));
   EXPECT_THAT(said("marc_ufric", inputs(curve)), HasSubstr("the solver gives this state itself"));
-  EXPECT_THAT(said("abaqus_table", inputs(curve)), HasSubstr("is no source of a state"));
+  EXPECT_THAT(said("abaqus_table", inputs(curve)), HasSubstr("is not a source of a state"));
 }
 
 TEST(FlowCurve, HasTheRangeOfStrainsOverWhichTheLawWasTested) {

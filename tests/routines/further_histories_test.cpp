@@ -27,7 +27,7 @@ namespace {
 
 using test::further_histories_table;
 
-// mu = 0.05 + 0.0001 history; the temperature now is no state of it.
+// mu = 0.05 + 0.0001 history; the temperature now is not a state of it.
 Table table_of(const char* history) {
   Table table = test::constant_table();
   table.value = {0.05};

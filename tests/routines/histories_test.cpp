@@ -223,7 +223,7 @@ TYPED_TEST(SlowHistories, DriversPoseThemAndLeaveOutWhatCannotBe) {
       const double state[] = {pressure[i], work[i], peak[i], slip[i]};
       EXPECT_NEAR(tau[i], function(state), function(state) * TestFixture::bound) << units;
     }
-    EXPECT_EQ(tau[2], -1) << "a peak below the present pressure is no state";
+    EXPECT_EQ(tau[2], -1) << "a peak below the present pressure is not a state";
   }
 }
 

@@ -69,7 +69,7 @@ TEST_F(StudyFile, IsToldAllItsFaultsAtOnce) {
             "study.toml:10:1: error: a factor cannot be called 'law'\n"
             "  hint: campaigns.csv has a column of that name\n"
             "study.toml:10:1: error: there are two campaigns called 'a'\n"
-            "  hint: reports tell them apart by name\n"
+            "  hint: reports distinguish them by name\n"
             "study.toml:10:1: error: campaign 'a': a.csv: cannot be read\n"
             "  hint: files of a campaign are named relative to the study");
 }

@@ -119,7 +119,7 @@ TEST_F(StudyReport, CountsAResultThatIsDamagedAsFailedAndSaysWhatMendsIt) {
   const std::string text = study::report_text(all, tally);
   EXPECT_THAT(text, HasSubstr("failed: twin-2: its result cannot be read: this is not valid JSON"));
   EXPECT_THAT(
-      text, HasSubstr(study::key_text(all.keys[1]) + ", and `frictab study run` makes it anew\n"));
+      text, HasSubstr(study::key_text(all.keys[1]) + ", and `frictab study run` rebuilds it\n"));
   EXPECT_THAT(text, HasSubstr("failed: twin-3: its result cannot be read: "));
   EXPECT_EQ(tally.laws.at("coulomb").campaigns, 1u);
 }

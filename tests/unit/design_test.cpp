@@ -185,7 +185,7 @@ TEST(Design, TwoColumnsThatWentTogetherAreSetAgainstEachOther) {
     EXPECT_GE(film, 0.5);
     EXPECT_LE(film, 4.5);
   }
-  EXPECT_THAT(trace_text(t), HasSubstr("would tell them apart with a probability of"));
+  EXPECT_THAT(trace_text(t), HasSubstr("would distinguish them with a probability of"));
 }
 
 // 25 % of mu per e-fold is far too much for rock; what counts is that it is read off.

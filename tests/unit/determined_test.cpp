@@ -207,7 +207,7 @@ TEST(Determined, StatesThatChangeTogetherTieTheirExponents) {
   ASSERT_FALSE(fit.determination.not_determined.empty());
   EXPECT_THAT(fit.determination.not_determined.front().parameters, ElementsAre("a", "b"));
   EXPECT_THAT(fit.determination.not_determined.front().text,
-              HasSubstr("these tests hardly tell one from the other (correlation -"));
+              HasSubstr("these tests hardly distinguish one from the other (correlation -"));
 }
 
 TEST(Determined, IsWrittenAndReadBack) {

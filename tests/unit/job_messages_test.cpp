@@ -65,7 +65,7 @@ TEST(JobMessages, NameTheRuleOfSomeFiles) {
             "job.toml:5:13: error: data.files[1].from_name has no named group\n"
             "  hint: what becomes a column is written (?<name>...)");
   EXPECT_EQ(with("[[data.files]]\nmatch = \"a\"\nconstants = { sigma_f = 480 }"),
-            "job.toml:5:25: error: 'sigma_f' in [data.files[1].constants] is no quantity\n"
+            "job.toml:5:25: error: 'sigma_f' in [data.files[1].constants] is not a quantity\n"
             "  hint: did you mean 'sigma_f_MPa'? A column of your own needs a name less like it");
   EXPECT_EQ(with("[[data.files]]\nmatch = \"a\"\nlabels = { psi = \"2\" }"),
             "job.toml:5:18: error: psi is a quantity, no label\n"

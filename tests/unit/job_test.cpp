@@ -297,10 +297,10 @@ TEST(Job, RefusesWhatIsNoJobFile) {
   EXPECT_EQ(message(directory.path()),
             directory.path() + ": error: is a directory, a file is needed");
   EXPECT_EQ(message(directory.path("none.toml")),
-            directory.path("none.toml") + ": error: cannot be read\n  hint: there is no such file");
+            directory.path("none.toml") + ": error: no such file");
   EXPECT_THAT(message(directory.write("empty.toml", " \n")), HasSubstr("the job file is empty"));
   EXPECT_THAT(message(directory.write("data.csv", std::string(2 << 20, '1'))),
-              HasSubstr("is no job file: it has 2.0 MiB"));
+              HasSubstr("is not a job file: it has 2.0 MiB"));
   EXPECT_THAT(message(directory.write("latin1.toml", "# \xe4\n" + minimal)),
               HasSubstr("save the file as UTF-8 text"));
   EXPECT_EQ(message(directory.write("good.toml", "\xef\xbb\xbf" + minimal)), "accepted");

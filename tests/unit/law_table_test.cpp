@@ -211,7 +211,7 @@ TEST_F(LawTables, AreRefusedWithThePlace) {
        "FILE:1: error: psi has one value alone, 1\n"
        "  hint: an axis has at least two; leave the column out"},
       {"v_rel_mm_s [K],mu\n1,0.1\n2,0.1\n", "FILE:1: error: v_rel_mm_s cannot be in 'K'"},
-      {"F_N_N,mu\n1,0.1\n2,0.1\n", "FILE:1: error: F_N_N is no state of a contact, and no axis"},
+      {"F_N_N,mu\n1,0.1\n2,0.1\n", "FILE:1: error: F_N_N is not a state of a contact, and no axis"},
       {"v_rel_mm_s,mu,tau_R_MPa\n1,0.1,1\n2,0.1,1\n",
        "FILE:1: error: has more than one column mu or tau_R_MPa"},
   };
@@ -234,7 +234,7 @@ TEST_F(LawTables, OfScatteredPointsOrTooManyNodesAreRefused) {
     scattered += fmt::format("{},{},0.1\n", i, 1 + i * 0.01);
   EXPECT_THAT(
       read(scattered).faults,
-      testing::StartsWith("FILE:1: error: is no full grid: 100 rows for 100 x 100 = 10000 nodes"));
+      testing::StartsWith("FILE:1: error: is not a full grid: 100 rows for 100 x 100 = 10000 nodes"));
   for (std::size_t i = 1; i <= models::most_law_nodes + 1; ++i)
     large += fmt::format("{},0.1\n", i);
   EXPECT_THAT(read(large).faults,

@@ -132,7 +132,7 @@ TEST(LawText, FaultsStandWhereTheyAreInTheFormula) {
   EXPECT_THAT(fault_of_formula("mu*cosh(psi)*sigma_n_MPa"),
               HasSubstr("job.toml:4:19: error: unknown function 'cosh'"));
   EXPECT_THAT(fault_of_formula("mu*sigma_n_MPa*time_s"),
-              HasSubstr("job.toml:4:27: error: law mine depends on time_s, which is no state"));
+              HasSubstr("job.toml:4:27: error: law mine depends on time_s, which is not a state"));
   EXPECT_THAT(fault_of_formula("mu*value"),
               HasSubstr("job.toml:4:15: error: law mine uses `value`"));
   EXPECT_THAT(fault_of_formula("sigma_n_MPa"),

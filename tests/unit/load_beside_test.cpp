@@ -205,7 +205,7 @@ TEST_F(LoadJoin, TellsWhatOfItIsNotTaken) {
   EXPECT_THAT(column(data, "sigma_n_MPa"), ElementsAre(100, 150, 250));
   EXPECT_THAT(data.notes,
               Contains("data.join: 2 rows left out (an empty cell): its columns are interpolated "
-                       "between those before and behind"));
+                       "between those before and after"));
   EXPECT_THAT(data.notes, Contains("of data.join not taken, the rows have their own: F_N_N"));
 }
 
@@ -314,7 +314,7 @@ with zipfile.ZipFile(sys.argv[1], 'w') as z:
   EXPECT_THAT(fault_of({"a.xlsx"}), HasSubstr("a.xlsx: error: holds no sheet 'Messung 2'"));
   options.sheet.clear();
   file("b.xlsx", "no workbook");
-  EXPECT_THAT(fault_of({"b.xlsx"}), HasSubstr("is no workbook that xlsx2csv can read"));
+  EXPECT_THAT(fault_of({"b.xlsx"}), HasSubstr("is not a workbook that xlsx2csv can read"));
 }
 
 // ---- HDF5 ----

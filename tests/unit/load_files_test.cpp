@@ -229,7 +229,7 @@ TEST_F(LoadFiles, AreCutIntoIntervalsWhereTheHeaderComesAgain) {
   EXPECT_THAT(column(data, "F_R_N"), ElementsAre(1, 2, 3, 4));
   EXPECT_EQ(data.values("sigma_n_MPa")[0], 0.005);
   EXPECT_THAT(data.notes, testing::Contains("the header line comes again 1 times"));
-  EXPECT_THAT(data.notes, testing::Contains("1 lines in front of it are no rows"));
+  EXPECT_THAT(data.notes, testing::Contains("1 lines in front of it are not rows"));
 }
 
 // ---- headers ----
@@ -320,7 +320,7 @@ TEST_F(LoadFiles, PassOverLinesOfDelimitersAloneAndAWordToSpreadsheets) {
   const Dataset data = read("sep=;\n;;;\ntime_s;F_R_N;F_N_N;sigma_n_MPa\n;;;\n0;1;10;5\n; ; ;\n"
                             "1;2;10;5\n");
   EXPECT_THAT(column(data, "F_R_N"), ElementsAre(1, 2));
-  EXPECT_THAT(data.notes, testing::Contains("2 lines hold delimiters alone: they are no rows"));
+  EXPECT_THAT(data.notes, testing::Contains("2 lines hold delimiters alone: they are not rows"));
 }
 
 TEST_F(LoadFiles, OfOneColumnPerTestHaveTheirHeaderWhereItsNamesStand) {

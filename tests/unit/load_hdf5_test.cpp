@@ -142,7 +142,7 @@ TEST_F(LoadHdf5, SingleValuesOfTheFileAreReadWhereTheyAreQuantitiesAndElseTold) 
 TEST_F(LoadHdf5, AValueOfTheFileBesideColumnsOfItsNameIsTold) {
   write("rows(f)\nf.attrs['v_rel_mm_s'] = 7.0");
   EXPECT_THAT(read_hdf5().notes, Contains("HDF5 content that is not read: 'v_rel_mm_s' (an "
-                                          "attribute, beside columns of that name)"));
+                                          "attribute, in addition to columns of that name)"));
   EXPECT_THAT(column(read_hdf5(), "v_rel_mm_s"), Each(5));
 }
 
@@ -179,8 +179,8 @@ TEST_F(LoadHdf5, WhatATestHoldsBesidesIsToldOnceWithItsCount) {
 TEST_F(LoadHdf5, WhatIsAskedForAndNoColumnIsAnError) {
   write("rows(f)\nf['sigma_f_MPa'] = numpy.zeros((40, 2))");
   EXPECT_THAT(hdf5_fault(),
-              HasSubstr("a.h5: error: 'sigma_f_MPa' is no column: it is 40 x 2 values"));
-  EXPECT_THAT(fault_in_pieces(), HasSubstr("'sigma_f_MPa' is no column: it is 40 x 2 values"));
+              HasSubstr("a.h5: error: 'sigma_f_MPa' is not a column: it is 40 x 2 values"));
+  EXPECT_THAT(fault_in_pieces(), HasSubstr("'sigma_f_MPa' is not a column: it is 40 x 2 values"));
   options.constants["sigma_f_MPa"] = 400; // nobody asks for the file's own
   EXPECT_THAT(read_hdf5().notes,
               Contains("HDF5 content that is not read: 'sigma_f_MPa' (40 x 2 values)"));
@@ -237,7 +237,7 @@ TEST_F(LoadHdf5, ColumnsOfOtherTypesAreLeftOutAndTold) {
 TEST_F(LoadHdf5, AColumnOfAnotherTypeThatIsAskedForIsAnError) {
   write("rows(f)\nf['z'] = numpy.arange(40) + 1j");
   options.columns["sigma_f_MPa"].names = {"z"};
-  const std::string told = "a.h5: error: 'z' is no column: it is records of r, i";
+  const std::string told = "a.h5: error: 'z' is not a column: it is records of r, i";
   EXPECT_THAT(hdf5_fault(), HasSubstr(told));
   EXPECT_THAT(hdf5_fault(), HasSubstr("a column has a number or a text per row"));
   EXPECT_THAT(fault_in_pieces(), HasSubstr(told));

@@ -168,8 +168,8 @@ TEST_F(Load, TellsFilesWithoutATable) {
   EXPECT_THAT(fault(" \n\n"), HasSubstr("the file is empty"));
   EXPECT_THAT(fault("sigma_n_MPa,tau_R_MPa\n"), HasSubstr("a.csv:1: error: there are no rows"));
   EXPECT_THAT(fault("1,2\n3,4\n"), HasSubstr("column names in this line are numbers"));
-  EXPECT_THAT(fault(std::string("a\0b,\n1,2", 8)), HasSubstr("this is no text file"));
-  EXPECT_THAT(fault_of({"none.csv"}), HasSubstr("there is no such file"));
+  EXPECT_THAT(fault(std::string("a\0b,\n1,2", 8)), HasSubstr("this is not a text file"));
+  EXPECT_THAT(fault_of({"none.csv"}), HasSubstr("no such file"));
   fs::create_directory(directory_ / "folder");
   EXPECT_THAT(fault_of({"folder"}), HasSubstr("'folder' holds no file"));
 }

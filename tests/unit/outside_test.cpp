@@ -84,7 +84,7 @@ TEST(OutsideTheRange, OfAStateThatIsNoAxisCannotBeAskedFor) {
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(),
                   testing::HasSubstr(std::string("outside = \"") + word +
-                                     "\" cannot act: sigma_n_MPa is no axis of the table of "
+                                     "\" cannot act: sigma_n_MPa is not an axis of the table of "
                                      "coulomb, whose formula takes it as it is"));
     }
   EXPECT_NO_THROW(built(coulomb, {{"sigma_n_MPa", {"law"}}}));

@@ -446,7 +446,7 @@ TEST(Benchmark, IsThisTextForTwoLaws) {
           "| orowan | 0.800 | 1.260 | 27 of 30 (90 % expected) |\n"
           "| coulomb_0.08 | \u2013 | \u2013 | too few training experiments: 19 give these ends |\n"
           "\n"
-          "## Published figures beside these\n"
+          "## Published figures for comparison\n"
           "\n"
           "The published figures refer to the paper's own measured data, not to yours; they show "
           "the "

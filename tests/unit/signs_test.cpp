@@ -81,7 +81,7 @@ TEST_F(Signs, TheZeroOfTheForceCellIsTheMeanOfBothDirections) {
   EXPECT_THAT(column(data, "v_rel_mm_s"), Each(20));
   EXPECT_THAT(data.notes, Contains(HasSubstr("twice 0.9")));
   EXPECT_THAT(data.notes, Contains(HasSubstr("taken off, cycle by cycle, as the zero of the force "
-                                             "cell: it is the same whatever the load")));
+                                             "cell: it is the same at every load")));
   EXPECT_EQ(data.interventions.size(), 1u);
   EXPECT_GT(data.phases[std::size_t(data::Phase::turning)], 5u * 6 * 2);
 }

@@ -38,11 +38,11 @@ TEST(TestDates, ThatAgreeOnTheOrderWhicheverIsTheDayAreTaken) {
 
 TEST(TestDates, WhoseDayNothingTellsFromTheMonthAreNoOrder) {
   EXPECT_THAT(sort_dates({"01/02/2024", "02/01/2024"}).fault,
-              HasSubstr("'01/02/2024' and the others nothing tells the day from the month"));
+              HasSubstr("'01/02/2024' and the others do not show which number is the day"));
 }
 
 TEST(TestDates, OfWhichOneIsNoneAreNoOrder) {
-  EXPECT_THAT(sort_dates({"2024-09-01", "later"}).fault, HasSubstr("'later' is no date"));
+  EXPECT_THAT(sort_dates({"2024-09-01", "later"}).fault, HasSubstr("'later' is not a date"));
   EXPECT_THAT(sort_dates({"2024-13-45"}).fault, HasSubstr("no dates"));
 }
 

@@ -37,11 +37,11 @@ TEST_F(ToldData, AConstantWithoutAColumnNeedsNoNote) {
 TEST_F(ToldData, AColumnCalledAsAQuantityButForCaseIsAFaultThatNamesBoth) {
   EXPECT_THAT(
       fault("time_s,sigma_n_MPa,tau_R_MPa,TAU_R_MPA\n0,500,50,50\n1,600,55,55\n"),
-      AllOf(HasSubstr("a.csv:1: error: column 'TAU_R_MPA' is called tau_R_MPa but for upper "
-                      "and lower case, which is there as well"),
+      AllOf(HasSubstr("a.csv:1: error: column 'TAU_R_MPA' differs from tau_R_MPa only in "
+                      "upper and lower case, which is there as well"),
             HasSubstr("[data.columns] tau_R_MPa = \"TAU_R_MPA\"")));
   EXPECT_THAT(fault("time_s,sigma_n_MPa,tau_R_MPa,Psi [-]\n0,500,50,1\n1,600,55,1\n"),
-              HasSubstr("column 'Psi [-]' is called psi but for upper and lower case\n"));
+              HasSubstr("column 'Psi [-]' differs from psi only in upper and lower case\n"));
 }
 
 TEST_F(ToldData, AColumnOfOtherCaseThatIsMappedOrLeftOutIsNoFault) {

@@ -95,7 +95,7 @@ TEST(TraceFile, GainBesideTheCalibratedLawIsToldWhereWeightsMoveTheLaw) {
   EXPECT_EQ(trace_json({again}, true), json);
   EXPECT_THAT(trace_text(again),
               HasSubstr("\n  gained on unseen tests: 7.79 MPa (95 %: 2.91 to 12.7, paired by test)"
-                        "\n  beside the law as it was calibrated: 0.212 MPa (95 %: -0.753 to 1.18, "
+                        "\n  compared with the calibrated law: 0.212 MPa (95 %: -0.753 to 1.18, "
                         "paired by test)\n"));
   trace.before.validation.mae_MPa = 8.7;
   EXPECT_THAT(trace_text(trace), testing::Not(HasSubstr("beside the law as it was")));

@@ -185,7 +185,7 @@ TEST(Trace, ScatterIsJudgedByTheRepeatability) {
 TEST(Trace, RepeatedTestsSayWhatTheRigRepeats) {
   TwinOptions options = campaign("log_coulomb", 4);
   options.profile = "constant";
-  options.bystanders = options.more_bystanders = false; // tests with other tools are no repeats
+  options.bystanders = options.more_bystanders = false; // tests with other tools are not repeats
   options.design =
       parse_design("p=500,2750;psi=1,20;v=5,500;T=20,200;replicates=2;points=40", *options.design);
   const Trace t = traced(options);
@@ -569,7 +569,7 @@ TEST(Trace, AValidationFromAnotherWorldIsCalledThat) {
   EXPECT_TRUE(t.validation_shift.found);
   EXPECT_GT(t.validation_shift.interval.low, 0);
   EXPECT_THAT(t.remaining.note,
-              HasSubstr(fmt::format("lie {:+.3g} MPa beside the training tests as a whole",
+              HasSubstr(fmt::format("lie {:+.3g} MPa off the training tests as a whole",
                                     t.validation_shift.shift_MPa)));
   // A shift of ln(tau), brought back to MPa: the same for tests of equal stress only.
   EXPECT_NEAR(t.validation_shift.shift_MPa, 57, 20);

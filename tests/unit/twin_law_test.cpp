@@ -160,7 +160,7 @@ TEST(TwinLaw, EffectOnALimitOfItsOwnLeavesTheOtherBranch) {
 TEST(TwinLaw, UnknownOnesAreAnsweredWithTheKnown) {
   for (const char* name : {"colomb", "coulomb_0.08", "orowan_mean", "neural_network"})
     EXPECT_THAT(fault_of(of_law(name)),
-                HasSubstr("is no law that is fitted to data\n  hint: known: coulomb, shear,"))
+                HasSubstr("is not a law that is fitted to data\n  hint: known: coulomb, shear,"))
         << name;
 }
 
