@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "codegen/solver_inputs.h"
-#include "codegen/template.h"
+#include "core/template.h"
 
 namespace frictab::abaqus {
 

@@ -62,8 +62,8 @@ private:
   std::vector<codegen::BuildVariant> builds(const codegen::ExportRequest& request) const final;
   codegen::Driver driver(const codegen::ExportRequest& request, const Inputs& inputs) const final;
   void check(const codegen::ExportRequest& request, const Inputs& inputs) const final;
-  codegen::TemplateValues driver_values(const codegen::ExportRequest& request,
-                                        const Inputs& inputs) const final;
+  TemplateValues driver_values(const codegen::ExportRequest& request,
+                               const Inputs& inputs) const final;
   std::string quit() const final;
 
   ForceRoutine routine_;

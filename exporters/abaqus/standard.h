@@ -10,7 +10,7 @@
 #include "codegen/exporter.h"
 #include "codegen/fortran_core.h"
 #include "codegen/solver_inputs.h"
-#include "codegen/template.h"
+#include "core/template.h"
 
 namespace frictab::abaqus {
 
@@ -27,14 +27,14 @@ double smallest_pressure(const frictab::table::Table& table);
 // smallest, to_mpa, to_mm, lines `coefficient`, flags frozen, has_ends, refuses. Gives whether the
 // core holds ftqnan; `unknown` asks for it in any case. `head` as far as the target has a say in
 // it.
-bool add_routine(codegen::TemplateValues& values, const codegen::Exporter& exporter,
+bool add_routine(TemplateValues& values, const codegen::Exporter& exporter,
                  const codegen::ExportRequest& request,
                  const std::vector<codegen::SolverInput>& inputs, const codegen::SolverGives& gives,
                  bool unknown, codegen::fortran::Head head);
 
 // Adds what keeps n values, of which those of codegen/histories.h are the last, proof against
 // iterations: text states_text (ftbegn, ftkeep), depvar, stamp, first, n_states.
-void add_states(codegen::TemplateValues& values, std::size_t n);
+void add_states(TemplateValues& values, std::size_t n);
 std::size_t states_size(std::size_t n); // state variables it takes
 
 // For the recipe: numbers, units and meanings of n values (those of codegen/histories.h are added),

@@ -7,8 +7,8 @@
 
 #include "codegen/entry_arguments.h"
 #include "codegen/exporter.h"
-#include "codegen/template.h"
 #include "codegen/variables.h"
+#include "core/template.h"
 
 namespace frictab::c_target {
 
@@ -35,16 +35,16 @@ codegen::Variables variables_of(const table::Table& table, const expr::Expr& for
 
 // What is the same in both forms: arguments, used states, the constants of the formula, the name of
 // what is tabulated.
-void add_state(codegen::TemplateValues& values, const table::Table& table,
+void add_state(TemplateValues& values, const table::Table& table,
                const std::vector<codegen::InputArgument>& inputs,
                const codegen::Variables& variables);
 
 // Of the formula, with their numbers.
-codegen::Lines constants_of(const table::Table& table, const codegen::Variables& variables);
+Lines constants_of(const table::Table& table, const codegen::Variables& variables);
 
 // The formula itself: its statements, result (in the solver's unit), sides that refuse, and what it
 // leaves alone. Gives the statements as one text.
-std::string add_tau_R(codegen::TemplateValues& values, const codegen::ExportRequest& request,
+std::string add_tau_R(TemplateValues& values, const codegen::ExportRequest& request,
                       const std::vector<codegen::InputArgument>& inputs,
                       codegen::Variables& variables);
 

@@ -238,7 +238,7 @@ void add_other_splits(Calibration& calibration, const models::Conventions& conve
                      experiment_folds(units, folds, input.options.seed, 0));
   std::vector<LawErrors> errors;
   for (std::size_t i = 0; i < laws.size(); ++i)
-    errors.push_back({laws[i]->name, by_recording(sums_of(cross.errors[i]))});
+    errors.push_back({laws[i]->name, stats::by_recording(sums_of(cross.errors[i]))});
   add_split_shares(calibration.choice, errors, held, input.options.seed);
 }
 

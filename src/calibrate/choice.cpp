@@ -57,7 +57,7 @@ public:
     }
   }
 
-  double mae(const std::vector<ErrorSums>& any) const {
+  double mae(const std::vector<stats::ErrorSums>& any) const {
     double sum = 0, rows = 0;
     for (std::size_t e = 0; e < draws_.size(); ++e) {
       if (draws_[e] == 0) continue;
@@ -83,7 +83,7 @@ Choice choose_again(Laws laws, std::size_t resamples, std::uint64_t seed) {
   LeftOutErrors left_out(experiments);
   std::vector<std::size_t> wins(laws.size());
   for (std::size_t b = 0; b < resamples; ++b) {
-    resample(seed, b, times);
+    stats::resample(seed, b, times);
     const std::size_t winner = best_of(laws, times);
     left_out.add(laws[winner], times);
     ++wins[winner];

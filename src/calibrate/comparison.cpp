@@ -37,7 +37,7 @@ struct Estimates {
 struct Problem {
   std::vector<std::vector<double>> x; // per law, one entry per experiment
   std::vector<double> rows;
-  Measure measure;
+  stats::Measure measure;
 
   std::size_t laws() const { return x.size(); }
   std::size_t experiments() const { return rows.size(); }
@@ -45,8 +45,8 @@ struct Problem {
   Estimates at(std::span<const double> times) const {
     Estimates all{std::vector<double>(laws()), std::vector<double>(laws() * experiments())};
     for (std::size_t l = 0; l < laws(); ++l)
-      all.value[l] = ratio_of(x[l], rows, times, measure,
-                              {all.influence.data() + l * experiments(), experiments()});
+      all.value[l] = stats::ratio_of(x[l], rows, times, measure,
+                                     {all.influence.data() + l * experiments(), experiments()});
     return all;
   }
 
@@ -56,18 +56,18 @@ struct Problem {
     std::vector<double> difference(experiments());
     for (std::size_t e = 0; e < experiments(); ++e)
       difference[e] = all.influence[j * experiments() + e] - all.influence[i * experiments() + e];
-    return standard_error(difference, times);
+    return stats::standard_error(difference, times);
   }
 };
 
-Problem problem_of(std::span<const LawErrors> laws, Measure measure) {
+Problem problem_of(std::span<const LawErrors> laws, stats::Measure measure) {
   Problem problem{{}, {}, measure};
-  for (const ErrorSums& one : laws.front().sums)
+  for (const stats::ErrorSums& one : laws.front().sums)
     problem.rows.push_back(one.rows);
   for (const LawErrors& law : laws) {
     problem.x.emplace_back();
-    for (const ErrorSums& one : law.sums)
-      problem.x.back().push_back(measure == Measure::mean ? one.absolute : one.square);
+    for (const stats::ErrorSums& one : law.sums)
+      problem.x.back().push_back(measure == stats::Measure::mean ? one.absolute : one.square);
   }
   return problem;
 }
@@ -116,7 +116,7 @@ Studentised studentise(const Problem& p, std::size_t resamples, std::uint64_t se
   s.again.assign(s.t.size(), std::vector<double>(resamples));
   parallel_for(resamples, [&](std::size_t b) {
     std::vector<double> times(p.experiments());
-    resample(seed, b, times);
+    stats::resample(seed, b, times);
     fill_pairs(p, now, p.at(times), times, s, b);
   });
   return s;
@@ -241,8 +241,8 @@ Comparisons compare(std::span<const LawErrors> laws, std::size_t resamples, std:
   if (laws.empty() || laws.front().sums.size() < 2 || resamples == 0) return result;
   result.n_experiments = laws.front().sums.size();
   result.resamples = std::min(resamples, most_resamples);
-  const auto mae = studentise(problem_of(laws, Measure::mean), result.resamples, seed);
-  const auto rmse = studentise(problem_of(laws, Measure::root_mean), result.resamples, seed);
+  const auto mae = studentise(problem_of(laws, stats::Measure::mean), result.resamples, seed);
+  const auto rmse = studentise(problem_of(laws, stats::Measure::root_mean), result.resamples, seed);
   result.best_p_values = best_p_values_of(mae, laws);
   for (std::size_t i = 0, pair = 0; i < laws.size(); ++i) {
     result.laws.push_back(laws[i].law);
@@ -290,7 +290,7 @@ void add_comparisons(Calibration& calibration, const CalibrationInput& input) {
   std::vector<LawErrors> laws(calibration.fits.size());
   parallel_for(laws.size(), [&](std::size_t i) {
     const ModelFit& fit = calibration.fits[i];
-    laws[i] = {fit.model.law->name, by_recording(unseen_sums(fit, input.validation)),
+    laws[i] = {fit.model.law->name, stats::by_recording(unseen_sums(fit, input.validation)),
                !fit.reference};
   });
   lower_noise_floors(calibration); // traced laws may have smaller errors

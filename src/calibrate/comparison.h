@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "calibrate/judgement.h"
-#include "calibrate/resampling.h"
+#include "stats/resampling.h"
 
 namespace frictab::calibrate {
 
@@ -22,7 +22,7 @@ inline constexpr double same_error = 1e-4;
 // cannot be the best.
 struct LawErrors {
   std::string law;
-  std::vector<ErrorSums> sums;
+  std::vector<stats::ErrorSums> sums;
   bool candidate = true;
 };
 

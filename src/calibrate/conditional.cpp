@@ -46,12 +46,13 @@ double gain_of(const TestRows& rows, double x_mm, bool beyond) {
 
 // Errors on the rows beyond x of every experiment that has some.
 struct Rest {
-  std::vector<ErrorSums> plain, gained;
+  std::vector<stats::ErrorSums> plain, gained;
 };
 
-void add_row(ErrorSums& sums, const Dataset& data, std::size_t row, double predicted) {
+void add_row(stats::ErrorSums& sums, const Dataset& data, std::size_t row, double predicted) {
   const double r = data.values("tau_R_MPa")[row] - predicted;
-  add_block(sums, r, data.row_weight(row), data.condensed ? data.condensed->within_MPa2[row] : 0.0);
+  stats::add_block(sums, r, data.row_weight(row),
+                   data.condensed ? data.condensed->within_MPa2[row] : 0.0);
 }
 
 TestRows rows_of(const Dataset& data, std::size_t e, Rows predicted) {
@@ -65,7 +66,7 @@ Rest rest_of(const Dataset& data, Rows plain, Rows gained, double x_mm) {
   const Rows s = data.values("s_mm");
   Rest rest;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-    ErrorSums without, with;
+    stats::ErrorSums without, with;
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
       if (!(s[i] > x_mm)) continue;
       add_row(without, data, i, plain[i]);
@@ -191,7 +192,7 @@ GainPrior gain_prior(const Dataset& training, Rows predicted, double x_mm) {
   }
   prior.between = std::max(0.0, product / n);
   prior.error = std::max(0.0, square / n - prior.between);
-  prior.usual_rows = std::floor(quantile_of(rows, 0.5));
+  prior.usual_rows = std::floor(stats::quantile_of(rows, 0.5));
   return prior;
 }
 

@@ -7,17 +7,17 @@
 #include <fmt/format.h>
 
 #include "calibrate/band.h"
-#include "calibrate/resampling.h"
 #include "calibrate/row_errors.h"
 #include "core/parallel.h"
 #include "io/csv.h"
+#include "stats/resampling.h"
 
 namespace frictab::calibrate {
 
 std::vector<ExperimentError> experiment_errors(const models::Model& model,
                                                const data::Dataset& data, bool held_out) {
   const std::vector<double> predicted = predict(model, data);
-  const std::vector<ErrorSums> sums = error_sums(data, predicted);
+  const std::vector<stats::ErrorSums> sums = stats::error_sums(data, predicted);
   const std::vector<double> gains = experiment_gains(data, predicted);
   std::vector<ExperimentError> errors;
   for (std::size_t e = 0; e < sums.size(); ++e)
@@ -25,7 +25,7 @@ std::vector<ExperimentError> experiment_errors(const models::Model& model,
   return errors;
 }
 
-ExperimentError error_of(const std::string& experiment, bool held_out, const ErrorSums& sums,
+ExperimentError error_of(const std::string& experiment, bool held_out, const stats::ErrorSums& sums,
                          double gain) {
   return {experiment,
           held_out,
@@ -37,8 +37,8 @@ ExperimentError error_of(const std::string& experiment, bool held_out, const Err
           sums.recording};
 }
 
-std::vector<ErrorSums> sums_of(const std::vector<ExperimentError>& errors) {
-  std::vector<ErrorSums> sums;
+std::vector<stats::ErrorSums> sums_of(const std::vector<ExperimentError>& errors) {
+  std::vector<stats::ErrorSums> sums;
   for (const ExperimentError& one : errors) {
     const auto rows = static_cast<double>(one.n_rows);
     sums.push_back({rows * one.mae_MPa, rows * one.rmse_MPa * one.rmse_MPa, rows * one.bias_MPa,
@@ -47,9 +47,9 @@ std::vector<ErrorSums> sums_of(const std::vector<ExperimentError>& errors) {
   return sums;
 }
 
-std::vector<ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& validation) {
+std::vector<stats::ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& validation) {
   if (!fit.unseen.empty()) {
-    std::vector<ErrorSums> sums = sums_of(fit.unseen);
+    std::vector<stats::ErrorSums> sums = sums_of(fit.unseen);
     if (validation.recording.size() == sums.size()) // files do not contain them
       for (std::size_t e = 0; e < sums.size(); ++e)
         sums[e].recording = validation.recording[e];
@@ -59,7 +59,7 @@ std::vector<ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& val
     const auto end = fit.on_rows.end();
     return sums_of({end - static_cast<std::ptrdiff_t>(validation.experiments.size()), end});
   }
-  return error_sums(validation, predict(fit.model, validation));
+  return stats::error_sums(validation, predict(fit.model, validation));
 }
 
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "calibrate/calibration.h"
-#include "calibrate/resampling.h"
+#include "stats/resampling.h"
 
 namespace frictab::calibrate {
 
@@ -15,7 +15,7 @@ struct ErrorsOfLaw {
   std::vector<ExperimentError> experiments;
 };
 
-ExperimentError error_of(const std::string& experiment, bool held_out, const ErrorSums& sums,
+ExperimentError error_of(const std::string& experiment, bool held_out, const stats::ErrorSums& sums,
                          double gain);
 // Computes the errors of every experiment in `data`; `held_out`: whether the law was fitted without
 // them.
@@ -23,10 +23,10 @@ std::vector<ExperimentError> experiment_errors(const models::Model& model,
                                                const data::Dataset& data, bool held_out);
 
 // Converts errors back to sums over rows.
-std::vector<ErrorSums> sums_of(const std::vector<ExperimentError>& errors);
+std::vector<stats::ErrorSums> sums_of(const std::vector<ExperimentError>& errors);
 
 // Returns the sums of the law on the validation experiments, or of fit.unseen if it has any.
-std::vector<ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& validation);
+std::vector<stats::ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& validation);
 
 // Collects the errors of all laws in ranking order.
 std::vector<ErrorsOfLaw> errors_by_experiment(const Calibration& calibration,

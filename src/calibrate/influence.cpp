@@ -95,9 +95,10 @@ std::vector<Influence> of_law(const ModelFit& fit, const models::Conventions& co
 
 // Law with the least error when one test does not judge (`test` = number of tests: all judge); the
 // first of equal ones.
-std::size_t first_without(const std::vector<std::vector<ErrorSums>>& laws, std::size_t test) {
+std::size_t first_without(const std::vector<std::vector<stats::ErrorSums>>& laws,
+                          std::size_t test) {
   std::vector<double> mae;
-  for (const std::vector<ErrorSums>& sums : laws) {
+  for (const std::vector<stats::ErrorSums>& sums : laws) {
     double absolute = 0, rows = 0;
     for (std::size_t e = 0; e < sums.size(); ++e)
       if (e != test) {
@@ -117,7 +118,7 @@ void add_first_places(Calibration& calibration, const CalibrationInput& input) {
   const std::vector<std::string>& judges = input.validation.experiments;
   if (judges.size() < 3) return;
   std::vector<std::string> names;
-  std::vector<std::vector<ErrorSums>> laws;
+  std::vector<std::vector<stats::ErrorSums>> laws;
   for (const ModelFit& fit : calibration.fits) {
     if (fit.reference) continue;
     names.push_back(fit.model.law->name);

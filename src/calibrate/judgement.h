@@ -7,14 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/resampling.h"
+#include "stats/interval.h"
+#include "stats/resampling.h"
 
 namespace frictab::calibrate {
 
-struct Interval {
-  double low = 0;
-  double high = 0;
-};
+using stats::Interval;
 
 // Errors of prediction: residual = tau_meas - tau_pred (the paper's sign). 95 % intervals by
 // resampling whole experiments.
@@ -46,7 +44,7 @@ struct ExperimentError {
   double rmse_MPa = 0;
   double bias_MPa = 0; // mean of measured minus predicted
   double gain = 0; // factor of the law that fits this test best; NaN: the law predicts no stress
-  std::size_t recording = no_recording; // kept out of files
+  std::size_t recording = stats::no_recording; // kept out of files
 };
 
 // Difference between two errors on the same experiments.

@@ -26,9 +26,10 @@ struct Estimate {
   Interval interval;
 };
 
-std::vector<double> column_of(std::span<const ErrorSums> sums, double ErrorSums::*member) {
+std::vector<double> column_of(std::span<const stats::ErrorSums> sums,
+                              double stats::ErrorSums::*member) {
   std::vector<double> values;
-  for (const ErrorSums& one : sums)
+  for (const stats::ErrorSums& one : sums)
     values.push_back(one.*member);
   return values;
 }
@@ -42,27 +43,27 @@ double in_standard_errors(double step, double error, double size) {
 }
 
 // The 2.5 % and 97.5 % quantiles of (resampled - value) / resampled standard error.
-Interval studentised(std::span<const double> x, std::span<const double> n, Measure measure,
+Interval studentised(std::span<const double> x, std::span<const double> n, stats::Measure measure,
                      double value, Draws draws) {
   std::vector<double> t, influence(x.size()), times(x.size());
   for (std::size_t b = 0; b < draws.count; ++b) {
-    resample(draws.seed, b, times);
-    const double again = ratio_of(x, n, times, measure, influence);
-    const double se = standard_error(influence, times);
+    stats::resample(draws.seed, b, times);
+    const double again = stats::ratio_of(x, n, times, measure, influence);
+    const double se = stats::standard_error(influence, times);
     t.push_back(in_standard_errors(again - value, se, std::abs(again)));
   }
-  const double low = quantile_of(t, 0.025); // sorts
-  return {low, quantile_of(t, 0.975)};
+  const double low = stats::quantile_of(t, 0.025); // sorts
+  return {low, stats::quantile_of(t, 0.975)};
 }
 
-Estimate estimate(const std::vector<double>& x, const std::vector<double>& n, Measure measure,
-                  Draws draws) {
+Estimate estimate(const std::vector<double>& x, const std::vector<double>& n,
+                  stats::Measure measure, Draws draws) {
   Estimate result{0, {no_value, no_value}};
   std::vector<double> influence(x.size());
   const std::vector<double> once(x.size(), 1.0);
-  result.value = ratio_of(x, n, once, measure, influence);
+  result.value = stats::ratio_of(x, n, once, measure, influence);
   if (x.size() < 2 || draws.count == 0) return result;
-  const double se = standard_error(influence, once);
+  const double se = stats::standard_error(influence, once);
   Interval t;
   if (x.size() < enough_experiments)
     t = {-student[x.size() - 2], student[x.size() - 2]};
@@ -81,14 +82,17 @@ Interval not_negative(Interval interval) {
 
 } // namespace
 
-Metrics metrics(std::span<const ErrorSums> of_tests, std::size_t resamples, std::uint64_t seed) {
-  const std::vector<ErrorSums> sums = by_recording(of_tests);
+Metrics metrics(std::span<const stats::ErrorSums> of_tests, std::size_t resamples,
+                std::uint64_t seed) {
+  const std::vector<stats::ErrorSums> sums = stats::by_recording(of_tests);
   const Draws draws{resamples, seed};
-  const auto rows = column_of(sums, &ErrorSums::rows);
-  const Estimate mae = estimate(column_of(sums, &ErrorSums::absolute), rows, Measure::mean, draws);
+  const auto rows = column_of(sums, &stats::ErrorSums::rows);
+  const Estimate mae =
+      estimate(column_of(sums, &stats::ErrorSums::absolute), rows, stats::Measure::mean, draws);
   const Estimate rmse =
-      estimate(column_of(sums, &ErrorSums::square), rows, Measure::root_mean, draws);
-  const Estimate bias = estimate(column_of(sums, &ErrorSums::residual), rows, Measure::mean, draws);
+      estimate(column_of(sums, &stats::ErrorSums::square), rows, stats::Measure::root_mean, draws);
+  const Estimate bias =
+      estimate(column_of(sums, &stats::ErrorSums::residual), rows, stats::Measure::mean, draws);
   Metrics m;
   m.mae_MPa = mae.value;
   m.rmse_MPa = rmse.value;
@@ -96,7 +100,7 @@ Metrics metrics(std::span<const ErrorSums> of_tests, std::size_t resamples, std:
   m.mae_interval = not_negative(mae.interval);
   m.rmse_interval = not_negative(rmse.interval);
   m.bias_interval = bias.interval;
-  for (const ErrorSums& one : sums)
+  for (const stats::ErrorSums& one : sums)
     m.n_rows += static_cast<std::size_t>(one.rows);
   m.n_experiments = of_tests.size();
   return m;
@@ -104,12 +108,12 @@ Metrics metrics(std::span<const ErrorSums> of_tests, std::size_t resamples, std:
 
 Metrics metrics(const data::Dataset& data, std::span<const double> predicted, std::size_t resamples,
                 std::uint64_t seed) {
-  return metrics(error_sums(data, predicted), resamples, seed);
+  return metrics(stats::error_sums(data, predicted), resamples, seed);
 }
 
 Metrics metrics(std::span<const double> measured, std::span<const double> predicted,
                 std::span<const std::size_t> first_row, std::size_t resamples, std::uint64_t seed) {
-  return metrics(error_sums(measured, predicted, first_row), resamples, seed);
+  return metrics(stats::error_sums(measured, predicted, first_row), resamples, seed);
 }
 
 } // namespace frictab::calibrate

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "calibrate/judgement.h"
-#include "calibrate/resampling.h"
+#include "stats/resampling.h"
 
 namespace frictab::calibrate {
 
@@ -25,6 +25,7 @@ Metrics metrics(std::span<const double> measured, std::span<const double> predic
 Metrics metrics(const data::Dataset& data, std::span<const double> predicted, std::size_t resamples,
                 std::uint64_t seed);
 // The same from sums per test. Intervals of one recording are drawn together, as one experiment.
-Metrics metrics(std::span<const ErrorSums> of_tests, std::size_t resamples, std::uint64_t seed);
+Metrics metrics(std::span<const stats::ErrorSums> of_tests, std::size_t resamples,
+                std::uint64_t seed);
 
 } // namespace frictab::calibrate

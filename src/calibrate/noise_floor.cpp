@@ -17,7 +17,7 @@ namespace {
 
 using Rows = std::span<const double>;
 
-NoiseFloor floor_of(const std::string& method, const std::vector<ErrorSums>& sums,
+NoiseFloor floor_of(const std::string& method, const std::vector<stats::ErrorSums>& sums,
                     std::size_t resamples, std::uint64_t seed) {
   const Metrics m = metrics(sums, resamples, seed);
   NoiseFloor floor;
@@ -31,7 +31,7 @@ NoiseFloor floor_of(const std::string& method, const std::vector<ErrorSums>& sum
   return floor;
 }
 
-void add_residual(ErrorSums& sums, double r) {
+void add_residual(stats::ErrorSums& sums, double r) {
   sums.absolute += std::abs(r);
   sums.square += r * r;
   sums.residual += r;
@@ -72,7 +72,7 @@ private:
 
 // Adds the differences of one experiment from the others of its group, scaled to the scatter of a
 // single one.
-void add_differences(ErrorSums& sums, const std::vector<std::size_t>& group, std::size_t own,
+void add_differences(stats::ErrorSums& sums, const std::vector<std::size_t>& group, std::size_t own,
                      const data::Dataset& data, const Partner& partner) {
   const Rows tau = data.values("tau_R_MPa");
   for (std::size_t i = data.first_row[own]; i < data.first_row[own + 1]; ++i) {
@@ -86,7 +86,7 @@ void add_differences(ErrorSums& sums, const std::vector<std::size_t>& group, std
     if (others == 0) continue;
     const double r = (tau[i] - sum / others) * std::sqrt(others / (others + 1));
     if (data.condensed) // assumes the other experiments' scatter of rows about means
-      add_block(sums, r, data.condensed->rows[i], data.condensed->within_MPa2[i]);
+      stats::add_block(sums, r, data.condensed->rows[i], data.condensed->within_MPa2[i]);
     else
       add_residual(sums, r);
   }
@@ -118,8 +118,8 @@ constexpr std::size_t least_window = 9;
 } // namespace
 
 // The row number replaces the sliding distance, along which rows are spaced evenly enough.
-ErrorSums scatter_within(Rows tau) {
-  ErrorSums sums;
+stats::ErrorSums scatter_within(Rows tau) {
+  stats::ErrorSums sums;
   const std::size_t n = tau.size();
   if (n < least_window) return sums;
   const std::size_t width = std::max(least_window, n / 20), half = width / 2;
@@ -141,7 +141,8 @@ ErrorSums scatter_within(Rows tau) {
 std::optional<NoiseFloor> oracle_floor(const data::Dataset& data, std::size_t resamples,
                                        std::uint64_t seed) {
   if (data.oracle_MPa.empty()) return {};
-  return floor_of("oracle", error_sums(data.values("tau_R_MPa"), data.oracle_MPa, data.first_row),
+  return floor_of("oracle",
+                  stats::error_sums(data.values("tau_R_MPa"), data.oracle_MPa, data.first_row),
                   resamples, seed);
 }
 
@@ -149,10 +150,10 @@ std::optional<NoiseFloor> replicate_floor(const data::Dataset& data, std::size_t
                                           std::uint64_t seed) {
   const auto groups = replicate_groups(data);
   const Partner partner(data);
-  std::vector<ErrorSums> sums; // one per group: its differences belong together
+  std::vector<stats::ErrorSums> sums; // one per group: its differences belong together
   std::size_t experiments = 0;
   for (const auto& group : groups) {
-    ErrorSums one;
+    stats::ErrorSums one;
     for (const std::size_t own : group)
       add_differences(one, group, own, data, partner);
     if (one.rows == 0) continue;
@@ -168,9 +169,9 @@ std::optional<NoiseFloor> replicate_floor(const data::Dataset& data, std::size_t
 
 namespace {
 
-std::vector<ErrorSums> scatter_in_tests(const data::Dataset& data) {
+std::vector<stats::ErrorSums> scatter_in_tests(const data::Dataset& data) {
   const Rows tau = data.values("tau_R_MPa");
-  std::vector<ErrorSums> sums;
+  std::vector<stats::ErrorSums> sums;
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
     sums.push_back(
         scatter_within(tau.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])));
@@ -184,9 +185,9 @@ std::optional<NoiseFloor> within_floor(const data::Dataset& data, std::size_t re
   return within_floor(scatter_in_tests(data), resamples, seed);
 }
 
-std::optional<NoiseFloor> within_floor(std::vector<ErrorSums> sums, std::size_t resamples,
+std::optional<NoiseFloor> within_floor(std::vector<stats::ErrorSums> sums, std::size_t resamples,
                                        std::uint64_t seed) {
-  std::erase_if(sums, [](const ErrorSums& one) { return one.rows == 0; });
+  std::erase_if(sums, [](const stats::ErrorSums& one) { return one.rows == 0; });
   if (sums.empty()) return {};
   NoiseFloor floor = floor_of("within_experiments", sums, resamples, seed);
   floor.lower_bound = true;

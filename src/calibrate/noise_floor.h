@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "calibrate/calibration.h"
-#include "calibrate/resampling.h"
+#include "stats/resampling.h"
 
 namespace frictab::calibrate {
 
@@ -31,13 +31,13 @@ std::optional<NoiseFloor> replicate_floor(const data::Dataset& data, std::size_t
 std::optional<NoiseFloor> within_floor(const data::Dataset& data, std::size_t resamples,
                                        std::uint64_t seed);
 // The same from that scatter per experiment; an experiment with too few rows has sums without rows.
-std::optional<NoiseFloor> within_floor(std::vector<ErrorSums> sums, std::size_t resamples,
+std::optional<NoiseFloor> within_floor(std::vector<stats::ErrorSums> sums, std::size_t resamples,
                                        std::uint64_t seed);
-ErrorSums scatter_within(std::span<const double> tau_of_experiment);
+stats::ErrorSums scatter_within(std::span<const double> tau_of_experiment);
 
 // Scatter within each experiment of condensed data, from their source rows.
 struct ScatterWithin {
-  std::vector<ErrorSums> training, validation;
+  std::vector<stats::ErrorSums> training, validation;
 };
 
 // Adds all floors that the data allow, for validation and training, the most trustworthy first: the

@@ -9,11 +9,11 @@
 
 #include "calibrate/network.h"
 #include "calibrate/polynomial_bins.h"
-#include "calibrate/resampling.h"
 #include "core/no_value.h"
 #include "core/parallel.h"
 #include "core/text.h"
 #include "models/polynomial.h"
+#include "stats/resampling.h"
 
 namespace frictab::calibrate {
 
@@ -103,7 +103,7 @@ VectorXd shares_of_orders(const Eigen::MatrixXd& errors, std::uint64_t seed) {
   VectorXd shares = VectorXd::Zero(errors.cols());
   VectorXd times(errors.rows());
   for (std::size_t i = 0; i < draws; ++i) {
-    resample(seed, i, {times.data(), static_cast<std::size_t>(times.size())});
+    stats::resample(seed, i, {times.data(), static_cast<std::size_t>(times.size())});
     Index least = 0;
     (errors.transpose() * times).minCoeff(&least);
     shares(least) += 1.0 / static_cast<double>(draws);

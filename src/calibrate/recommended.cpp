@@ -21,13 +21,13 @@ struct JudgedLaw {
 
 JudgedLaw judged_law(const LawErrors& law) {
   std::vector<double> absolute, rows;
-  for (const ErrorSums& one : law.sums) {
+  for (const stats::ErrorSums& one : law.sums) {
     absolute.push_back(one.absolute);
     rows.push_back(one.rows);
   }
   JudgedLaw out{0, std::vector<double>(rows.size())};
   const std::vector<double> once(rows.size(), 1.0);
-  out.mae_MPa = ratio_of(absolute, rows, once, Measure::mean, out.influence);
+  out.mae_MPa = stats::ratio_of(absolute, rows, once, stats::Measure::mean, out.influence);
   return out;
 }
 
@@ -35,7 +35,7 @@ double paired_error(const JudgedLaw& a, const JudgedLaw& b) {
   std::vector<double> difference(a.influence.size());
   for (std::size_t e = 0; e < difference.size(); ++e)
     difference[e] = a.influence[e] - b.influence[e];
-  return standard_error(difference, std::vector<double>(difference.size(), 1.0));
+  return stats::standard_error(difference, std::vector<double>(difference.size(), 1.0));
 }
 
 std::string numbers_text(std::size_t numbers) {
@@ -86,7 +86,8 @@ void add_recommended(Calibration& calibration, const CalibrationInput& input,
   }
   std::vector<LawErrors> laws(fits.size());
   parallel_for(laws.size(), [&](std::size_t i) {
-    laws[i] = {fits[i]->model.law->name, by_recording(unseen_sums(*fits[i], input.validation))};
+    laws[i] = {fits[i]->model.law->name,
+               stats::by_recording(unseen_sums(*fits[i], input.validation))};
   });
   calibration.recommended = recommend(laws, numbers);
 }

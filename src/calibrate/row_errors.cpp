@@ -24,8 +24,8 @@ Judged judged(const models::AssembledLaw& law, const Dataset& rows, const std::s
               bool held_out) {
   const auto [columns, tau] = predict_with_columns(law, law.inputs, rows);
   Judged one;
-  one.error =
-      error_of(experiment, held_out, error_sums(rows, tau).front(), experiment_gains(rows, tau)[0]);
+  one.error = error_of(experiment, held_out, stats::error_sums(rows, tau).front(),
+                       experiment_gains(rows, tau)[0]);
   one.beyond.add(*law.model.law, law.inputs, columns, rows);
   return one;
 }

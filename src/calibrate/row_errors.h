@@ -17,7 +17,7 @@ namespace frictab::calibrate {
 struct RowFindings {
   std::vector<std::vector<ExperimentError>> errors; // per law and experiment
   std::vector<RowsBeyond> beyond;                   // per law
-  std::vector<ErrorSums> scatter;                   // per experiment: scatter_within
+  std::vector<stats::ErrorSums> scatter;            // per experiment: scatter_within
 };
 
 // Selects the law that predicts an experiment: one for all, or the one fitted without it.

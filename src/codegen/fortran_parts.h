@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "codegen/template.h"
 #include "codegen/variables.h"
+#include "core/template.h"
 #include "expr/expr.h"
 #include "table/table.h"
 

@@ -91,7 +91,8 @@ private:
     const data::Continuation how = continuation(input);
     if (!is_state(how.rule)) return "";
     if (!(how.distance_mm > 0)) // a law with an open parameter, whose file was made elsewhere
-      throw InputError({}, fmt::format("the slip distance of {} is not a number", input.argument.name),
+      throw InputError({},
+                       fmt::format("the slip distance of {} is not a number", input.argument.name),
                        "routines need it: aging_state_over_0p02mm");
     return fortran_number(how.distance_mm);
   }

@@ -39,7 +39,7 @@
 #include <vector>
 
 #include "codegen/solver_inputs.h"
-#include "codegen/template.h"
+#include "core/template.h"
 
 namespace frictab::codegen {
 

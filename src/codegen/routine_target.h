@@ -10,7 +10,7 @@
 #include "codegen/driver.h"
 #include "codegen/exporter.h"
 #include "codegen/solver_inputs.h"
-#include "codegen/template.h"
+#include "core/template.h"
 
 namespace frictab::codegen {
 

@@ -1,7 +1,7 @@
 // Reads the job's [export.inputs] against a solver's table, and writes the Fortran that it has for
 // each state.
 #include "codegen/solver_inputs.h"
-#include "codegen/template.h"
+#include "core/template.h"
 
 #include <algorithm>
 #include <charconv>
@@ -147,7 +147,8 @@ private:
     input_.source = Source::history;
     input_.smoothed_over = increments.value_or(2);
     if (!increments || *increments < 2 || *increments > 100000)
-      fault(fmt::format("'{}' is not a number of increments from 2 to 100000", text), "smoothed:20");
+      fault(fmt::format("'{}' is not a number of increments from 2 to 100000", text),
+            "smoothed:20");
   }
 
   void fault(const std::string& what, const std::string& hint) {

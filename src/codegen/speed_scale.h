@@ -6,7 +6,7 @@
 #pragma once
 
 #include "codegen/solver_inputs.h"
-#include "codegen/template.h"
+#include "core/template.h"
 
 namespace frictab::codegen {
 

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "core/text.h"
 #include "expr/expr.h"
-#include "table/bound.h"
 #include "table/outside.h"
 #include "table/states.h"
 
@@ -73,8 +73,7 @@ std::string drift_text(const table::Table& table) {
   std::string text =
       fmt::format("{:.3g} MPa, the largest found over the whole range", *record.worst_case_MPa);
   if (record.proven_drift_MPa)
-    text += fmt::format("; proven: nowhere above {:.3g} MPa",
-                        table::rounded_up(*record.proven_drift_MPa));
+    text += fmt::format("; proven: nowhere above {:.3g} MPa", rounded_up(*record.proven_drift_MPa));
   if (table.drift_is_claimed) text += " (so says the table's file)";
   return text;
 }

@@ -9,7 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "codegen/exporter.h"
-#include "codegen/template.h"
+#include "core/template.h"
 
 namespace frictab::codegen {
 

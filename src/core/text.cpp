@@ -2,6 +2,7 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -159,6 +160,12 @@ std::size_t utf8_length(std::string_view text) {
   if (a >= 0xE0 && a <= 0xEF) return follows(1) && follows(2) ? 3 : 0;
   if (a >= 0xF0 && a <= 0xF4) return follows(1) && follows(2) && follows(3) ? 4 : 0;
   return 0;
+}
+
+double rounded_up(double value) {
+  if (!(value > 0) || !std::isfinite(value)) return value;
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2);
+  return std::ceil(value / unit * (1 - 1e-12)) * unit;
 }
 
 std::string thousands(std::size_t value) {

@@ -45,6 +45,9 @@ std::string replace_all(std::string text, std::string_view from, std::string_vie
 // Shortest text that reads back to the same bits: 0.1, 1e-20, nan, inf.
 std::string shortest(double value);
 
+// Rounds to three significant digits, never below the value: the form in which a bound is shown.
+double rounded_up(double value);
+
 // Formats 44550 as "44,550".
 std::string thousands(std::size_t value);
 

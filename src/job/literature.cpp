@@ -4,7 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "codegen/template.h"
+#include "core/template.h"
 #include "job/reader.h"
 
 namespace frictab::job {
@@ -22,9 +22,9 @@ bool heads_table_of(const std::string& line, const std::string& law) {
 const models::Laws& literature() {
   static const models::Laws laws = [] {
     JobReader reader;
-    for (const std::string_view path : codegen::embedded_paths(folder)) {
+    for (const std::string_view path : embedded_paths(folder)) {
       const std::string file = "templates/" + std::string(path);
-      read_laws(reader, parse_toml(codegen::embedded_template(path), file));
+      read_laws(reader, parse_toml(embedded_template(path), file));
     }
     make_laws(reader);
     if (!reader.faults.empty()) // a fault of the program, not of its user
@@ -35,8 +35,8 @@ const models::Laws& literature() {
 }
 
 std::string literature_text(const std::string& name) {
-  for (const std::string_view path : codegen::embedded_paths(folder)) {
-    std::istringstream lines{std::string(codegen::embedded_template(path))};
+  for (const std::string_view path : embedded_paths(folder)) {
+    std::istringstream lines{std::string(embedded_template(path))};
     std::string out;
     bool within = false;
     for (std::string line; std::getline(lines, line);) {

@@ -43,15 +43,15 @@ std::string cells_of(const calibrate::Comparisons& c, std::size_t j, int decimal
 
 } // namespace
 
-void add_comparisons(codegen::TemplateValues& page, const ReportInput& input) {
+void add_comparisons(TemplateValues& page, const ReportInput& input) {
   const calibrate::Comparisons& c = input.calibration.comparisons;
   const int decimals = error_decimals(input.calibration);
   page.flags["has_comparisons"] = c.laws.size() > 1;
   page.text["pairwise_sentence"] = svg::escape(calibrate::pairwise_sentence(c));
   page.text["family_sentence"] = svg::escape(calibrate::family_sentence(c));
   page.text["compared_on"] = count_of(c.n_experiments, "validation experiment");
-  std::vector<codegen::TemplateValues>& columns = page.lists["compared_columns"];
-  std::vector<codegen::TemplateValues>& rows = page.lists["compared_rows"];
+  std::vector<TemplateValues>& columns = page.lists["compared_columns"];
+  std::vector<TemplateValues>& rows = page.lists["compared_rows"];
   for (std::size_t i = 0; i < c.laws.size(); ++i) {
     if (i + 1 < c.laws.size()) columns.push_back({{{"rank", std::to_string(i + 1)}}, {}, {}});
     const double p = c.best_p_values[i];

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "codegen/template.h"
 #include "core/no_value.h"
+#include "core/template.h"
 #include "core/text.h"
 #include "data/overview.h"
 #include "data/quantity.h"
@@ -25,7 +25,6 @@ namespace frictab::report {
 
 namespace {
 
-using codegen::TemplateValues;
 using data::Dataset;
 
 // Column over which strokes are drawn: the first of these that the data have.
@@ -190,7 +189,7 @@ void add_columns(TemplateValues& values, const Dataset& data) {
 std::string data_html(const DataPage& page) {
   TemplateValues values;
   values.text["title"] = svg::escape(shown_path(page.title));
-  values.text["style"] = std::string(codegen::embedded_template("report/style.css"));
+  values.text["style"] = std::string(embedded_template("report/style.css"));
   values.text["size"] = size_text(page.judged_by, page.training, page.validation);
   values.flags["synthetic"] = page.synthetic;
   for (const std::string& fault : page.faults)
@@ -205,7 +204,7 @@ std::string data_html(const DataPage& page) {
   add_tests(values, page.validation, "validation");
   add_columns(values, page.training);
   add_data_lines(values, page.training, page.validation, page.judged_by);
-  return codegen::render_template("report/data.html", values);
+  return render_template("report/data.html", values);
 }
 
 } // namespace frictab::report

@@ -60,13 +60,13 @@ std::string range_of(const data::Dataset& data, const std::string& name) {
 
 } // namespace
 
-void add_data_lines(codegen::TemplateValues& page, const data::Dataset& t, const data::Dataset& v,
+void add_data_lines(TemplateValues& page, const data::Dataset& t, const data::Dataset& v,
                     calibrate::JudgedBy judged_by) {
   const std::string none = judged_words(judged_by).files;
   const auto of_validation = [&](const std::string& text) {
     return none.empty() ? text : "\u2013";
   };
-  std::vector<codegen::TemplateValues>& rows = page.lists["data"];
+  std::vector<TemplateValues>& rows = page.lists["data"];
   const auto add = [&](const char* what, const std::string& training,
                        const std::string& validation) {
     rows.push_back({{{"what", what}, {"training", training}, {"validation", validation}}, {}, {}});
@@ -100,12 +100,12 @@ void add_data_lines(codegen::TemplateValues& page, const data::Dataset& t, const
   add("Other columns", lines(bystanders_of(t)), lines(bystanders_of(v)));
 }
 
-void add_data(codegen::TemplateValues& page, const ReportInput& input) {
+void add_data(TemplateValues& page, const ReportInput& input) {
   const calibrate::JudgedBy judged_by = input.calibration.judged_by;
   const data::Dataset none, &t = input.training,
                             &v = on_other_experiments(judged_by) ? input.validation : none;
   add_data_lines(page, t, v, judged_by);
-  std::vector<codegen::TemplateValues>& ranges = page.lists["ranges"];
+  std::vector<TemplateValues>& ranges = page.lists["ranges"];
   for (const data::Quantity& quantity : data::quantities()) {
     if (!t.has(quantity.name) && !v.has(quantity.name)) continue;
     ranges.push_back({{{"meaning", svg::escape(quantity.meaning)},

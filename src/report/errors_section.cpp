@@ -11,8 +11,6 @@
 
 namespace frictab::report {
 
-using codegen::TemplateValues;
-
 namespace {
 
 std::string marked_up(double value, const calibrate::Interval& interval, int decimals) {

@@ -83,8 +83,7 @@ void add_names(svg::Plot& plot, const std::vector<ExperimentError>& tests,
   }
 }
 
-codegen::TemplateValues figure_of(const ReportInput& input, std::size_t law,
-                                  const svg::Axis& errors) {
+TemplateValues figure_of(const ReportInput& input, std::size_t law, const svg::Axis& errors) {
   const std::vector<ExperimentError>& tests = input.by_experiment[law].experiments;
   const int decimals = error_decimals(input.calibration);
   const double mae = input.calibration.fits[law].validation.mae_MPa;
@@ -110,7 +109,7 @@ codegen::TemplateValues figure_of(const ReportInput& input, std::size_t law,
 
 } // namespace
 
-void add_experiment_errors(codegen::TemplateValues& page, const ReportInput& input) {
+void add_experiment_errors(TemplateValues& page, const ReportInput& input) {
   const std::vector<std::size_t> shown = laws_to_show(input);
   page.flags["has_experiment_errors"] = !shown.empty();
   page.text["by_experiment_link"] = shown.empty() ? "" : "<a href=\"#experiments\">By test</a> ";
@@ -123,7 +122,7 @@ void add_experiment_errors(codegen::TemplateValues& page, const ReportInput& inp
             "&#9675;</span> trained on (ring).";
   page.text["held_out_names"] = svg::escape(join(input.calibration.validation_experiments, ", "));
   const svg::Axis errors = axis_of_errors(input, shown);
-  std::vector<codegen::TemplateValues>& figures = page.lists["experiment_errors"];
+  std::vector<TemplateValues>& figures = page.lists["experiment_errors"];
   for (const std::size_t law : shown)
     figures.push_back(figure_of(input, law, errors));
 }

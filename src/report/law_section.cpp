@@ -142,8 +142,8 @@ std::string draw_levels(svg::Plot& plot, const std::vector<Level>& levels,
                      (at_low ? median : high).value);
 }
 
-codegen::TemplateValues panel(const ReportInput& input, const DrawnLaw& drawn, std::size_t other,
-                              const svg::Axis& x_axis, const svg::Axis& y_axis) {
+TemplateValues panel(const ReportInput& input, const DrawnLaw& drawn, std::size_t other,
+                     const svg::Axis& x_axis, const svg::Axis& y_axis) {
   const auto& sigma = drawn.sorted[drawn.sigma];
   std::vector<double> x;
   for (std::size_t i = 0; i < line_points; ++i)
@@ -169,8 +169,8 @@ codegen::TemplateValues panel(const ReportInput& input, const DrawnLaw& drawn, s
 
 } // namespace
 
-void add_law_with_data(codegen::TemplateValues& page, const ReportInput& input) {
-  std::vector<codegen::TemplateValues>& panels = page.lists["law_panels"];
+void add_law_with_data(TemplateValues& page, const ReportInput& input) {
+  std::vector<TemplateValues>& panels = page.lists["law_panels"];
   page.flags["has_law_panels"] = false;
   page.text["drawn_law"] = page.text["law_link"] = "";
   const data::Dataset& data = input.validation;

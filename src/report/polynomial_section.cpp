@@ -12,8 +12,6 @@ namespace frictab::report {
 
 namespace {
 
-using codegen::TemplateValues;
-
 TemplateValues term_row(const calibrate::PolynomialTerm& term) {
   const ValueText v = with_error(term.coefficient, term.std_error);
   return {{{"term", svg::escape(term.text)},

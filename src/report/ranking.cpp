@@ -19,7 +19,6 @@
 
 namespace frictab::report {
 
-using codegen::TemplateValues;
 using models::Calibrated;
 
 namespace {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "codegen/template.h"
+#include "core/template.h"
 #include "report/sections.h"
 #include "report/svg.h"
 
@@ -40,9 +40,9 @@ std::string link_to(const std::string& file) {
 } // namespace
 
 std::string report_html(const ReportInput& input) {
-  codegen::TemplateValues page;
+  TemplateValues page;
   page.text["title"] = svg::escape(shown_path(input.title));
-  page.text["style"] = std::string(codegen::embedded_template("report/style.css"));
+  page.text["style"] = std::string(embedded_template("report/style.css"));
   page.flags["synthetic"] = input.calibration.synthetic;
   add_verdict(page, input);
   add_drift_summary(page, input);
@@ -60,11 +60,11 @@ std::string report_html(const ReportInput& input) {
   add_data(page, input);
   add_tables(page, input);
   add_drift(page, input);
-  std::vector<codegen::TemplateValues>& files = page.lists["files"];
+  std::vector<TemplateValues>& files = page.lists["files"];
   for (const std::string& file : input.files)
     files.push_back({{{"path", svg::escape(shown_path(file))}, {"link", link_to(file)}}, {}, {}});
   page.flags["has_files"] = !files.empty();
-  return codegen::render_template("report/report.html", page);
+  return render_template("report/report.html", page);
 }
 
 } // namespace frictab::report

@@ -11,7 +11,6 @@
 #include "report/numbers.h"
 #include "report/report.h"
 #include "report/wiring.h"
-#include "table/bound.h"
 #include "table/distance.h"
 #include "trace/trace_text.h"
 
@@ -49,7 +48,7 @@ void add_md_drift(std::string& out, const verify::Verification& verification) {
                      "| law | subject | largest found | proven | result |\n|---|---|--:|--:|---|\n",
                      verify::allowed_text(verification));
   for (const verify::DriftRecord& r : verification.records) {
-    const std::string proven = r.proven_MPa ? figures(table::rounded_up(*r.proven_MPa)) : "\u2013";
+    const std::string proven = r.proven_MPa ? figures(rounded_up(*r.proven_MPa)) : "\u2013";
     const std::string result =
         r.ran ? result_of(verification, r) : "not run: " + markdown_cell(r.why_not);
     out += fmt::format("| {} | {} | {} | {} | {} |\n", markdown_cell(r.model),

@@ -3,27 +3,27 @@
 
 #include <string>
 
-#include "codegen/template.h"
+#include "core/template.h"
 #include "report/report.h"
 
 namespace frictab::report {
 
-void add_verdict(codegen::TemplateValues& page, const ReportInput& input);
-void add_drift_summary(codegen::TemplateValues& page, const ReportInput& input);
-void add_ranking(codegen::TemplateValues& page, const ReportInput& input); // with the plots
-void add_comparisons(codegen::TemplateValues& page, const ReportInput& input);
-void add_errors(codegen::TemplateValues& page, const ReportInput& input); // with the noise floors
-void add_experiment_errors(codegen::TemplateValues& page, const ReportInput& input);
-void add_polynomial(codegen::TemplateValues& page, const ReportInput& input);
-void add_law_with_data(codegen::TemplateValues& page, const ReportInput& input);
-void add_predicted_strokes(codegen::TemplateValues& page, const ReportInput& input);
-void add_wiring(codegen::TemplateValues& page, const ReportInput& input);
-void add_conditional(codegen::TemplateValues& page, const ReportInput& input);
-void add_trace(codegen::TemplateValues& page, const ReportInput& input);
-void add_published_figures(codegen::TemplateValues& page, const ReportInput& input);
-void add_data(codegen::TemplateValues& page, const ReportInput& input);
-void add_tables(codegen::TemplateValues& page, const ReportInput& input);
-void add_drift(codegen::TemplateValues& page, const ReportInput& input);
+void add_verdict(TemplateValues& page, const ReportInput& input);
+void add_drift_summary(TemplateValues& page, const ReportInput& input);
+void add_ranking(TemplateValues& page, const ReportInput& input); // with the plots
+void add_comparisons(TemplateValues& page, const ReportInput& input);
+void add_errors(TemplateValues& page, const ReportInput& input); // with the noise floors
+void add_experiment_errors(TemplateValues& page, const ReportInput& input);
+void add_polynomial(TemplateValues& page, const ReportInput& input);
+void add_law_with_data(TemplateValues& page, const ReportInput& input);
+void add_predicted_strokes(TemplateValues& page, const ReportInput& input);
+void add_wiring(TemplateValues& page, const ReportInput& input);
+void add_conditional(TemplateValues& page, const ReportInput& input);
+void add_trace(TemplateValues& page, const ReportInput& input);
+void add_published_figures(TemplateValues& page, const ReportInput& input);
+void add_data(TemplateValues& page, const ReportInput& input);
+void add_tables(TemplateValues& page, const ReportInput& input);
+void add_drift(TemplateValues& page, const ReportInput& input);
 
 // Draws the range of the data along an axis of a table (SVG); a dash where the data do not have
 // that column.

@@ -58,8 +58,8 @@ StrokeAxes stroke_axes(const data::Dataset& data) {
   return axes;
 }
 
-codegen::TemplateValues stroke_of(const data::Dataset& data, std::span<const double> predicted,
-                                  std::size_t e, const StrokeAxes& axes) {
+TemplateValues stroke_of(const data::Dataset& data, std::span<const double> predicted,
+                         std::size_t e, const StrokeAxes& axes) {
   const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
   std::vector<double> x(rows);
   for (std::size_t i = 0; i < rows; ++i)
@@ -80,7 +80,7 @@ codegen::TemplateValues stroke_of(const data::Dataset& data, std::span<const dou
           {}};
 }
 
-void add_part(std::vector<codegen::TemplateValues>& out, const data::Dataset& data,
+void add_part(std::vector<TemplateValues>& out, const data::Dataset& data,
               std::span<const double> predicted) {
   const StrokeAxes axes = stroke_axes(data);
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
@@ -89,8 +89,8 @@ void add_part(std::vector<codegen::TemplateValues>& out, const data::Dataset& da
 
 } // namespace
 
-void add_predicted_strokes(codegen::TemplateValues& page, const ReportInput& input) {
-  std::vector<codegen::TemplateValues>&judged = page.lists["judged_strokes"],
+void add_predicted_strokes(TemplateValues& page, const ReportInput& input) {
+  std::vector<TemplateValues>&judged = page.lists["judged_strokes"],
   &trained = page.lists["trained_strokes"];
   const data::Dataset &data = input.validation, &training = input.training;
   const bool any = !input.predicted.empty() && data.has("tau_R_MPa") && data.rows() > 0;

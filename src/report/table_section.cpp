@@ -11,13 +11,11 @@
 #include "report/sections.h"
 #include "report/svg.h"
 #include "table/beyond_data.h"
-#include "table/bound.h"
 #include "table/distance.h"
 #include "verify/beyond.h"
 
 namespace frictab::report {
 
-using codegen::TemplateValues;
 using verify::DriftRecord;
 
 namespace {
@@ -97,7 +95,7 @@ std::string drift_figures(double value) {
 }
 
 std::string proven_text(const DriftRecord& r) {
-  if (r.proven_MPa) return drift_figures(table::rounded_up(*r.proven_MPa));
+  if (r.proven_MPa) return drift_figures(rounded_up(*r.proven_MPa));
   return r.not_proven.empty() ? "\u2013" : "not available: " + svg::escape(r.not_proven);
 }
 

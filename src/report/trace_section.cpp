@@ -16,7 +16,6 @@
 
 namespace frictab::report {
 
-using codegen::TemplateValues;
 using trace::Verdict;
 
 namespace {

@@ -125,9 +125,9 @@ std::string group_sentence(const Group& group, const std::string& noun) {
 
 } // namespace
 
-void add_verdict(codegen::TemplateValues& page, const ReportInput& input) {
+void add_verdict(TemplateValues& page, const ReportInput& input) {
   const calibrate::Calibration& calibration = input.calibration;
-  std::vector<codegen::TemplateValues>& findings = page.lists["findings"];
+  std::vector<TemplateValues>& findings = page.lists["findings"];
   page.text["verdict"] = "No law was calibrated.";
   page.flags["has_findings"] = !calibration.fits.empty();
   if (calibration.fits.empty()) return;
@@ -138,7 +138,7 @@ void add_verdict(codegen::TemplateValues& page, const ReportInput& input) {
     if (!text.empty()) findings.push_back({{{"text", text}}, {}, {}});
 }
 
-void add_drift_summary(codegen::TemplateValues& page, const ReportInput& input) {
+void add_drift_summary(TemplateValues& page, const ReportInput& input) {
   Group tables, sources;
   for (const verify::DriftRecord& r : input.verification.records)
     (r.subject == "table" ? tables : sources).add(r);

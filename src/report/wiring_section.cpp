@@ -52,23 +52,23 @@ Wiring wiring_of(const Recipe& recipe) {
   return out;
 }
 
-void add_wiring(codegen::TemplateValues& page, const ReportInput& input) {
-  std::vector<codegen::TemplateValues>& recipes = page.lists["recipes"];
+void add_wiring(TemplateValues& page, const ReportInput& input) {
+  std::vector<TemplateValues>& recipes = page.lists["recipes"];
   for (const Recipe& recipe : input.recipes) {
     const Wiring w = wiring_of(recipe);
-    codegen::TemplateValues values{{{"title", svg::escape(w.title)},
-                                    {"model", svg::escape(w.model)},
-                                    {"path", svg::escape(w.path)},
-                                    {"entry", svg::escape(w.entry)},
-                                    {"units", svg::escape(w.units)},
-                                    {"files", svg::escape(join(w.files, ", "))},
-                                    {"compile", escaped_lines(w.compile)},
-                                    {"deck", svg::escape(w.input_deck)}},
-                                   {{"has_compile", !w.compile.empty()},
-                                    {"has_deck", !w.input_deck.empty()},
-                                    {"has_arguments", !w.arguments.empty()}},
-                                   {}};
-    std::vector<codegen::TemplateValues>& arguments = values.lists["arguments"];
+    TemplateValues values{{{"title", svg::escape(w.title)},
+                           {"model", svg::escape(w.model)},
+                           {"path", svg::escape(w.path)},
+                           {"entry", svg::escape(w.entry)},
+                           {"units", svg::escape(w.units)},
+                           {"files", svg::escape(join(w.files, ", "))},
+                           {"compile", escaped_lines(w.compile)},
+                           {"deck", svg::escape(w.input_deck)}},
+                          {{"has_compile", !w.compile.empty()},
+                           {"has_deck", !w.input_deck.empty()},
+                           {"has_arguments", !w.arguments.empty()}},
+                          {}};
+    std::vector<TemplateValues>& arguments = values.lists["arguments"];
     for (const WiringLine& line : w.arguments)
       arguments.push_back(
           {{{"quantity", svg::escape(line.quantity)},

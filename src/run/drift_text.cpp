@@ -11,7 +11,6 @@
 #include "core/column_width.h"
 #include "core/text.h"
 #include "report/numbers.h"
-#include "table/bound.h"
 #include "verify/beyond.h"
 
 namespace frictab::run {
@@ -87,8 +86,7 @@ std::string result_of(const DriftLine& line) {
 
 std::string proven_text(const DriftLine& line) {
   if (!line.proven_MPa) return "-";
-  return *line.proven_MPa < 1e-9 ? "<1e-9"
-                                 : fmt::format("{:.3g}", table::rounded_up(*line.proven_MPa));
+  return *line.proven_MPa < 1e-9 ? "<1e-9" : fmt::format("{:.3g}", rounded_up(*line.proven_MPa));
 }
 
 std::string text_of(const DriftLine& line, const std::string& model, std::size_t width) {
@@ -253,7 +251,7 @@ std::string drift_in_short(const verify::Verification& verification) {
       not_ok.push_back(model + " " + result);
   }
   std::string text = fmt::format("{:.3g} MPa off the law{}, {} allowed",
-                                 proven ? table::rounded_up(std::max(bound, all.table)) : all.table,
+                                 proven ? rounded_up(std::max(bound, all.table)) : all.table,
                                  proven ? " at most (proven)" : " as found (not proven)",
                                  verify::allowed_text(verification));
   if (all.count > 0)

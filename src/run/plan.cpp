@@ -81,8 +81,8 @@ private:
       return {stage, Action::run, "there is none: it is made first", writes(stage)};
     const std::string why = stages_.stale(stage, key_);
     if (why.empty()) return {stage, Action::keep, "", {}};
-    const std::string mend = fmt::format("{}; `frictab {} {}` rebuilds it, `frictab run` all",
-                                         why, stage, job_.arguments());
+    const std::string mend = fmt::format("{}; `frictab {} {}` rebuilds it, `frictab run` all", why,
+                                         stage, job_.arguments());
     return {stage, Action::refuse, "stale, so `" + command + "` stops: " + mend, {}};
   }
 

@@ -67,7 +67,8 @@ void export_sources(Run& run) {
     const Table direct = direct_form(law_of(run, table), table);
     for (const codegen::Exporter* exporter : targets) {
       if (refused.count(exporter)) continue; // for the same reason
-      const bool of_law = run.job.exports.form == codegen::ExportForm::direct || !exporter->is_routine();
+      const bool of_law =
+          run.job.exports.form == codegen::ExportForm::direct || !exporter->is_routine();
       try {
         write_sources(run, *exporter,
                       export_request(run.job, exporter->name, of_law ? direct : table),

@@ -32,8 +32,8 @@ std::string data_text(const Run& run) {
       fmt::format("Data: {}{}\n", report::size_text(run.data->judged_by, training, validation),
                   synthetic ? " - SYNTHETIC data" : "");
   if (run.data->judged_by == calibrate::JudgedBy::fit)
-    out +=
-        "  if they are of several tests, data.experiment names the column that distinguishes them\n";
+    out += "  if they are of several tests, data.experiment names the column that distinguishes "
+           "them\n";
   if (const std::string how = report::condensed_text(training, validation); !how.empty())
     out += "  " + how + "\n";
   if (const std::string how = report::uneven_text(run.data->judged_by, training, validation);

@@ -28,12 +28,11 @@ void Workspace::check_fresh(const Stage& stage, const std::string& data) const {
 
 void Workspace::check_as_written(std::string_view stage, const std::string& path) const {
   if (record_.is_as_written(path).value_or(true)) return;
-  throw InputError(
-      {(fs::path(job_.directory) / path).string(), 0, 0},
-      fmt::format("was changed since `frictab {}` wrote it", stage),
-      fmt::format("`frictab {} {}` rebuilds it; for a law with constants of your own "
-                  "or a table from elsewhere: `frictab export --law` or `--table`",
-                  stage, job_.arguments()));
+  throw InputError({(fs::path(job_.directory) / path).string(), 0, 0},
+                   fmt::format("was changed since `frictab {}` wrote it", stage),
+                   fmt::format("`frictab {} {}` rebuilds it; for a law with constants of your own "
+                               "or a table from elsewhere: `frictab export --law` or `--table`",
+                               stage, job_.arguments()));
 }
 
 void Workspace::remove_earlier(const std::vector<std::string>& called_like_results,

@@ -12,7 +12,6 @@
 
 namespace frictab::study {
 
-using codegen::TemplateValues;
 namespace svg = report::svg;
 
 namespace {

@@ -15,7 +15,6 @@
 
 namespace frictab::study {
 
-using codegen::TemplateValues;
 namespace svg = report::svg;
 
 namespace {
@@ -24,34 +23,35 @@ constexpr std::size_t most_laws_with_parameters = 8, most_parameters = 6, most_d
 
 struct Level {
   std::string name;
-  std::vector<Estimate> estimates;
-  RandomEffects summary;
+  std::vector<stats::Estimate> estimates;
+  stats::RandomEffects summary;
 };
 
-Level level_of(std::string name, std::vector<Estimate> estimates) {
+Level level_of(std::string name, std::vector<stats::Estimate> estimates) {
   Level level{std::move(name), std::move(estimates), {}};
-  level.summary = random_effects(level.estimates);
+  level.summary = stats::random_effects(level.estimates);
   return level;
 }
 
 // Returns the estimates whose level is known, with it as their group.
-std::vector<Estimate> grouped(const std::vector<Estimate>& all, const FactorLevels& factor) {
-  std::vector<Estimate> out;
-  for (Estimate one : all) {
+std::vector<stats::Estimate> grouped(const std::vector<stats::Estimate>& all,
+                                     const FactorLevels& factor) {
+  std::vector<stats::Estimate> out;
+  for (stats::Estimate one : all) {
     one.group = factor.level_of[one.campaign];
     if (one.group < factor.levels.size()) out.push_back(one);
   }
   return out;
 }
 
-std::vector<Level> levels_with(const std::vector<Estimate>& all,
+std::vector<Level> levels_with(const std::vector<stats::Estimate>& all,
                                const std::vector<FactorLevels>& factors) {
   std::vector<Level> levels = {level_of("all", all)};
   for (const FactorLevels& factor : factors) {
-    const std::vector<Estimate> known = grouped(all, factor);
+    const std::vector<stats::Estimate> known = grouped(all, factor);
     for (std::size_t i = 0; i < factor.levels.size(); ++i) {
-      std::vector<Estimate> of_level;
-      for (const Estimate& one : known)
+      std::vector<stats::Estimate> of_level;
+      for (const stats::Estimate& one : known)
         if (one.group == i) of_level.push_back(one);
       if (!of_level.empty())
         levels.push_back(level_of(factor.name + " " + factor.levels[i], std::move(of_level)));
@@ -62,12 +62,12 @@ std::vector<Level> levels_with(const std::vector<Estimate>& all,
 
 // Share of the variance between campaigns that a factor explains: "lubricant 84 %". Empty without
 // variance to explain, or if it is not known.
-std::string share_text(const std::vector<Estimate>& all, const FactorLevels& factor) {
-  std::vector<Estimate> known = grouped(all, factor);
-  const double within = between_variance(known);
-  for (Estimate& one : known)
+std::string share_text(const std::vector<stats::Estimate>& all, const FactorLevels& factor) {
+  std::vector<stats::Estimate> known = grouped(all, factor);
+  const double within = stats::between_variance(known);
+  for (stats::Estimate& one : known)
     one.group = 0;
-  const double total = between_variance(known);
+  const double total = stats::between_variance(known);
   if (!(total > 0) || std::isnan(within)) return "";
   return fmt::format("{} {} %", factor.name,
                      report::fixed(100 * std::max(0.0, 1 - within / total), 0));
@@ -83,7 +83,7 @@ std::string interval_of(const calibrate::Interval& i) {
 
 std::string sentence(const Level& all, const std::vector<FactorLevels>& factors,
                      std::size_t without_error) {
-  const RandomEffects& s = all.summary;
+  const stats::RandomEffects& s = all.summary;
   std::string text = fmt::format("Mean {} over {}", shown_value(s.mean),
                                  report::count_of(s.campaigns, "campaign"));
   if (std::isfinite(s.between_sd))
@@ -116,7 +116,7 @@ std::string parameter_plot(const std::string& name, const std::vector<Level>& le
   for (const Level& level : levels) {
     PlotRow row{level.name, level.summary.mean, level.summary.predicted.low,
                 level.summary.predicted.high};
-    for (const Estimate& one : level.estimates)
+    for (const stats::Estimate& one : level.estimates)
       if (row.dots.size() < most_dots) row.dots.push_back(one.value);
     for (const double value : row.dots)
       cover(value);
@@ -130,7 +130,7 @@ std::string parameter_plot(const std::string& name, const std::vector<Level>& le
 }
 
 TemplateValues level_row(const Level& level) {
-  const RandomEffects& s = level.summary;
+  const stats::RandomEffects& s = level.summary;
   return {{{"name", svg::escape(level.name)},
            {"count", thousands(s.campaigns)},
            {"mean", shown_value(s.mean)},
@@ -147,8 +147,8 @@ std::string full_name(const std::string& law, const LawTally::Parameter& p) {
 }
 
 void add_outliers(TemplateValues& page, const Plan& plan, const std::string& name,
-                  const std::vector<Estimate>& estimates) {
-  for (const Outlier& one : outliers(estimates)) {
+                  const std::vector<stats::Estimate>& estimates) {
+  for (const stats::Outlier& one : stats::outliers(estimates)) {
     const report::ValueText value = report::with_error(one.estimate.value, one.estimate.std_error);
     page.lists["outliers"].push_back(
         {{{"campaign", svg::escape(plan.study.campaigns[one.estimate.campaign].name)},
@@ -200,7 +200,7 @@ void add_parameters(TemplateValues& page, const Plan& plan, const Tally& tally,
     all_notes.push_back(fmt::format("{} are in campaigns.csv only: of further laws, beyond the "
                                     "sixth of a law, or nowhere with a standard error.",
                                     report::count_of(left_out, "parameter")));
-  page.lists["parameter_notes"] = codegen::items(all_notes);
+  page.lists["parameter_notes"] = items(all_notes);
 }
 
 } // namespace frictab::study

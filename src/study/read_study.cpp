@@ -210,10 +210,10 @@ private:
 
 Study parse_study(std::string_view text, const std::string& file, const StudyOverrides& overrides) {
   if (text.size() > largest_file)
-    throw InputError(
-        {file, 0, 0},
-        fmt::format("is not a study file: it has {}", human_bytes(static_cast<double>(text.size()))),
-        "many campaigns stand in a table of their own: campaigns = \"list.csv\"");
+    throw InputError({file, 0, 0},
+                     fmt::format("is not a study file: it has {}",
+                                 human_bytes(static_cast<double>(text.size()))),
+                     "many campaigns stand in a table of their own: campaigns = \"list.csv\"");
   return StudyReader(file, overrides).read(text);
 }
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "codegen/template.h"
 #include "core/no_value.h"
+#include "core/template.h"
 #include "core/text.h"
 #include "report/numbers.h"
 #include "report/sections.h"
@@ -17,7 +17,6 @@
 
 namespace frictab::study {
 
-using codegen::TemplateValues;
 namespace svg = report::svg;
 
 namespace {
@@ -74,7 +73,7 @@ std::string name_of(const std::string& study_file) {
 
 void add_head(TemplateValues& page, const Plan& plan, const Tally& tally) {
   page.text["title"] = svg::escape(name_of(plan.study.file));
-  page.text["style"] = std::string(codegen::embedded_template("report/style.css"));
+  page.text["style"] = std::string(embedded_template("report/style.css"));
   page.flags["synthetic"] = tally.synthetic > 0;
   page.text["synthetic_text"] =
       fmt::format("{} campaigns with results were not measured: their rows come from a simulated "
@@ -85,7 +84,7 @@ void add_head(TemplateValues& page, const Plan& plan, const Tally& tally) {
 }
 
 std::string share_bar(const std::string& name, const LawTally& law, const svg::Axis& axis) {
-  const calibrate::Interval interval = share_interval(law.may_be_best, law.campaigns);
+  const calibrate::Interval interval = stats::share_interval(law.may_be_best, law.campaigns);
   const double share =
       100.0 * static_cast<double>(law.may_be_best) / static_cast<double>(law.campaigns);
   const std::string text =
@@ -139,7 +138,7 @@ std::string forms_text(const EffectTally& effect) {
 TemplateValues effect_row(const std::string& column, const EffectTally& effect, const Tally& tally,
                           const std::vector<FactorLevels>& factors) {
   const std::size_t count = effect.campaigns.size(), of = tally.traced_campaigns.size();
-  const calibrate::Interval share = share_interval(count, of);
+  const calibrate::Interval share = stats::share_interval(count, of);
   return {{{"name", svg::escape(column)},
            {"count", of_campaigns(count, of)},
            {"share", fmt::format("{} to {} %", report::fixed(100 * share.low, 0),
@@ -193,7 +192,7 @@ void add_failures(TemplateValues& page, const Plan& plan, const Tally& tally) {
   page.lists["failure_notes"];
   if (more > 0)
     page.lists["failure_notes"].push_back(
-        codegen::item(fmt::format("And {} more, in campaigns.csv.", thousands(more))));
+        item(fmt::format("And {} more, in campaigns.csv.", thousands(more))));
 }
 
 } // namespace
@@ -208,7 +207,7 @@ std::string study_html(const Plan& plan, const Tally& tally) {
   add_effects(page, tally, factors);
   add_failures(page, plan, tally);
   add_campaigns(page, plan, tally);
-  return codegen::render_template("report/study.html", page);
+  return render_template("report/study.html", page);
 }
 
 } // namespace frictab::study

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "stats/random_effects.h"
 #include "study/plan.h"
-#include "study/random_effects.h"
 #include "study/result.h"
 
 namespace frictab::study {
@@ -17,8 +17,8 @@ struct LawTally {
   std::vector<double> mae_MPa; // per campaign
   struct Parameter {
     std::string name, unit;
-    std::vector<Estimate> estimates; // group: not used
-    std::size_t without_error = 0;   // number of campaigns that do not determine it
+    std::vector<stats::Estimate> estimates; // group: not used
+    std::size_t without_error = 0;          // number of campaigns that do not determine it
   };
   std::vector<Parameter> parameters; // of laws that are fitted
 };

@@ -11,7 +11,6 @@
 #include "data/quantity.h"
 #include "io/json.h"
 #include "table/beyond_data.h"
-#include "table/bound.h"
 #include "table/distance.h"
 #include "table/outside.h"
 #include "table/states.h"

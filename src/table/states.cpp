@@ -15,7 +15,8 @@ namespace frictab::table {
 namespace {
 
 [[noreturn]] void no_input(const std::string& name, const std::vector<std::string>& inputs) {
-  throw InputError({}, fmt::format("'{}' is not a state of this table", name), suggest(name, inputs));
+  throw InputError({}, fmt::format("'{}' is not a state of this table", name),
+                   suggest(name, inputs));
 }
 
 std::string range_text(const Table& table, const std::string& name) {
@@ -35,7 +36,8 @@ HeldStates held_states(const std::vector<std::string>& texts,
     const bool number = equals != text.npos &&
                         io::read_number(std::string_view(text).substr(equals + 1), '.', value);
     if (!number || !std::isfinite(value))
-      throw InputError({}, fmt::format("'{}' is not a state", text), "name=number, for example psi=2");
+      throw InputError({}, fmt::format("'{}' is not a state", text),
+                       "name=number, for example psi=2");
     if (std::find(inputs.begin(), inputs.end(), name) == inputs.end()) no_input(name, inputs);
     if (!held.emplace(name, value).second)
       throw InputError({}, fmt::format("{} is given twice", name));
@@ -64,9 +66,10 @@ std::vector<std::string> check_held(const Table& table, const HeldStates& held) 
       faults.add({}, fmt::format("{} = {:g} is outside the table", name, value),
                  fmt::format("its axis runs from {:g} to {:g}", range->first, range->second));
     else
-      notes.push_back(fmt::format("{} = {:g} is not an axis and lies outside {:g} .. {:g}, for which the "
-                                  "table was verified",
-                                  name, value, range->first, range->second));
+      notes.push_back(
+          fmt::format("{} = {:g} is not an axis and lies outside {:g} .. {:g}, for which the "
+                      "table was verified",
+                      name, value, range->first, range->second));
   }
   faults.throw_if_any();
   return notes;

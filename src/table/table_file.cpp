@@ -405,7 +405,8 @@ private:
         table_.constants[name] = *number;
       else
         fault(
-            fmt::format("extension uses '{}', which is neither an axis nor an attribute of 'value'", name),
+            fmt::format("extension uses '{}', which is neither an axis nor an attribute of 'value'",
+                        name),
             "add the constant as a number attribute of 'value'");
     }
   }
@@ -420,7 +421,8 @@ private:
         table_.constants[name] = *number;
       else
         fault(
-            fmt::format("combine uses '{}', which is neither a state nor an attribute of 'value'", name),
+            fmt::format("combine uses '{}', which is neither a state nor an attribute of 'value'",
+                        name),
             "add the constant as a number attribute of 'value', or the range of a recorded column "
             "as range_low_" +
                 name + " and range_high_" + name);

@@ -129,7 +129,7 @@ double widest_gap(const std::vector<double>& tested) {
 
 class CandidateFinder {
 public:
-  CandidateFinder(const Dataset& training, const Dataset& validation, const Blocks& blocks,
+  CandidateFinder(const Dataset& training, const Dataset& validation, const stats::Blocks& blocks,
                   Rows predicted, const std::vector<std::string>& inputs,
                   const TraceOptions& options)
       : training_(training), validation_(validation), blocks_(blocks), predicted_(predicted),
@@ -414,7 +414,7 @@ private:
 
   const Dataset& training_;
   const Dataset& validation_;
-  const Blocks& blocks_;
+  const stats::Blocks& blocks_;
   Rows predicted_;
   const std::vector<std::string>& inputs_;
   const TraceOptions& options_;
@@ -449,9 +449,9 @@ std::size_t values_of_tests(const Column& column, const Dataset& data) {
   return values.size();
 }
 
-Candidates find_candidates(const Dataset& training, const Dataset& validation, const Blocks& blocks,
-                           Rows predicted, const std::vector<std::string>& inputs,
-                           const TraceOptions& options) {
+Candidates find_candidates(const Dataset& training, const Dataset& validation,
+                           const stats::Blocks& blocks, Rows predicted,
+                           const std::vector<std::string>& inputs, const TraceOptions& options) {
   Candidates found =
       CandidateFinder(training, validation, blocks, predicted, inputs, options).run();
   if (!pairs_every_column(found))
@@ -528,7 +528,7 @@ bool is_state(const CandidateColumn& column) {
          column.name != "time_s";
 }
 
-Eigen::MatrixXd state_means(const Candidates& candidates, const Blocks& blocks) {
+Eigen::MatrixXd state_means(const Candidates& candidates, const stats::Blocks& blocks) {
   Eigen::MatrixXd all(static_cast<Eigen::Index>(blocks.experiments()), 0);
   for (const CandidateColumn& column : candidates.columns) {
     if (!is_state(column) || column.name == "sigma_f_MPa") continue; // which follows from others

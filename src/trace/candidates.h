@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "effects/extended_law.h"
-#include "trace/blocks.h"
+#include "stats/blocks.h"
 #include "trace/law_on_blocks.h"
 #include "trace/options.h"
 
@@ -49,7 +49,7 @@ struct Candidates {
 // integrated (never from the measured tau_R). Throws InputError where the options `ignore`, `order`
 // or `tool_distance` name a missing column, or one that gives no order or is not a distance.
 Candidates find_candidates(const data::Dataset& training, const data::Dataset& validation,
-                           const Blocks& blocks, std::span<const double> predicted,
+                           const stats::Blocks& blocks, std::span<const double> predicted,
                            const std::vector<std::string>& inputs, const TraceOptions& options);
 
 // Counts the distinct values of a column at the first rows of the tests. Fewer than 3 give no
@@ -60,7 +60,7 @@ std::size_t values_of_tests(const data::Column& column, const data::Dataset& dat
 bool is_state(const CandidateColumn& column);
 // Returns the test means of the states that differ between tests, each scaled to mean 0 and
 // standard deviation 1.
-Eigen::MatrixXd state_means(const Candidates& candidates, const Blocks& blocks);
+Eigen::MatrixXd state_means(const Candidates& candidates, const stats::Blocks& blocks);
 // Whether at most 5 % of the tests change more than one state; such a design cannot show joint
 // effects of states.
 bool one_factor_at_a_time(const Eigen::MatrixXd& states);

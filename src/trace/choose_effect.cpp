@@ -10,9 +10,9 @@
 
 #include "core/parallel.h"
 #include "core/progress.h"
-#include "trace/projection.h"
+#include "stats/projection.h"
+#include "stats/smooth.h"
 #include "trace/shapes.h"
-#include "trace/smooth.h"
 
 namespace frictab::trace {
 
@@ -39,7 +39,7 @@ struct Option {
   Cause cause;
   PlacedEffect effect;
   MatrixXd penalty;
-  SmoothFit fit;
+  stats::SmoothFit fit;
   double criterion = 0;
 };
 
@@ -60,20 +60,21 @@ Option option_of(const Cause& cause, PlacedEffect effect) {
 }
 
 // Fits all options under the same noise model, so that they are comparable.
-void fit_options(const Search& search, const NoiseModel& noise, Options& options) {
+void fit_options(const Search& search, const stats::NoiseModel& noise, Options& options) {
   const Campaign& campaign = search.campaign();
-  const Whitener whitener(noise, search.last().predicted, campaign.blocks, campaign.nuisance);
+  const stats::Whitener whitener(noise, search.last().predicted, campaign.blocks,
+                                 campaign.nuisance);
   MatrixXd known = search.last().jacobian;
-  append_columns(known, search.trained());
+  stats::append_columns(known, search.trained());
   whitener.apply(known);
-  known = orthonormal(known);
+  known = stats::orthonormal(known);
   MatrixXd residual = search.residual();
   whitener.apply(residual);
   parallel_for(options.size(), [&](std::size_t i) {
     Option& option = options[i];
     MatrixXd basis = basis_of(search, option.effect);
     whitener.apply(basis);
-    option.fit = fit_smooth(residual.col(0), basis, option.penalty, known);
+    option.fit = stats::fit_smooth(residual.col(0), basis, option.penalty, known);
     option.criterion =
         option.fit.criterion + per_complexity * complexity(option.cause, search.candidates);
   });
@@ -85,7 +86,7 @@ void sort_options(Options& options) {
 }
 
 Rival rival_of(const Search& search, const Campaign& campaign, const Option& option,
-               const NoiseModel& noise) {
+               const stats::NoiseModel& noise) {
   std::vector<PlacedEffect> effects = search.last().effects;
   std::vector<Cause> causes = search.last().causes;
   PlacedEffect effect = option.effect;
@@ -102,7 +103,7 @@ Rival rival_of(const Search& search, const Campaign& campaign, const Option& opt
 }
 
 std::vector<Rival> rivals_of(const Search& search, const Campaign& campaign, const Options& options,
-                             const NoiseModel& noise) {
+                             const stats::NoiseModel& noise) {
   std::vector<Rival> rivals(options.size());
   const Progress progress("fitting causes", options.size());
   parallel_for(options.size(), [&](std::size_t i) {
@@ -123,7 +124,7 @@ double sureness(const Rival& first, const Rival& other) {
 // Keeps the first option and those that the selected tests cannot distinguish from it. An option
 // that a few hundred tests separate this clearly, all tests separate even more clearly, so it
 // cannot be in a set.
-void drop_told_apart(const Search& search, const NoiseModel& noise, Options& options) {
+void drop_told_apart(const Search& search, const stats::NoiseModel& noise, Options& options) {
   if (options.size() < 2) return;
   const std::vector<Rival> fits = rivals_of(search, selected(search.campaign()), options, noise);
   Options kept;
@@ -180,9 +181,9 @@ std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>
   std::vector<Cause> causes = search.last().causes;
   effects.push_back(plain_effect(search, suspects.front().cause));
   causes.push_back(suspects.front().cause);
-  const NoiseModel noise = fit_rival(search.campaign(), search.last(), effects, causes,
-                                     search.last().noise, NoiseSearch::again)
-                               .noise;
+  const stats::NoiseModel noise = fit_rival(search.campaign(), search.last(), effects, causes,
+                                            search.last().noise, NoiseSearch::again)
+                                      .noise;
   fit_options(search, noise, options);
   sort_options(options);
   Options best; // best option of each cause
@@ -222,16 +223,17 @@ public:
       : s_(search), cause_(winner.causes[index]),
         whitener_(winner.noise, winner.predicted, search.blocks, search.campaign().nuisance) {
     MatrixXd known = search.base.jacobian;
-    append_columns(known, search.trained());
+    stats::append_columns(known, search.trained());
     for (std::size_t i = 0; i < winner.effects.size(); ++i) {
       const VectorXd& sensitivity = search.sensitivities()[site_of(winner.effects[i])];
       // Empty if, with the effects found since, its site no longer changes tau_R anywhere.
       if (i != index && sensitivity.size() > 0)
-        append_columns(known, sensitivity.asDiagonal() *
+        stats::append_columns(known,
+                              sensitivity.asDiagonal() *
                                   amplitude_basis(winner.effects[i], search.candidates.by_symbol));
     }
     whitener_.apply(known);
-    known_ = orthonormal(known);
+    known_ = stats::orthonormal(known);
     MatrixXd target = to_explain(search, winner, index);
     whitener_.apply(target);
     target_ = target.col(0) - known_ * (known_.transpose() * target.col(0));
@@ -282,7 +284,7 @@ private:
     if (!option.effect.form->penalty) return; // a text column has one form
     MatrixXd basis = basis_of(s_, option.effect);
     whitener_.apply(basis);
-    const SmoothFit fit = fit_smooth(target_, basis, option.penalty, known_);
+    const stats::SmoothFit fit = stats::fit_smooth(target_, basis, option.penalty, known_);
     Start start{std::move(option.effect), fit.without - fit.criterion};
     start.effect.stiffness = fit.stiffness;
     effects::set_fitted(start.effect,
@@ -292,7 +294,7 @@ private:
 
   const Search& s_;
   const Cause& cause_;
-  Whitener whitener_;
+  stats::Whitener whitener_;
   MatrixXd known_;
   VectorXd target_;
 };

@@ -189,18 +189,18 @@ private:
 
   bool no_validation() const { return in_.validation.experiments.empty(); }
 
-  std::vector<calibrate::ErrorSums> on_validation(const Rival& rival) const {
-    return calibrate::error_sums(in_.validation,
-                                 calibrate::predict(s_.model_of(rival), in_.validation));
+  std::vector<stats::ErrorSums> on_validation(const Rival& rival) const {
+    return stats::error_sums(in_.validation,
+                             calibrate::predict(s_.model_of(rival), in_.validation));
   }
 
-  std::vector<calibrate::ErrorSums> calibrated_on_validation() const {
-    return calibrate::error_sums(in_.validation, calibrate::predict(in_.fit.model, in_.validation));
+  std::vector<stats::ErrorSums> calibrated_on_validation() const {
+    return stats::error_sums(in_.validation, calibrate::predict(in_.fit.model, in_.validation));
   }
 
   // Gain of `with` compared with `without` on the same tests.
-  Difference gained(const std::vector<calibrate::ErrorSums>& with,
-                    const std::vector<calibrate::ErrorSums>& without) const {
+  Difference gained(const std::vector<stats::ErrorSums>& with,
+                    const std::vector<stats::ErrorSums>& without) const {
     const calibrate::LawErrors laws[] = {{"after", with}, {"before", without}};
     const calibrate::Comparisons compared = calibrate::compare(laws, in_.bootstrap, in_.seed);
     return compared.pairs.empty() ? Difference{} : compared.pairs.front().mae;
@@ -262,8 +262,8 @@ private:
       if (!in_.searched.empty()) return calibrated_on_validation();
       return no_validation() ? calibrate::sums_of(in_.fit.unseen) : on_validation(rival);
     };
-    const std::vector<calibrate::ErrorSums> with = unseen(d_.rival, !d_.findings.empty()),
-                                            without = unseen(d_.baseline, false);
+    const std::vector<stats::ErrorSums> with = unseen(d_.rival, !d_.findings.empty()),
+                                        without = unseen(d_.baseline, false);
     t_.before = {errors(in_.training, d_.baseline),
                  calibrate::metrics(without, in_.bootstrap, in_.seed)};
     t_.after = t_.before;

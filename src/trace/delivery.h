@@ -10,12 +10,12 @@ namespace frictab::trace {
 
 // The delivered law and the law that it is compared with, under the same kind of weights.
 struct Delivery {
-  std::vector<std::size_t> findings; // in the law, in order
-  Rival rival;                       // the law with them
-  std::vector<double> gain_MPa;      // of each: MAE on the unseen tests without it minus with it
-  Rival baseline;                    // the law without them
-  NestedErrors nested;               // folds = 0: nothing was found
-  std::vector<calibrate::ErrorSums> unseen; // of the rival, per unseen test
+  std::vector<std::size_t> findings;    // in the law, in order
+  Rival rival;                          // the law with them
+  std::vector<double> gain_MPa;         // of each: MAE on the unseen tests without it minus with it
+  Rival baseline;                       // the law without them
+  NestedErrors nested;                  // folds = 0: nothing was found
+  std::vector<stats::ErrorSums> unseen; // of the rival, per unseen test
   // the validation tests contradict a finding, which is therefore not delivered
   bool contradicted = false;
 };

@@ -9,8 +9,8 @@
 #include <Eigen/Cholesky>
 #include <gsl/gsl_cdf.h>
 
+#include "stats/projection.h"
 #include "trace/candidate_tests.h"
-#include "trace/projection.h"
 
 namespace frictab::trace {
 
@@ -41,16 +41,16 @@ public:
 
   // Returns each test's information about all of them, in that order.
   std::vector<MatrixXd> information(const data::Dataset& data) const {
-    const Blocks blocks = make_blocks(data, search_.blocks.most);
+    const stats::Blocks blocks = stats::make_blocks(data, search_.blocks.most);
     const Rival& first = *rivals_[0];
     const models::Model model = search_.model_of(first);
     const std::vector<double> tau = calibrate::predict(model, data);
     MatrixXd columns(static_cast<Index>(blocks.count()), 0);
     for (std::size_t p = 0; p < first.parameters.size(); ++p)
-      if (!is_of_last(first, p)) append_columns(columns, slope(model, p, data, tau, blocks));
+      if (!is_of_last(first, p)) stats::append_columns(columns, slope(model, p, data, tau, blocks));
     for (const Rival* rival : rivals_)
-      append_columns(columns, blocks.mean(of_last_effect(*rival, data)));
-    const Whitener whitener(first.noise, blocks.mean(tau), blocks);
+      stats::append_columns(columns, blocks.mean(of_last_effect(*rival, data)));
+    const stats::Whitener whitener(first.noise, blocks.mean(tau), blocks);
     whitener.apply(columns);
     std::vector<MatrixXd> each;
     for (std::size_t e = 0; e < blocks.experiments(); ++e) {
@@ -80,7 +80,7 @@ private:
   }
 
   static VectorXd slope(models::Model model, std::size_t p, const data::Dataset& data,
-                        const std::vector<double>& tau, const Blocks& blocks) {
+                        const std::vector<double>& tau, const stats::Blocks& blocks) {
     const double step = 1e-5 * std::max(std::abs(model.parameters[p]), 1e-3);
     model.parameters[p] += step;
     std::vector<double> moved = calibrate::predict(model, data);

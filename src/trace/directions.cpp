@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "trace/projection.h"
+#include "stats/projection.h"
 
 namespace frictab::trace {
 
@@ -53,7 +53,7 @@ MatrixXd any_form(const Cause& cause, const Candidates& candidates) {
   }
   MatrixXd all;
   for (Index l = 0; l < levels.cols(); ++l)
-    append_columns(all, levels.col(l).asDiagonal() * hat_functions(product));
+    stats::append_columns(all, levels.col(l).asDiagonal() * hat_functions(product));
   return all;
 }
 
@@ -65,7 +65,8 @@ MatrixXd fitted_directions(const Campaign& campaign, const Rival& rival,
   for (std::size_t i = 0; i < rival.effects.size(); ++i) {
     const VectorXd& sensitivity = sensitivities[site_of(rival.effects[i])];
     if (sensitivity.size() == 0) continue;
-    append_columns(all, sensitivity.asDiagonal() * any_form(rival.causes[i], campaign.candidates));
+    stats::append_columns(all, sensitivity.asDiagonal() *
+                                   any_form(rival.causes[i], campaign.candidates));
   }
   return all;
 }

@@ -27,7 +27,7 @@ double p_of_t(double t, double degrees) {
 }
 
 // Subtracts the mean of each test.
-VectorXd within_tests(const Blocks& blocks, VectorXd x) {
+VectorXd within_tests(const stats::Blocks& blocks, VectorXd x) {
   for (std::size_t e = 0; e < blocks.experiments(); ++e) {
     const auto first = static_cast<Index>(blocks.first[e]);
     auto part = x.segment(first, static_cast<Index>(blocks.first[e + 1]) - first);
@@ -36,7 +36,7 @@ VectorXd within_tests(const Blocks& blocks, VectorXd x) {
   return x;
 }
 
-Looked look_within(const Blocks& blocks, const VectorXd& x, const VectorXd& residual) {
+Looked look_within(const stats::Blocks& blocks, const VectorXd& x, const VectorXd& residual) {
   const VectorXd products = within_tests(blocks, x).cwiseProduct(within_tests(blocks, residual));
   const VectorXd scores = blocks.experiment_means(products);
   const double size = within_tests(blocks, x).squaredNorm(), n = static_cast<double>(scores.size());
@@ -45,7 +45,7 @@ Looked look_within(const Blocks& blocks, const VectorXd& x, const VectorXd& resi
   return {p_of_t(scores.mean() * std::sqrt(n) / spread, n - 1), products.sum() / size};
 }
 
-Looked look_between(const Blocks& blocks, const VectorXd& x, const VectorXd& residual) {
+Looked look_between(const stats::Blocks& blocks, const VectorXd& x, const VectorXd& residual) {
   const VectorXd of_x = blocks.experiment_means(x), of_residual = blocks.experiment_means(residual);
   const VectorXd a = of_x.array() - of_x.mean(), b = of_residual.array() - of_residual.mean();
   const double size = a.squaredNorm(), n = static_cast<double>(a.size());

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "data/shares.h"
-#include "trace/projection.h"
+#include "stats/projection.h"
 
 namespace frictab::trace {
 
@@ -25,7 +25,7 @@ double median_of(std::vector<double> x) {
 }
 
 double squares_left(const VectorXd& y, const MatrixXd& columns) {
-  const MatrixXd q = orthonormal(columns);
+  const MatrixXd q = stats::orthonormal(columns);
   return std::max((y - q * (q.transpose() * y)).squaredNorm(), 1e-300);
 }
 
@@ -78,7 +78,7 @@ TestGains test_gains(const data::Dataset& data, std::span<const double> predicte
 }
 
 double scatter_between(const VectorXd& gain, const VectorXd& variance, const MatrixXd& known) {
-  const double free = static_cast<double>(gain.size() - orthonormal(known).cols());
+  const double free = static_cast<double>(gain.size() - stats::orthonormal(known).cols());
   if (free < 1) return 0;
   const auto excess = [&](double scatter) { // positive if the scatter is larger than that
     const VectorXd w = (scatter + variance.array() + 1e-18).inverse().sqrt();

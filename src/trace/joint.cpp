@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "stats/projection.h"
 #include "trace/order_search.h"
-#include "trace/projection.h"
 #include "trace/shapes.h"
 #include "trace/terms.h"
 
@@ -189,7 +189,7 @@ private:
   }
 
   void find_imitated() {
-    const MatrixXd states = orthonormal(state_means(s_.candidates, s_.blocks));
+    const MatrixXd states = stats::orthonormal(state_means(s_.candidates, s_.blocks));
     for (std::size_t c = 0; c < s_.candidates.columns.size(); ++c) {
       const CandidateColumn& column = s_.candidates.columns[c];
       imitated_.push_back(0);
@@ -212,7 +212,7 @@ private:
                       std::max(waves.col(k).norm(), 1e-300) / static_cast<double>(k + 1);
     MatrixXd per_block(static_cast<Index>(s_.blocks.count()), 0);
     for (const auto& [site, changes] : sites_)
-      append_columns(per_block, functions_on_blocks(waves, changes, s_.first()));
+      stats::append_columns(per_block, functions_on_blocks(waves, changes, s_.first()));
     offer_.walk = causes_.size();
     causes_.emplace_back();
     offer_.cause.push_back(count_of_causes_++);
@@ -234,7 +234,7 @@ private:
     MatrixXd law = MatrixXd::Ones(floor_.size(), 1);
     for (const MatrixXd* directions : {&s_.last().jacobian, &s_.trained(), &s_.campaign().nuisance})
       if (directions->cols() > 0)
-        append_columns(law, floor_.cwiseInverse().asDiagonal() * *directions);
+        stats::append_columns(law, floor_.cwiseInverse().asDiagonal() * *directions);
     for (Index i = 1; i < law.cols(); ++i)
       law.col(i) /=
           std::max(law.col(i).norm() / std::sqrt(static_cast<double>(law.rows())), 1e-300);

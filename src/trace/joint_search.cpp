@@ -11,7 +11,7 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/random.h"
-#include "trace/projection.h"
+#include "stats/projection.h"
 
 namespace frictab::trace {
 
@@ -207,7 +207,7 @@ private:
 // Two-sided p-value of the last column given the others, with errors robust to unequal variances of
 // the rows (HC3).
 double p_by_hc3(const VectorXd& y, const MatrixXd& columns) {
-  const MatrixXd q = orthonormal(columns.leftCols(columns.cols() - 1));
+  const MatrixXd q = stats::orthonormal(columns.leftCols(columns.cols() - 1));
   VectorXd own = columns.rightCols(1);
   own -= q * (q.transpose() * own).eval();
   const auto free = static_cast<double>(y.size() - q.cols() - 1);
@@ -391,7 +391,7 @@ private:
         if (fit.columns[i] >= own.first && fit.columns[i] < own.first + own.count)
           curve += fit.coefficients(static_cast<Index>(i)) *
                    data.columns.col(fit.columns[i]).head(tests);
-      append_columns(columns, curve);
+      stats::append_columns(columns, curve);
     }
     return p_by_hc3(data.response.head(tests), columns) < s_.alpha;
   }

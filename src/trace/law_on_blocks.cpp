@@ -9,7 +9,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "trace/gram.h"
+#include "stats/gram.h"
 
 namespace frictab::trace {
 
@@ -95,11 +95,11 @@ VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd& jaco
 namespace {
 
 // Above this number of blocks, a step is first tried without derivatives.
-constexpr auto many_blocks = static_cast<Index>(block_budget);
+constexpr auto many_blocks = static_cast<Index>(stats::block_budget);
 
 class BlockSolver {
 public:
-  BlockSolver(const LawOnBlocks& law, const VectorXd& measured, const Whitener& whitener,
+  BlockSolver(const LawOnBlocks& law, const VectorXd& measured, const stats::Whitener& whitener,
               const Penalty& penalty, const VectorXd& weight, FitEnd end)
       : law_(law), measured_(measured), whitener_(whitener), penalty_(penalty), weight_(weight),
         end_(end) {}
@@ -190,7 +190,7 @@ private:
   // Computes the parts of a step that do not depend on the damping.
   void prepare(Point& here) const {
     const auto jacobian = here.all.rightCols(here.all.cols() - 1);
-    here.normal = gram(jacobian);
+    here.normal = stats::gram(jacobian);
     here.gradient = jacobian.transpose() * here.all.col(0);
     if (penalty_.matrix.size() > 0) {
       here.normal += penalty_.matrix;
@@ -224,7 +224,7 @@ private:
 
   const LawOnBlocks& law_;
   const VectorXd& measured_;
-  const Whitener& whitener_;
+  const stats::Whitener& whitener_;
   const Penalty& penalty_;
   const VectorXd& weight_;
   FitEnd end_;
@@ -234,9 +234,9 @@ private:
 
 } // namespace
 
-BlockFit fit_blocks(const LawOnBlocks& law, const VectorXd& measured, const Whitener& whitener,
-                    std::vector<double> start, const Penalty& penalty, const VectorXd& weight,
-                    FitEnd end) {
+BlockFit fit_blocks(const LawOnBlocks& law, const VectorXd& measured,
+                    const stats::Whitener& whitener, std::vector<double> start,
+                    const Penalty& penalty, const VectorXd& weight, FitEnd end) {
   for (std::size_t p = 0; p < start.size(); ++p)
     start[p] = std::clamp(start[p], law.parameters()[p].lower, law.parameters()[p].upper);
   return BlockSolver(law, measured, whitener, penalty, weight, end).run(std::move(start));

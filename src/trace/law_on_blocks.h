@@ -16,7 +16,7 @@
 
 #include "expr/program.h"
 #include "models/law.h"
-#include "trace/noise.h"
+#include "stats/noise.h"
 
 namespace frictab::trace {
 
@@ -69,7 +69,7 @@ struct Penalty {
 // the noise of the folds depends on the remaining digits, and with it the nested log score, by up
 // to 3 %.)
 BlockFit fit_blocks(const LawOnBlocks& law, const Eigen::VectorXd& measured,
-                    const Whitener& whitener, std::vector<double> start,
+                    const stats::Whitener& whitener, std::vector<double> start,
                     const Penalty& penalty = {}, const Eigen::VectorXd& weight = {},
                     FitEnd end = {});
 

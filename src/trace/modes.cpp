@@ -35,7 +35,8 @@ std::size_t Modes::class_of(std::size_t mode) {
   return mode < 2 ? mode : mode < 4 ? 2 : 3;
 }
 
-Modes::Modes(const Blocks& blocks) : first_block_(blocks.first), of_test_(blocks.experiments()) {
+Modes::Modes(const stats::Blocks& blocks)
+    : first_block_(blocks.first), of_test_(blocks.experiments()) {
   const std::size_t most =
       std::clamp(most_modes / std::max<std::size_t>(tests(), 1), least_pieces, most_pieces);
   for (std::size_t pieces = 0; pieces <= most; ++pieces)

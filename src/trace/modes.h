@@ -13,7 +13,7 @@
 
 #include <Eigen/Core>
 
-#include "trace/blocks.h"
+#include "stats/blocks.h"
 
 namespace frictab::trace {
 
@@ -21,7 +21,7 @@ inline constexpr std::size_t mode_classes = 4; // gain | slope | two slow waves 
 
 class Modes {
 public:
-  explicit Modes(const Blocks& blocks);
+  explicit Modes(const stats::Blocks& blocks);
 
   // Transforms columns of block values to modes x columns, sorted by class.
   Eigen::MatrixXd of(const Eigen::Ref<const Eigen::MatrixXd>& per_block) const;

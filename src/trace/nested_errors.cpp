@@ -40,13 +40,13 @@ VectorXd relative_errors(const data::Dataset& data, const std::vector<double>& p
 // Log density per test, up to a constant. Student's t over the test as a whole, so that one test
 // for which a fold's noise model is overconfident does not outweigh all others.
 VectorXd scores(const data::Dataset& data, const std::vector<double>& predicted,
-                const NoiseModel& noise, const Blocks& fitted) {
-  Blocks blocks = make_blocks(data, fitted.most);
+                const stats::NoiseModel& noise, const stats::Blocks& fitted) {
+  stats::Blocks blocks = stats::make_blocks(data, fitted.most);
   blocks.usual_rows = fitted.usual_rows; // the noise model's white part refers to it
   const VectorXd measured = blocks.mean(data.values("tau_R_MPa"));
   const VectorXd law = blocks.mean(predicted).cwiseMax(measured.cwiseAbs() / farthest);
   MatrixXd residual = measured - law;
-  const Whitener whitener(noise, law, blocks);
+  const stats::Whitener whitener(noise, law, blocks);
   whitener.apply(residual);
   VectorXd score = -0.5 * whitener.log_det();
   for (std::size_t e = 0; e < blocks.experiments(); ++e) {
@@ -158,7 +158,7 @@ private:
     const Rival one = weights == 0 ? rival : fit_rows_alike(search_.campaign(), rival).rival;
     try {
       const auto predicted = calibrate::predict(search_.model_of(one), left_out_);
-      return {calibrate::error_sums(left_out_, predicted), relative_errors(left_out_, predicted),
+      return {stats::error_sums(left_out_, predicted), relative_errors(left_out_, predicted),
               scores(left_out_, predicted, rival.noise, search_.blocks)};
     } catch (const InputError&) {
       return otherwise;

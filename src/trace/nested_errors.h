@@ -14,14 +14,14 @@
 
 #include <memory>
 
-#include "calibrate/resampling.h"
+#include "stats/resampling.h"
 #include "trace/search.h"
 
 namespace frictab::trace {
 
 // Errors of left-out tests, one entry per test.
 struct LeftOut {
-  std::vector<calibrate::ErrorSums> sums;
+  std::vector<stats::ErrorSums> sums;
   Eigen::VectorXd relative; // mean of |ln(measured / predicted)| over its rows
   Eigen::VectorXd score;
 };

@@ -9,7 +9,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "trace/projection.h"
+#include "stats/projection.h"
 
 namespace frictab::trace {
 
@@ -43,7 +43,7 @@ MatrixXd slow_directions(const Search& search, int most, std::size_t experiments
                              search.sensitivities()[site], search.first());
 }
 
-VectorXd scores_of(const Search& search, const Whitener& whitener, std::size_t site) {
+VectorXd scores_of(const Search& search, const stats::Whitener& whitener, std::size_t site) {
   return experiment_scores(search.residual(), search.sensitivities()[site], search.known(),
                            whitener, search.first());
 }
@@ -53,7 +53,7 @@ VectorXd scores_of(const Search& search, const Whitener& whitener, std::size_t s
 void measure_structure(Search& search, MatrixXd columns) {
   const MatrixXd raw = columns;
   MatrixXd residual = search.residual();
-  const Whitener weights = search.whitener();
+  const stats::Whitener weights = search.whitener();
   weights.apply(columns);
   weights.apply(residual);
   MatrixXd normal = columns.transpose() * columns;
@@ -172,12 +172,12 @@ void remove_order_structure(Search& search, double p_value, std::size_t site) {
 }
 
 OrderFound test_along_order(const Search& search) {
-  const Whitener weights = search.whitener();
+  const stats::Whitener weights = search.whitener();
   std::vector<std::size_t> tried;
   MatrixXd scores(static_cast<Index>(search.blocks.experiments()), 0);
   for (std::size_t site = 0; site < sites.size(); ++site) {
     if (search.sensitivities()[site].size() == 0) continue;
-    append_columns(scores, scores_of(search, weights, site));
+    stats::append_columns(scores, scores_of(search, weights, site));
     tried.push_back(site);
   }
   const OrderTest test =

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "core/random.h"
-#include "trace/projection.h"
+#include "stats/projection.h"
 
 namespace frictab::trace {
 
@@ -69,14 +69,14 @@ std::vector<std::size_t> ranks(std::span<const double> order) {
 }
 
 VectorXd experiment_scores(const VectorXd& residual, const VectorXd& sensitivity,
-                           const MatrixXd& fitted, const Whitener& whitener,
+                           const MatrixXd& fitted, const stats::Whitener& whitener,
                            std::span<const std::size_t> first) {
   MatrixXd all(residual.size(), fitted.cols() + 2);
   all.col(0) = residual;
   all.col(1) = sensitivity;
   all.rightCols(fitted.cols()) = fitted;
   whitener.apply(all);
-  const MatrixXd q = orthonormal(all.rightCols(fitted.cols()));
+  const MatrixXd q = stats::orthonormal(all.rightCols(fitted.cols()));
   const VectorXd r = all.col(0) - q * (q.transpose() * all.col(0));
   VectorXd scores(static_cast<Index>(first.size() - 1));
   for (Index e = 0; e < scores.size(); ++e) {

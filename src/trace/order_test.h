@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "trace/noise.h"
+#include "stats/noise.h"
 
 namespace frictab::trace {
 
@@ -16,7 +16,8 @@ namespace frictab::trace {
 // deviations under the noise model.
 Eigen::VectorXd experiment_scores(const Eigen::VectorXd& residual,
                                   const Eigen::VectorXd& sensitivity, const Eigen::MatrixXd& fitted,
-                                  const Whitener& whitener, std::span<const std::size_t> first);
+                                  const stats::Whitener& whitener,
+                                  std::span<const std::size_t> first);
 
 // Permutation test of the null hypothesis that the scores have no structure along the order. Three
 // statistics: likeness of tests up to six apart, the excursion of the cumulated sum, and slow

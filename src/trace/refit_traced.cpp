@@ -56,10 +56,10 @@ private:
 };
 
 // Errors of every experiment by the law fitted without its fold; empty if a fold lacks a column.
-std::vector<calibrate::ErrorSums> cross_validated(const Refitter& refitter, const Dataset& all,
-                                                  std::span<const std::size_t> fold_of) {
+std::vector<stats::ErrorSums> cross_validated(const Refitter& refitter, const Dataset& all,
+                                              std::span<const std::size_t> fold_of) {
   const std::size_t folds = *std::max_element(fold_of.begin(), fold_of.end()) + 1;
-  std::vector<calibrate::ErrorSums> errors(fold_of.size());
+  std::vector<stats::ErrorSums> errors(fold_of.size());
   std::vector<char> done(folds, 0);
   const Progress progress("fitting the traced law to all experiments", folds);
   parallel_for(folds, [&](std::size_t fold) {
@@ -70,7 +70,7 @@ std::vector<calibrate::ErrorSums> cross_validated(const Refitter& refitter, cons
     progress.tick();
     if (!model) return;
     const Dataset left_out = all.subset(out);
-    const auto sums = calibrate::error_sums(left_out, calibrate::predict(*model, left_out));
+    const auto sums = stats::error_sums(left_out, calibrate::predict(*model, left_out));
     for (std::size_t i = 0; i < out.size(); ++i)
       errors[out[i]] = sums[i];
     done[fold] = 1;

@@ -7,9 +7,9 @@
 
 #include <Eigen/Cholesky>
 
-#include "calibrate/resampling.h"
 #include "core/parallel.h"
-#include "trace/noise_fit.h"
+#include "stats/noise_fit.h"
+#include "stats/resampling.h"
 #include "trace/plausibility.h"
 #include "trace/shapes.h"
 
@@ -35,7 +35,7 @@ void take_parameters(Rival& rival, std::size_t own) {
   }
 }
 
-VectorXd by_experiment(const VectorXd& whitened, const Whitener& whitener,
+VectorXd by_experiment(const VectorXd& whitened, const stats::Whitener& whitener,
                        std::span<const std::size_t> first) {
   VectorXd value(static_cast<Index>(first.size() - 1));
   for (Index e = 0; e < value.size(); ++e) {
@@ -79,7 +79,7 @@ MatrixXd penalty_of(const Rival& rival) {
 }
 
 void tie_parameters(Campaign& campaign, const Rival& base, double share) {
-  const Whitener whitener(base.noise, base.predicted, campaign.blocks);
+  const stats::Whitener whitener(base.noise, base.predicted, campaign.blocks);
   MatrixXd jacobian = base.jacobian;
   whitener.apply(jacobian);
   campaign.own = {share * jacobian.transpose() * jacobian,
@@ -107,7 +107,7 @@ Penalty penalties(const Campaign& campaign, const Rival& rival) {
 }
 
 // Effective number of parameters: penalised ones count by their remaining freedom.
-double freedom_of(const Rival& rival, const Whitener& whitener) {
+double freedom_of(const Rival& rival, const stats::Whitener& whitener) {
   const auto count = static_cast<Index>(rival.parameters.size());
   const MatrixXd penalty = penalty_of(rival);
   if (penalty.size() == 0) return static_cast<double>(count);
@@ -129,7 +129,7 @@ bool is_possible(const Rival& rival, const Campaign& campaign) {
 }
 
 void evaluate(Rival& rival, const Campaign& campaign) {
-  const Whitener whitener(rival.noise, rival.predicted, campaign.blocks, campaign.nuisance);
+  const stats::Whitener whitener(rival.noise, rival.predicted, campaign.blocks, campaign.nuisance);
   MatrixXd residual = campaign.measured - rival.predicted;
   whitener.apply(residual);
   rival.log_likelihood = by_experiment(residual.col(0), whitener, campaign.blocks.first);
@@ -194,7 +194,8 @@ FitEnd end_of_fit(const Campaign& campaign, NoiseSearch search) {
 // tests, under its noise.
 Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
                     std::vector<Cause> causes, std::span<const double> parameters,
-                    const NoiseModel& noise, NoiseSearch search, bool from_selection = false) {
+                    const stats::NoiseModel& noise, NoiseSearch search,
+                    bool from_selection = false) {
   const std::size_t own = campaign.law.parameters.size();
   Rival rival;
   rival.own = own;
@@ -210,7 +211,8 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
   const FitEnd end = end_of_fit(campaign, search);
   const auto refit = [&](const LawOnBlocks& with) {
     rival.predicted = with.predict(rival.parameters);
-    const Whitener whitener(rival.noise, rival.predicted, campaign.blocks, campaign.nuisance);
+    const stats::Whitener whitener(rival.noise, rival.predicted, campaign.blocks,
+                                   campaign.nuisance);
     BlockFit fit =
         fit_blocks(with, campaign.measured, whitener, rival.parameters, penalty, {}, end);
     rival.parameters = std::move(fit.parameters);
@@ -227,12 +229,12 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
   for (const bool first : {true, false}) {
     if (search != NoiseSearch::again || from_selection) break;
     const VectorXd residual = campaign.measured - rival.predicted;
-    const NoiseData data{residual, rival.predicted, campaign.blocks, rival.jacobian,
-                         campaign.nuisance};
+    const stats::NoiseData data{residual, rival.predicted, campaign.blocks, rival.jacobian,
+                                campaign.nuisance};
     if (first)
-      rival.noise = refit_noise(campaign, data, rival.noise);
+      rival.noise = stats::refit_noise(campaign, data, rival.noise);
     else if (!campaign.quick)
-      rival.noise = refine_noise(data, rival.noise).noise;
+      rival.noise = stats::refine_noise(data, rival.noise).noise;
     else
       break;
     refit(law);
@@ -247,7 +249,7 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
 
 Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
                 std::vector<Cause> causes, std::span<const double> parameters,
-                const NoiseModel& noise, NoiseSearch search) {
+                const stats::NoiseModel& noise, NoiseSearch search) {
   if (!campaign.selection)
     return fit_on_blocks(campaign, std::move(effects), std::move(causes), parameters, noise,
                          search);
@@ -258,7 +260,7 @@ Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
 }
 
 Rival fit_rival(const Campaign& campaign, const Rival& from, std::vector<PlacedEffect> effects,
-                std::vector<Cause> causes, const NoiseModel& noise, NoiseSearch search) {
+                std::vector<Cause> causes, const stats::NoiseModel& noise, NoiseSearch search) {
   return fit_rival(campaign, std::move(effects), std::move(causes), own_parameters(campaign, from),
                    noise, search);
 }
@@ -267,7 +269,7 @@ namespace {
 
 // Fits noise to the selected tests if there is a selection, else to all.
 template <class Fit>
-NoiseModel noise_by(const Campaign& campaign, const NoiseData& data, const Fit& fit) {
+stats::NoiseModel noise_by(const Campaign& campaign, const stats::NoiseData& data, const Fit& fit) {
   if (!campaign.selection) return fit(data).noise;
   const auto& rows = campaign.selection->rows;
   const auto some = [&](const MatrixXd& all) {
@@ -280,13 +282,16 @@ NoiseModel noise_by(const Campaign& campaign, const NoiseData& data, const Fit& 
 
 } // namespace
 
-NoiseModel fit_noise(const Campaign& campaign, const NoiseData& data) {
-  return noise_by(campaign, data, [](const NoiseData& part) { return fit_noise(part); });
+stats::NoiseModel stats::fit_noise(const Campaign& campaign, const stats::NoiseData& data) {
+  return noise_by(campaign, data,
+                  [](const stats::NoiseData& part) { return stats::fit_noise(part); });
 }
 
-NoiseModel refit_noise(const Campaign& campaign, const NoiseData& data, const NoiseModel& earlier) {
-  return noise_by(campaign, data, [&](const NoiseData& part) {
-    return campaign.quick ? refit_noise_coarsely(part, earlier) : refit_noise(part, earlier);
+stats::NoiseModel stats::refit_noise(const Campaign& campaign, const stats::NoiseData& data,
+                                     const stats::NoiseModel& earlier) {
+  return noise_by(campaign, data, [&](const stats::NoiseData& part) {
+    return campaign.quick ? stats::refit_noise_coarsely(part, earlier)
+                          : stats::refit_noise(part, earlier);
   });
 }
 
@@ -302,8 +307,8 @@ Campaign selected(const Campaign& campaign) {
   return part;
 }
 
-NoiseModel rows_alike(const NoiseModel& noise) {
-  NoiseModel alike;
+stats::NoiseModel rows_alike(const stats::NoiseModel& noise) {
+  stats::NoiseModel alike;
   alike.scale = noise.scale;
   alike.growth = 0;
   alike.slow = 0;
@@ -311,11 +316,11 @@ NoiseModel rows_alike(const NoiseModel& noise) {
   return alike;
 }
 
-Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weights) {
+Rival with_weights(const Campaign& campaign, Rival rival, const stats::NoiseModel& weights) {
   const FitEnd end = campaign.selection ? end_of_fit(campaign, NoiseSearch::again) : FitEnd{};
   const LawOnBlocks law(bounded_law(campaign, rival), campaign.conventions,
                         campaign.candidates.by_symbol);
-  const Whitener whitener(weights, rival.predicted, campaign.blocks, campaign.nuisance);
+  const stats::Whitener whitener(weights, rival.predicted, campaign.blocks, campaign.nuisance);
   BlockFit fit = fit_blocks(law, campaign.measured, whitener, rival.parameters,
                             penalties(campaign, rival), {}, end);
   rival.parameters = std::move(fit.parameters);
@@ -359,7 +364,7 @@ std::vector<bool> not_told_apart(const std::vector<Rival>& rivals, std::uint64_t
   MatrixXd times(static_cast<Index>(resamples), experiments);
   std::vector<double> counts(static_cast<std::size_t>(experiments));
   for (Index b = 0; b < times.rows(); ++b) {
-    calibrate::resample(seed, static_cast<std::size_t>(b), counts);
+    stats::resample(seed, static_cast<std::size_t>(b), counts);
     times.row(b) = Eigen::Map<const VectorXd>(counts.data(), experiments);
   }
   std::vector<bool> same;

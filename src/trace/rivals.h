@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "stats/noise_fit.h"
 #include "trace/candidates.h"
 #include "trace/law_on_blocks.h"
-#include "trace/noise_fit.h"
 #include "trace/selection.h"
 
 namespace frictab::trace {
@@ -27,7 +27,7 @@ using Sensitivities = std::array<Eigen::VectorXd, sites.size()>;
 struct Campaign {
   const models::Law& law; // the traced law
   models::Conventions conventions;
-  const Blocks& blocks;
+  const stats::Blocks& blocks;
   const Candidates& candidates;
   Eigen::VectorXd measured; // per block; minus the error of evaluating the law at block means
   Eigen::MatrixXd nuisance; // per block: directions that may not explain anything
@@ -48,8 +48,8 @@ struct Rival {
   std::vector<Cause> causes;                  // one per effect
   std::vector<double> parameters;             // of the extended law
   std::size_t own = 0; // number of the law's own parameters, which come first
-  NoiseModel noise;
-  NoiseModel weights; // weights of the fit: the noise model, or equal for all rows
+  stats::NoiseModel noise;
+  stats::NoiseModel weights; // weights of the fit: the noise model, or equal for all rows
   Eigen::VectorXd predicted;
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd log_likelihood; // per experiment
@@ -71,17 +71,18 @@ enum class NoiseSearch { kept, again };
 // all tests.
 Rival fit_rival(const Campaign& campaign, std::vector<effects::PlacedEffect> effects,
                 std::vector<Cause> causes, std::span<const double> parameters,
-                const NoiseModel& noise, NoiseSearch search);
+                const stats::NoiseModel& noise, NoiseSearch search);
 
 // Fits `from` with more effects, or with one changed, starting at its own parameters.
 Rival fit_rival(const Campaign& campaign, const Rival& from,
                 std::vector<effects::PlacedEffect> effects, std::vector<Cause> causes,
-                const NoiseModel& noise, NoiseSearch search);
+                const stats::NoiseModel& noise, NoiseSearch search);
 
 // Fits the noise of a residual of the campaign's law, to the selected tests where it has a
 // selection: from scratch, or from an earlier fit of a residual that has changed since.
-NoiseModel fit_noise(const Campaign& campaign, const NoiseData& data);
-NoiseModel refit_noise(const Campaign& campaign, const NoiseData& data, const NoiseModel& earlier);
+stats::NoiseModel stats::fit_noise(const Campaign& campaign, const stats::NoiseData& data);
+stats::NoiseModel stats::refit_noise(const Campaign& campaign, const stats::NoiseData& data,
+                                     const stats::NoiseModel& earlier);
 
 // Penalty matrix of the smooth effects over all parameters, which a fit adds to its normal
 // equations. Empty if no effect is penalised.
@@ -102,12 +103,12 @@ Rival less_effect(Rival rival, std::size_t index);
 Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t index);
 
 // Fits the parameters of the same law under other weights.
-Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weights);
+Rival with_weights(const Campaign& campaign, Rival rival, const stats::NoiseModel& weights);
 
 // Returns weights equal for all rows: ordinary least squares. Where the law is right, the noise
 // model's weights predict better; where it is wrong, they may rely on the few rows that are least
 // correlated with others.
-NoiseModel rows_alike(const NoiseModel& noise);
+stats::NoiseModel rows_alike(const stats::NoiseModel& noise);
 
 // Returns the index in `sites` of the effect's site.
 std::size_t site_of(const effects::PlacedEffect& effect);

@@ -9,8 +9,8 @@
 #include <gsl/gsl_cdf.h>
 
 #include "calibrate/replicates.h"
-#include "trace/noise_fit.h"
-#include "trace/projection.h"
+#include "stats/noise_fit.h"
+#include "stats/projection.h"
 
 namespace frictab::trace {
 
@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 
 // Mean square of the measured rows about a straight line through each block: the noise averaged
 // away in block means.
-double within_blocks(const data::Dataset& training, const Blocks& blocks) {
+double within_blocks(const data::Dataset& training, const stats::Blocks& blocks) {
   const auto tau = training.values("tau_R_MPa");
   double sum = 0;
   for (std::size_t b = 0; b < blocks.count(); ++b) {
@@ -62,10 +62,10 @@ double excess_kurtosis(const VectorXd& values) {
 double modelled_variance(const Search& search, const Rival& last) {
   const VectorXd residual = search.campaign().measured - last.predicted;
   const MatrixXd& nuisance = search.campaign().nuisance;
-  const NoiseModel noise =
-      refit_noise(search.campaign(),
-                  {residual, last.predicted, search.blocks, last.jacobian, nuisance}, last.noise);
-  return Whitener(noise, last.predicted, search.blocks).variance().mean() +
+  const stats::NoiseModel noise = stats::refit_noise(
+      search.campaign(), {residual, last.predicted, search.blocks, last.jacobian, nuisance},
+      last.noise);
+  return stats::Whitener(noise, last.predicted, search.blocks).variance().mean() +
          within_blocks(search.input.training, search.blocks);
 }
 
@@ -117,12 +117,12 @@ void add_scatter(Trace& trace, const Search& search, const Rival& last) {
   const data::Dataset& training = search.input.training;
   const TestGains gains = test_gains(training, calibrate::predict(search.model_of(last), training));
   MatrixXd directions = last.jacobian;
-  append_columns(directions, search.campaign().nuisance);
+  stats::append_columns(directions, search.campaign().nuisance);
   const VectorXd law = last.predicted.cwiseMax(1e-3 * search.tau_scale_MPa);
   MatrixXd known = MatrixXd::Ones(gains.gain.size(), 1);
-  append_columns(known,
-                 search.blocks.experiment_means(law.cwiseInverse().asDiagonal() * directions));
-  const MatrixXd q = orthonormal(known);
+  stats::append_columns(
+      known, search.blocks.experiment_means(law.cwiseInverse().asDiagonal() * directions));
+  const MatrixXd q = stats::orthonormal(known);
   const VectorXd left = gains.gain - q * (q.transpose() * gains.gain);
   const double free = std::max(1.0, static_cast<double>(gains.gain.size() - q.cols()));
   const double degrees = std::max(1.0, free / (1 + 0.5 * excess_kurtosis(left)));

@@ -7,9 +7,9 @@
 
 #include "core/progress.h"
 #include "data/recordings.h"
+#include "stats/noise_fit.h"
+#include "stats/projection.h"
 #include "trace/directions.h"
-#include "trace/noise_fit.h"
-#include "trace/projection.h"
 
 namespace frictab::trace {
 
@@ -58,7 +58,7 @@ MatrixXd trained_directions(const std::vector<std::string>& inputs, const BlockC
 
 // Law in which the trained part becomes a column, so that a fit costs as little as for other laws:
 // only the scale of the large formula is fitted here.
-models::Law with_piece_as_column(const Model& model, const Blocks& blocks,
+models::Law with_piece_as_column(const Model& model, const stats::Blocks& blocks,
                                  const data::Dataset& data, BlockColumns& columns) {
   const models::Law& law = *model.law;
   const models::Formula formula = law.build(model.conventions);
@@ -79,10 +79,10 @@ models::Law with_piece_as_column(const Model& model, const Blocks& blocks,
 
 } // namespace
 
-Search::Search(const TraceInput& in, const NoiseModel* earlier) : input(in) {
+Search::Search(const TraceInput& in, const stats::NoiseModel* earlier) : input(in) {
   const Progress progress("columns and noise", 0);
   take_units();
-  blocks = make_blocks(in.training);
+  blocks = stats::make_blocks(in.training);
   make_candidates();
   make_campaign(earlier != nullptr);
   fit_base(earlier);
@@ -118,7 +118,7 @@ void Search::make_campaign(bool quick) {
   tau_scale_MPa = campaign_->measured.cwiseAbs().mean();
 }
 
-void Search::fit_base(const NoiseModel* earlier) {
+void Search::fit_base(const stats::NoiseModel* earlier) {
   const Model& model = input.fit.model;
   const LawOnBlocks law(surrogate_, model.conventions, candidates.by_symbol);
   MatrixXd jacobian;
@@ -127,8 +127,8 @@ void Search::fit_base(const NoiseModel* earlier) {
     trained_ = trained_directions(models::inputs(*model.law, model.conventions),
                                   candidates.by_symbol, predicted);
   const VectorXd residual = campaign_->measured - predicted;
-  const NoiseData data{residual, predicted, blocks, jacobian, trained_};
-  const NoiseModel noise = earlier ? *earlier : fit_noise(*campaign_, data);
+  const stats::NoiseData data{residual, predicted, blocks, jacobian, trained_};
+  const stats::NoiseModel noise = earlier ? *earlier : stats::fit_noise(*campaign_, data);
   base = fit_rival(*campaign_, {}, {}, model.parameters, noise, NoiseSearch::again);
   one_factor = one_factor_at_a_time(state_means(candidates, blocks));
   tie_parameters(*campaign_, base, one_factor ? tied_by_one_factor : tied);
@@ -150,7 +150,7 @@ void Search::move_to(Rival rival) {
   last_ = std::move(rival);
   sensitivities_ = sensitivities_of(*campaign_, last_, tau_scale_MPa);
   known_ = fitted_directions(*campaign_, last_, sensitivities_);
-  append_columns(known_, trained_);
+  stats::append_columns(known_, trained_);
 }
 
 void Search::fit_again() {
@@ -158,7 +158,7 @@ void Search::fit_again() {
                     NoiseSearch::again));
 }
 
-Whitener Search::whitener() const {
+stats::Whitener Search::whitener() const {
   return {last_.noise, last_.predicted, blocks, campaign_->nuisance};
 }
 

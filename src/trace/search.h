@@ -67,7 +67,7 @@ public:
   // Prepares candidates, their shapes and the law without effects. Columns that come from the model
   // (friction work) use the model of `input.fit`. `earlier`: noise of the law on all tests, from
   // which a fold starts its own coarse fit.
-  explicit Search(const TraceInput& input, const NoiseModel* earlier = nullptr);
+  explicit Search(const TraceInput& input, const stats::NoiseModel* earlier = nullptr);
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
 
@@ -79,7 +79,7 @@ public:
   const Campaign& campaign() const { return *campaign_; }
   std::span<const std::size_t> first() const { return blocks.first; }
   Eigen::VectorXd residual() const { return campaign_->measured - last_.predicted; }
-  Whitener whitener() const;
+  stats::Whitener whitener() const;
   // Whether the residual is only rounding, so that nothing can be found.
   bool negligible() const;
 
@@ -98,7 +98,7 @@ public:
   bool enough_units() const;
 
   const TraceInput& input;
-  Blocks blocks;
+  stats::Blocks blocks;
   Candidates candidates;
   Eigen::VectorXd gains; // per test, of the calibrated law (gains.h); not filled in a fold
   double tau_scale_MPa = 1;
@@ -122,7 +122,7 @@ public:
 private:
   void make_candidates();
   void make_campaign(bool quick);
-  void fit_base(const NoiseModel* earlier);
+  void fit_base(const stats::NoiseModel* earlier);
 
   models::Law surrogate_;   // of a trained law: its trained part as a column
   Eigen::MatrixXd trained_; // directions that a trained law could have absorbed

@@ -24,8 +24,8 @@ std::vector<std::size_t> draw(std::size_t tests, std::uint64_t seed) {
   return drawn;
 }
 
-Blocks blocks_of(const Blocks& all, const std::vector<std::size_t>& tests) {
-  Blocks some;
+stats::Blocks blocks_of(const stats::Blocks& all, const std::vector<std::size_t>& tests) {
+  stats::Blocks some;
   some.most = all.most;
   some.usual_rows = all.usual_rows;
   some.first = {0};
@@ -45,8 +45,8 @@ Blocks blocks_of(const Blocks& all, const std::vector<std::size_t>& tests) {
 
 } // namespace
 
-std::shared_ptr<const Selection> select_tests(const Blocks& blocks, const Candidates& candidates,
-                                              std::uint64_t seed) {
+std::shared_ptr<const Selection> select_tests(const stats::Blocks& blocks,
+                                              const Candidates& candidates, std::uint64_t seed) {
   if (blocks.experiments() <= selected_tests) return nullptr;
   const std::vector<std::size_t> tests = draw(blocks.experiments(), seed);
   auto some = std::make_shared<Selection>();

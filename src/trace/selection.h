@@ -11,19 +11,19 @@ namespace frictab::trace {
 
 struct Selection {
   std::vector<Eigen::Index> rows; // indices of the selected tests' blocks
-  Blocks blocks;                  // blocks of these tests; `usual_rows` is that of all tests
+  stats::Blocks blocks;           // blocks of these tests; `usual_rows` is that of all tests
   Candidates candidates;          // with values in by_symbol only, none in the columns
   double share = 1;               // of all blocks
 };
 
 // As many as in the largest campaign that is not reduced. (200 tests determine a standard deviation
 // between tests to 1/sqrt(2 x 200) = 5 %, which changes no weight that matters.)
-inline constexpr std::size_t selected_tests = uncut_experiments;
+inline constexpr std::size_t selected_tests = stats::uncut_experiments;
 
 // Selects evenly over the tests in their sorted order: from each of 200 runs of neighbours one,
 // drawn by `seed`. (Equal steps could hit the same level of a factorial design every time.) Returns
 // nullptr if the campaign has no more tests than that.
-std::shared_ptr<const Selection> select_tests(const Blocks& blocks, const Candidates& candidates,
-                                              std::uint64_t seed);
+std::shared_ptr<const Selection> select_tests(const stats::Blocks& blocks,
+                                              const Candidates& candidates, std::uint64_t seed);
 
 } // namespace frictab::trace

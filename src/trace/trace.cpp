@@ -95,7 +95,7 @@ private:
   void judge(Trace& trace) const {
     calibrate::ModelFit& fit = trace.extended;
     if (!in_.searched.empty()) {
-      std::vector<calibrate::ErrorSums> sums;
+      std::vector<stats::ErrorSums> sums;
       for (std::size_t i = 0; i < in_.searched.size(); ++i) {
         sums.push_back(delivery_.unseen[in_.searched[i]]);
         fit.unseen.push_back(

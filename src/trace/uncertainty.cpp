@@ -11,7 +11,8 @@ namespace {
 // Contribution of each test to the sandwich, from whitened residuals. (Nuisance columns are
 // projected out of all tests together; the share of a single test in them is ignored.)
 std::vector<calibrate::ExperimentSums> sums_by_test(const Campaign& campaign, const Rival& rival) {
-  const Whitener whitener(rival.weights, rival.predicted, campaign.blocks, campaign.nuisance);
+  const stats::Whitener whitener(rival.weights, rival.predicted, campaign.blocks,
+                                 campaign.nuisance);
   MatrixXd jacobian = rival.jacobian;
   MatrixXd residual = campaign.measured - rival.predicted;
   whitener.apply(jacobian);

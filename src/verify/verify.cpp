@@ -13,7 +13,7 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/text.h"
-#include "table/bound.h"
+#include "proof/bound.h"
 #include "table/outside.h"
 #include "verify/answers.h"
 #include "verify/beyond.h"
@@ -36,7 +36,7 @@ struct Subjects {
   Probe below; // the range, at lower contact normal stresses: BelowRange
   std::vector<table::StateRange> ranges_below;
   std::optional<BelowRange> where;
-  table::ProvenDrift proven; // empty where the table's own record is known
+  proof::ProvenDrift proven; // empty where the table's own record is known
 };
 
 // What every source is compared with.
@@ -91,7 +91,7 @@ Subjects prepare(const VerifyInput& input) {
       worst.push_back({input.known->worst_state.at(name)});
   } else {
     s.proven =
-        table::prove_drift(input.law, input.table, s.ranges,
+        proof::prove_drift(input.law, input.table, s.ranges,
                            table::worst_case(reference.law, reference.table, s.ranges, s.range),
                            input.max_drift_MPa, input.proof_boxes);
     for (const double x : s.proven.worst.state)

@@ -9,7 +9,7 @@
 #include "calibrate/calibration_file.h"
 #include "core/text.h"
 #include "io/atomic_file.h"
-#include "table/bound.h"
+#include "proof/bound.h"
 #include "table/table_file.h"
 
 namespace frictab {
@@ -69,7 +69,7 @@ void print_row(const std::filesystem::path& directory, const std::filesystem::pa
   const Model model = calibrate::parse_model(io::read_file(source), source.string());
   const auto ranges = table::table_ranges(table, nullptr, file.string());
   const table::TableFunction function(table);
-  const table::ProvenDrift drift = table::prove_drift(
+  const proof::ProvenDrift drift = proof::prove_drift(
       AssembledLaw(model), table, ranges,
       table::worst_case(table::LawFunction(AssembledLaw(model), function.inputs()), function,
                         ranges, table::probe_points(ranges, table.axes, samples)),

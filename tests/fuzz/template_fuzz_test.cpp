@@ -4,15 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codegen/template.h"
+#include "core/template.h"
 #include "core/random.h"
 
 namespace frictab::template_fuzz_test {
 
 namespace {
 
-codegen::TemplateValues values() {
-  codegen::TemplateValues item, all;
+TemplateValues values() {
+  TemplateValues item, all;
   item.text["n"] = "1\n2";
   item.flags["f"] = true;
   all.text["x"] = "text";
@@ -56,7 +56,7 @@ TEST(TemplateFuzz, EveryTextRendersOrIsRefusedWithAPlace) {
       text +=
           "@{x}\n@if f\n@end\n@for w in rows\n@{w.n}\n@if w.f\n@end\n@end\n@for v in none\n@end\n";
     try {
-      codegen::render(text, "fuzz", values());
+      render(text, "fuzz", values());
       ++rendered;
     } catch (const std::logic_error& error) {
       ++refused;

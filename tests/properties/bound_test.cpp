@@ -8,16 +8,16 @@
 #include "support/law_parameter.h"
 #include "support/polynomial_model.h"
 #include "support/sample_data.h"
-#include "table/bound.h"
+#include "proof/bound.h"
 
 namespace frictab::bound_test {
 
 using models::AssembledLaw;
 using models::Model;
-using table::bound_drift;
-using table::DriftBound;
+using proof::bound_drift;
+using proof::DriftBound;
 using table::Interpolation;
-using table::rounded_up;
+using rounded_up;
 
 namespace {
 
@@ -55,8 +55,8 @@ class SlowBoundOfEveryLaw : public testing::TestWithParam<std::string> {};
 TEST_P(SlowBoundOfEveryLaw, IsAboveTheLargestDriftFoundByHalfOfItAtMost) {
   for (const Interpolation interpolation : table::grid_interpolations) {
     const Case one = of_law(GetParam(), interpolation);
-    const table::ProvenDrift proven =
-        table::prove_drift(AssembledLaw(one.model), one.table, one.ranges, one.worst, 0.5);
+    const proof::ProvenDrift proven =
+        proof::prove_drift(AssembledLaw(one.model), one.table, one.ranges, one.worst, 0.5);
     ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
     EXPECT_GE(*proven.bound.MPa, one.worst.drift_MPa);
     EXPECT_LT(*proven.bound.MPa, 1.5 * proven.worst.drift_MPa + 1e-8)
@@ -77,8 +77,8 @@ TEST(Bound, IsAboveATableThatIsWrong) {
         table::worst_case(table::LawFunction(AssembledLaw(one.model), function.inputs()), function,
                           one.ranges, table::probe_points(one.ranges, one.table.axes, 20000));
     EXPECT_GT(worst.drift_MPa, 2.0);
-    const table::ProvenDrift proven =
-        table::prove_drift(AssembledLaw(one.model), one.table, one.ranges, worst, 0.5);
+    const proof::ProvenDrift proven =
+        proof::prove_drift(AssembledLaw(one.model), one.table, one.ranges, worst, 0.5);
     ASSERT_TRUE(proven.bound.MPa);
     EXPECT_GE(*proven.bound.MPa, worst.drift_MPa);
     EXPECT_LT(*proven.bound.MPa, 1.5 * worst.drift_MPa);
@@ -89,7 +89,7 @@ TEST(Bound, ClosesOnTheLargestDriftAndShowsThatTheSearchFound99Percent) {
   for (const char* law : {"levanov", "wanheim_bay"})
     for (const Interpolation interpolation : table::grid_interpolations) {
       const Case one = of_law(law, interpolation);
-      table::BoundOptions options;
+      proof::BoundOptions options;
       options.goal_MPa = 1.004 * one.worst.drift_MPa;
       options.most_boxes = 8'000'000;
       const DriftBound bound = bound_drift(AssembledLaw(one.model), one.table, one.ranges, options);
@@ -105,8 +105,8 @@ TEST(SlowBound, OfANetworkThatBendsInFiveStatesIsCloseToo) {
       {"sigma_n_MPa", 500, 2750, ""}, {"psi", 1, 20, ""},  {"v_rel_mm_s", 5, 500, ""},
       {"T_contact_C", 20, 200, ""},   {"s_mm", 0, 40, ""}, {"sigma_f_MPa", 250, 1200, ""}};
   const Case one = with_table(model, ranges, Interpolation::cubic, 1);
-  const table::ProvenDrift proven =
-      table::prove_drift(AssembledLaw(model), one.table, ranges, one.worst, 1);
+  const proof::ProvenDrift proven =
+      proof::prove_drift(AssembledLaw(model), one.table, ranges, one.worst, 1);
   ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
   EXPECT_GE(*proven.bound.MPa, proven.worst.drift_MPa);
   EXPECT_LT(*proven.bound.MPa, 1.5 * proven.worst.drift_MPa);
@@ -119,8 +119,8 @@ TEST(SlowBound, OfAPolynomialThatIsHeldOutsideItsDataIsClose) {
       {"T_contact_C", 20, 200, ""},   {"s_mm", 0, 40, ""}, {"sigma_f_MPa", 250, 1200, ""}};
   const Case one = with_table(model, ranges, Interpolation::cubic, 1);
   EXPECT_LE(one.worst.drift_MPa, 1);
-  const table::ProvenDrift proven =
-      table::prove_drift(AssembledLaw(model), one.table, ranges, one.worst, 1);
+  const proof::ProvenDrift proven =
+      proof::prove_drift(AssembledLaw(model), one.table, ranges, one.worst, 1);
   ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
   EXPECT_GE(*proven.bound.MPa, proven.worst.drift_MPa);
   EXPECT_LT(*proven.bound.MPa, 1.5 * proven.worst.drift_MPa);
@@ -135,7 +135,7 @@ TEST(Bound, IsShownRoundedUpNeverDown) {
 
 TEST(Bound, IsTheSameOnAnyNumberOfThreads) {
   const Case one = of_law("wanheim_bay", Interpolation::cubic);
-  table::BoundOptions options;
+  proof::BoundOptions options;
   options.goal_MPa = 1.05 * one.worst.drift_MPa;
   const DriftBound all = bound_drift(AssembledLaw(one.model), one.table, one.ranges, options);
   set_threads(1);
@@ -156,7 +156,7 @@ TEST(Bound, IsNotClaimedWhereTheTableIsCombinedDifferently) {
 
 TEST(Bound, IsNotClaimedForMoreCellsThanItMayLookAt) {
   const Case one = of_law("levanov", Interpolation::linear);
-  table::BoundOptions options{.goal_MPa = 0.5};
+  proof::BoundOptions options{.goal_MPa = 0.5};
   options.most_boxes = 10;
   const DriftBound bound = bound_drift(AssembledLaw(one.model), one.table, one.ranges, options);
   EXPECT_FALSE(bound.MPa);

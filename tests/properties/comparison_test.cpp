@@ -20,12 +20,12 @@ namespace frictab::comparison_test {
 
 using calibrate::compare;
 using calibrate::Comparisons;
-using calibrate::ErrorSums;
 using calibrate::family_sentence;
 using calibrate::LawErrors;
 using calibrate::Metrics;
 using calibrate::metrics;
 using calibrate::pairwise_sentence;
+using stats::ErrorSums;
 
 namespace {
 

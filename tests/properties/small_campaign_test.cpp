@@ -20,11 +20,11 @@ namespace {
 using calibrate::Calibration;
 using calibrate::CalibrationInput;
 using calibrate::Choice;
-using calibrate::ErrorSums;
 using calibrate::JudgedBy;
 using calibrate::LawErrors;
 using calibrate::ModelFit;
 using data::Dataset;
+using stats::ErrorSums;
 
 Dataset few_tests() {
   test::SampleOptions options;

@@ -7,7 +7,7 @@
 #include "models/law.h"
 #include "support/law_parameter.h"
 #include "support/sample_data.h"
-#include "table/bound.h"
+#include "proof/bound.h"
 
 namespace frictab::tolerance_test {
 
@@ -30,9 +30,9 @@ Made make(const std::string& law, const TableOptions& options) {
   return made;
 }
 
-table::ProvenDrift drift_of(const Made& made, double allowed) {
+proof::ProvenDrift drift_of(const Made& made, double allowed) {
   const table::TableFunction function(made.table);
-  return table::prove_drift(
+  return proof::prove_drift(
       AssembledLaw(made.model), made.table, made.ranges,
       table::worst_case(table::LawFunction(AssembledLaw(made.model), function.inputs()), function,
                         made.ranges, table::probe_points(made.ranges, made.table.axes, 20000)),
@@ -50,7 +50,7 @@ TEST_P(SlowToleranceOfEveryLaw, IsProvenOverTheWholeRange) {
         options.interpolation = interpolation;
         options.tolerance_MPa = tolerance;
         const Made made = make(GetParam(), options);
-        const table::ProvenDrift proven = drift_of(made, tolerance);
+        const proof::ProvenDrift proven = drift_of(made, tolerance);
         ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
         EXPECT_LE(proven.worst.drift_MPa, tolerance);
         EXPECT_LE(*proven.bound.MPa, 1.025 * tolerance)

@@ -1,5 +1,5 @@
 // Random-effects summaries against published figures.
-#include "study/random_effects.h"
+#include "stats/random_effects.h"
 
 #include <array>
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace frictab::random_effects_test {
 namespace {
 
-using study::Estimate;
+using stats::Estimate;
 
 // Log relative risks of 13 BCG vaccine trials and their variances (Colditz et al. 1994).
 std::vector<Estimate> bcg() {
@@ -25,7 +25,7 @@ std::vector<Estimate> bcg() {
 }
 
 TEST(RandomEffects, AreThoseOfMetaforOnTheVaccineTrials) {
-  const study::RandomEffects s = study::random_effects(bcg());
+  const stats::RandomEffects s = stats::random_effects(bcg());
   EXPECT_EQ(s.campaigns, 13u);
   EXPECT_NEAR(s.between_sd * s.between_sd, 0.3132, 3e-4); // REML
   EXPECT_NEAR(s.mean, -0.7145, 3e-4);
@@ -39,41 +39,41 @@ TEST(RandomEffects, KnowNoScatterWhereThereIsNone) {
   std::vector<Estimate> all;
   for (std::size_t i = 0; i < 8; ++i)
     all.push_back({5 + 0.01 * (i % 2 == 0 ? 1 : -1), 0.5, 0, i});
-  EXPECT_EQ(study::between_variance(all), 0);
-  const study::RandomEffects s = study::random_effects(all);
+  EXPECT_EQ(stats::between_variance(all), 0);
+  const stats::RandomEffects s = stats::random_effects(all);
   EXPECT_NEAR(s.mean, 5, 1e-12);
   EXPECT_GT(s.interval.high - s.interval.low, 0.5) << "the errors alone";
 }
 
 TEST(RandomEffects, OfOneOrTwoCampaignsSayNoMoreThanTheseCan) {
   const std::vector<Estimate> two = {{1, 0.1, 0, 0}, {2, 0.1, 0, 1}};
-  const study::RandomEffects s = study::random_effects(two);
+  const stats::RandomEffects s = stats::random_effects(two);
   EXPECT_NEAR(s.mean, 1.5, 1e-12);
   EXPECT_TRUE(std::isfinite(s.interval.low));
   EXPECT_TRUE(std::isnan(s.predicted.low));
-  const study::RandomEffects one = study::random_effects(std::span(two).first(1));
+  const stats::RandomEffects one = stats::random_effects(std::span(two).first(1));
   EXPECT_EQ(one.mean, 1);
   EXPECT_TRUE(std::isnan(one.interval.low) && std::isnan(one.between_sd));
-  EXPECT_TRUE(std::isnan(study::random_effects({}).mean));
+  EXPECT_TRUE(std::isnan(stats::random_effects({}).mean));
 }
 
 TEST(RandomEffects, WithinTheLevelsOfAFactorAreWhatItDoesNotExplain) {
   std::vector<Estimate> all;
   for (std::size_t i = 0; i < 20; ++i)
     all.push_back({(i % 2 == 0 ? 1.0 : 3.0) + 0.01 * static_cast<double>(i % 5), 0.1, i % 2, i});
-  EXPECT_EQ(study::between_variance(all), 0);
+  EXPECT_EQ(stats::between_variance(all), 0);
   for (Estimate& one : all)
     one.group = 0;
-  EXPECT_NEAR(study::between_variance(all), 20.0 / 19, 0.02) << "of 1 and 3, less the errors";
+  EXPECT_NEAR(stats::between_variance(all), 20.0 / 19, 0.02) << "of 1 and 3, less the errors";
 }
 
 TEST(RandomEffects, NameACampaignThatDoesNotBelongToTheOthers) {
-  EXPECT_TRUE(study::outliers(bcg()).empty());
+  EXPECT_TRUE(stats::outliers(bcg()).empty());
   std::vector<Estimate> all;
   for (std::size_t i = 0; i < 9; ++i)
     all.push_back({0.1 * static_cast<double>(i), 0.2, 0, i});
   all.push_back({6, 0.2, 0, 9});
-  const auto found = study::outliers(all);
+  const auto found = stats::outliers(all);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].estimate.campaign, 9u);
   EXPECT_LT(found[0].p_value, 0.001);
@@ -81,9 +81,9 @@ TEST(RandomEffects, NameACampaignThatDoesNotBelongToTheOthers) {
 }
 
 TEST(RandomEffects, SharesHaveTheIntervalOfWilson) {
-  EXPECT_NEAR(study::share_interval(0, 10).high, 0.2775, 1e-4);
-  EXPECT_NEAR(study::share_interval(5, 10).low, 0.2366, 1e-4);
-  EXPECT_NEAR(study::share_interval(5, 10).high, 0.7634, 1e-4);
+  EXPECT_NEAR(stats::share_interval(0, 10).high, 0.2775, 1e-4);
+  EXPECT_NEAR(stats::share_interval(5, 10).low, 0.2366, 1e-4);
+  EXPECT_NEAR(stats::share_interval(5, 10).high, 0.7634, 1e-4);
 }
 
 } // namespace

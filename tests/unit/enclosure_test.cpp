@@ -8,17 +8,17 @@
 #include "expr/coordinates.h"
 #include "expr/program.h"
 #include "expr/sensitivity.h"
-#include "expr/taylor_functions.h"
-#include "expr/taylor_model.h"
+#include "proof/taylor_functions.h"
+#include "proof/taylor_model.h"
 
 namespace frictab::enclosure_test {
 
 using expr::Bounds;
 using expr::Expr;
-using expr::Monomials;
+using proof::Monomials;
 using expr::Op;
 using expr::parse_expr;
-using expr::TaylorProgram;
+using proof::TaylorProgram;
 
 namespace {
 
@@ -187,7 +187,7 @@ TEST(Enclosure, ChebyshevFitsStayWithinTheirError) {
                                                                              : random.uniform(2, 6);
       const double radius = random.uniform(0, 0.9);
       double c[6];
-      const double error = expr::chebyshev_fit(op, centre, radius, c);
+      const double error = proof::chebyshev_fit(op, centre, radius, c);
       for (int k = 0; k <= 50; ++k) {
         const double y = -1 + k / 25.0, x = centre + radius * y;
         const double truth = op == Op::exp    ? std::exp(x)

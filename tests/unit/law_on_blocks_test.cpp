@@ -11,7 +11,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-const trace::Blocks blocks = test::blocks_of({20, 20, 20, 20});
+const stats::Blocks blocks = test::blocks_of({20, 20, 20, 20});
 
 // Along each experiment.
 VectorXd between(double first, double last) {
@@ -41,12 +41,12 @@ protected:
     measured_ = 0.1 * sigma.array() * (1 + slope * s.array() / 5);
     const std::vector<double> start = {0.1, 0.0};
     const VectorXd tau = law.predict(start);
-    trace::NoiseModel noise;
+    stats::NoiseModel noise;
     noise.gain = 0.5;
     noise.slow = 0;
     noise.white = 0.01;
     noise.scale = tau.mean();
-    return trace::fit_blocks(law, measured_, trace::Whitener(noise, tau, blocks), start).predicted;
+    return trace::fit_blocks(law, measured_, stats::Whitener(noise, tau, blocks), start).predicted;
   }
 
   VectorXd measured_;

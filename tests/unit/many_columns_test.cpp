@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/random.h"
-#include "trace/blocks.h"
+#include "stats/blocks.h"
 #include "trace/candidates.h"
 #include "unit/load_case.h"
 
@@ -107,7 +107,7 @@ TEST_F(ManyColumns, AreNotTracedInPairsOfEachOther) {
   }
   const data::Dataset data = read(text + "\n");
   const trace::Candidates found =
-      trace::find_candidates(data, data, trace::make_blocks(data),
+      trace::find_candidates(data, data, stats::make_blocks(data),
                              std::vector<double>(data.rows(), 50), {"sigma_n_MPa"}, {});
   EXPECT_GE(found.columns.size(), others);
   EXPECT_LT(trace::all_causes(found).size(), 4 * others);

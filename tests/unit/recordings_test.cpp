@@ -256,7 +256,7 @@ TEST(KeptTogether, IntervalsOfTheOnlyRecordingAreTests) {
 
 TEST(KeptTogether, IntervalsOfErrorsDrawRecordings) {
   // 12 recordings of 8 alike tests: as 12 tests, not as 96.
-  std::vector<calibrate::ErrorSums> tests, recordings;
+  std::vector<stats::ErrorSums> tests, recordings;
   Random random(3, 3);
   for (std::size_t r = 0; r < 12; ++r) {
     const double error = std::abs(random.normal());
@@ -269,8 +269,8 @@ TEST(KeptTogether, IntervalsOfErrorsDrawRecordings) {
   EXPECT_NEAR(together.mae_interval.low, whole.mae_interval.low, 1e-12);
   EXPECT_NEAR(together.mae_interval.high, whole.mae_interval.high, 1e-12);
   EXPECT_EQ(together.n_experiments, 96U);
-  for (calibrate::ErrorSums& one : tests)
-    one.recording = calibrate::no_recording;
+  for (stats::ErrorSums& one : tests)
+    one.recording = stats::no_recording;
   const auto alone = calibrate::metrics(tests, 500, 1);
   EXPECT_LT(alone.mae_interval.high - alone.mae_interval.low,
             0.6 * (whole.mae_interval.high - whole.mae_interval.low));

@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "trace/smooth.h"
+#include "stats/smooth.h"
 
 namespace frictab::smooth_test {
 
-using trace::SmoothFit;
+using stats::SmoothFit;
 
 namespace {
 
@@ -38,7 +38,7 @@ struct Problem {
   }
   static double at(Index i) { return (static_cast<double>(i) + 0.5) / rows; }
   SmoothFit fit(const VectorXd& residual) const {
-    return trace::fit_smooth(residual, basis, penalty, known);
+    return stats::fit_smooth(residual, basis, penalty, known);
   }
 };
 
@@ -139,7 +139,7 @@ TEST(Smooth, IsTheSameInAnyUnit) {
   const Problem p;
   const VectorXd y = wave() + 0.3 * noise(1);
   const SmoothFit plain = p.fit(y);
-  const SmoothFit small = trace::fit_smooth(1e-6 * y, 1e3 * p.basis, p.penalty, p.known);
+  const SmoothFit small = stats::fit_smooth(1e-6 * y, 1e3 * p.basis, p.penalty, p.known);
   EXPECT_NEAR(small.without - small.criterion, plain.without - plain.criterion, 1e-6);
   EXPECT_NEAR(small.freedom / plain.freedom, 1, 1e-5);
 }

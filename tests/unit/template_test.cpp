@@ -4,12 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codegen/template.h"
+#include "core/template.h"
 
 namespace frictab::template_test {
 
-using codegen::render;
-using codegen::TemplateValues;
 
 namespace {
 
@@ -102,10 +100,10 @@ TEST(Template, CountsAValueAsUsedThatOnlyABranchNotTakenNames) {
 }
 
 TEST(Template, InsertsNamesIntoOneLineAndLeavesTheOthersUnused) {
-  EXPECT_EQ(codegen::insert_names("x(@{index}) = press@{convert}",
+  EXPECT_EQ(insert_names("x(@{index}) = press@{convert}",
                                   {{"index", "2"}, {"convert", "/1.0D6"}, {"field", "7"}}),
             "x(2) = press/1.0D6");
-  EXPECT_THROW(codegen::insert_names("@{nowhere}", {}), std::logic_error);
+  EXPECT_THROW(insert_names("@{nowhere}", {}), std::logic_error);
 }
 
 TEST(Template, TellsValuesThatAreNeverUsed) {
@@ -167,10 +165,10 @@ TEST(Template, RefusesALoopVariableTwice) {
 }
 
 TEST(Template, FindsEmbeddedFilesAndThrowsForOthers) {
-  EXPECT_THAT(std::string(codegen::embedded_template("frictab_kernel.h")),
+  EXPECT_THAT(std::string(embedded_template("frictab_kernel.h")),
               HasSubstr("ft_linear_##N"));
-  EXPECT_THAT(std::string(codegen::embedded_template("c/frictab_tau_R.c")), HasSubstr("@{kernel}"));
-  EXPECT_THROW(codegen::embedded_template("c/none"), std::logic_error);
+  EXPECT_THAT(std::string(embedded_template("c/frictab_tau_R.c")), HasSubstr("@{kernel}"));
+  EXPECT_THROW(embedded_template("c/none"), std::logic_error);
 }
 
 } // namespace

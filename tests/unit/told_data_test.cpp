@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "trace/blocks.h"
+#include "stats/blocks.h"
 #include "trace/candidates.h"
 #include "unit/load_case.h"
 
@@ -35,11 +35,10 @@ TEST_F(ToldData, AConstantWithoutAColumnNeedsNoNote) {
 }
 
 TEST_F(ToldData, AColumnCalledAsAQuantityButForCaseIsAFaultThatNamesBoth) {
-  EXPECT_THAT(
-      fault("time_s,sigma_n_MPa,tau_R_MPa,TAU_R_MPA\n0,500,50,50\n1,600,55,55\n"),
-      AllOf(HasSubstr("a.csv:1: error: column 'TAU_R_MPA' differs from tau_R_MPa only in "
-                      "upper and lower case, which is there as well"),
-            HasSubstr("[data.columns] tau_R_MPa = \"TAU_R_MPA\"")));
+  EXPECT_THAT(fault("time_s,sigma_n_MPa,tau_R_MPa,TAU_R_MPA\n0,500,50,50\n1,600,55,55\n"),
+              AllOf(HasSubstr("a.csv:1: error: column 'TAU_R_MPA' differs from tau_R_MPa only in "
+                              "upper and lower case, which is there as well"),
+                    HasSubstr("[data.columns] tau_R_MPa = \"TAU_R_MPA\"")));
   EXPECT_THAT(fault("time_s,sigma_n_MPa,tau_R_MPa,Psi [-]\n0,500,50,1\n1,600,55,1\n"),
               HasSubstr("column 'Psi [-]' differs from psi only in upper and lower case\n"));
 }
@@ -115,7 +114,7 @@ TEST_F(ToldData, EmptyCellsOfAnotherColumnAreCountedAndTracingLeavesItOut) {
                                   "A,0,500,50,,20\nA,1,600,55,2,21\nB,0,500,50,3,22\n"
                                   "B,1,600,55,4,23\n");
   EXPECT_THAT(data.notes, Contains("extra: 1 of 4 rows without a value"));
-  const trace::Blocks blocks = trace::make_blocks(data);
+  const stats::Blocks blocks = stats::make_blocks(data);
   const std::vector<double> predicted(data.rows(), 50);
   const trace::Candidates found =
       trace::find_candidates(data, data, blocks, predicted, {"sigma_n_MPa"}, {});

@@ -6,15 +6,15 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "stats/noise.h"
+#include "stats/noise_fit.h"
 #include "support/blocks.h"
-#include "trace/noise.h"
-#include "trace/noise_fit.h"
 #include "trace/order_test.h"
 
 namespace frictab::trace_noise_test {
 
-using trace::fit_noise;
-using trace::NoiseModel;
+using stats::fit_noise;
+using stats::NoiseModel;
 using trace::test_order;
 
 namespace {
@@ -24,7 +24,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // A block per row; blocks of two and of three rows; one block; blocks of one row and of two.
-const trace::Blocks blocks = test::blocks_of({7, 97, 1, 13, 61});
+const stats::Blocks blocks = test::blocks_of({7, 97, 1, 13, 61});
 
 VectorXd some_tau(Index count) {
   VectorXd tau(count);
@@ -46,7 +46,7 @@ NoiseModel some_noise(double growth) {
 }
 
 // V of one experiment, written out; its blocks count as equally far apart.
-MatrixXd dense(const NoiseModel& n, const VectorXd& tau, const trace::Blocks& of,
+MatrixXd dense(const NoiseModel& n, const VectorXd& tau, const stats::Blocks& of,
                std::size_t experiment) {
   const std::size_t begin = of.first[experiment];
   const auto size = static_cast<Index>(of.first[experiment + 1] - begin);
@@ -71,7 +71,7 @@ TEST(Whitener, GivesTheInverseCovarianceOfEveryExperiment) {
   for (const double growth : {0.0, 1.0}) {
     const VectorXd tau = some_tau(static_cast<Index>(blocks.count()));
     const NoiseModel noise = some_noise(growth);
-    const trace::Whitener whitener(noise, tau, blocks);
+    const stats::Whitener whitener(noise, tau, blocks);
     MatrixXd x(tau.size(), 3);
     for (Index i = 0; i < x.size(); ++i)
       x(i) = std::sin(1.7 * static_cast<double>(i));
@@ -95,7 +95,7 @@ TEST(Whitener, GivesTheInverseCovarianceOfEveryExperiment) {
 TEST(Whitener, SeesNothingAlongNuisanceColumns) {
   const auto count = static_cast<Index>(blocks.count());
   const MatrixXd nuisance = MatrixXd::Random(count, 2);
-  const trace::Whitener whitener(some_noise(0), some_tau(count), blocks, nuisance);
+  const stats::Whitener whitener(some_noise(0), some_tau(count), blocks, nuisance);
   MatrixXd x = nuisance * MatrixXd::Random(2, 3);
   whitener.apply(x);
   EXPECT_LT(x.norm(), 1e-9);
@@ -103,11 +103,11 @@ TEST(Whitener, SeesNothingAlongNuisanceColumns) {
 
 // Residuals drawn from the model; experiments of 25 blocks.
 struct Drawn {
-  trace::Blocks blocks;
+  stats::Blocks blocks;
   VectorXd residual, tau;
   MatrixXd fitted, nuisance;
 
-  trace::NoiseData data() const { return {residual, tau, blocks, fitted, nuisance}; }
+  stats::NoiseData data() const { return {residual, tau, blocks, fitted, nuisance}; }
 };
 
 Drawn draw(const NoiseModel& noise, std::size_t count, std::uint64_t seed) {
@@ -173,9 +173,9 @@ TEST(NoiseModel, LikelihoodIsThatOfTheWholeCovariance) {
   }
   for (const double growth : {0.0, 1.0}) {
     NoiseModel earlier = some_noise(growth);
-    const trace::NoiseFit one = trace::refine_noise(drawn.data(), earlier);
+    const stats::NoiseFit one = stats::refine_noise(drawn.data(), earlier);
     earlier.length = 0.4;
-    const trace::NoiseFit other = trace::refine_noise(drawn.data(), earlier);
+    const stats::NoiseFit other = stats::refine_noise(drawn.data(), earlier);
     const double expected = written_out(one.noise, drawn) - written_out(other.noise, drawn);
     EXPECT_GT(std::abs(expected), 1);
     // To what the data leave open the fit adds 1e-6 of the square of each logarithm, 8 at most.
@@ -255,16 +255,16 @@ TEST(NoiseModel, LetsGoOfAnEffectThatHasBecomeKnown) {
   const NoiseModel swallowed = fit_noise(drawn.data()).noise;
   EXPECT_GT(swallowed.gain, 0.3);
   drawn.residual = without;
-  const trace::NoiseFit fresh = fit_noise(drawn.data());
+  const stats::NoiseFit fresh = fit_noise(drawn.data());
   // 0.01 of log likelihood: nothing that a choice between laws could see.
-  EXPECT_NEAR(trace::refit_noise(drawn.data(), swallowed).log_likelihood, fresh.log_likelihood,
+  EXPECT_NEAR(stats::refit_noise(drawn.data(), swallowed).log_likelihood, fresh.log_likelihood,
               0.01);
   NoiseModel near = fresh.noise;
   near.gain *= 1.3;
-  EXPECT_NEAR(trace::refine_noise(drawn.data(), near).log_likelihood, fresh.log_likelihood, 0.01);
+  EXPECT_NEAR(stats::refine_noise(drawn.data(), near).log_likelihood, fresh.log_likelihood, 0.01);
   // To what weights can show: 0.5 is one standard error of one parameter.
   near.gain = swallowed.gain;
-  EXPECT_NEAR(trace::refit_noise_coarsely(drawn.data(), near).log_likelihood, fresh.log_likelihood,
+  EXPECT_NEAR(stats::refit_noise_coarsely(drawn.data(), near).log_likelihood, fresh.log_likelihood,
               0.5);
 }
 

@@ -10,10 +10,10 @@
 #include "calibrate/calibration.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "stats/gram.h"
+#include "stats/noise_fit.h"
 #include "support/blocks.h"
-#include "trace/gram.h"
 #include "trace/nested_errors.h"
-#include "trace/noise_fit.h"
 #include "trace/selection.h"
 #include "trace/trace.h"
 #include "trace/trace_file.h"
@@ -27,7 +27,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using testing::Contains;
 
-trace::Blocks tests_of(std::size_t tests, std::size_t rows) {
+stats::Blocks tests_of(std::size_t tests, std::size_t rows) {
   return test::blocks_of(std::vector<std::size_t>(tests, rows));
 }
 
@@ -42,7 +42,7 @@ TEST(TraceScale, OneOfEachRunOfNeighboursIsSelected) {
   std::vector<std::size_t> rows;
   for (std::size_t e = 0; e < 1000; ++e)
     rows.push_back(1 + e % 7);
-  const trace::Blocks all = test::blocks_of(rows);
+  const stats::Blocks all = test::blocks_of(rows);
   trace::Candidates candidates;
   VectorXd number(static_cast<Index>(all.count()));
   for (std::size_t e = 0; e < 1000; ++e)
@@ -74,7 +74,7 @@ TEST(TraceScale, SymmetricSumsAreTheMatrixProduct) {
       for (Index i = 0; i < j.size(); ++i)
         j(i) = std::sin(1.3 * static_cast<double>(i));
       const auto part = j.rightCols(columns);
-      const MatrixXd product = part.transpose() * part, sums = trace::gram(part);
+      const MatrixXd product = part.transpose() * part, sums = stats::gram(part);
       ASSERT_EQ(sums.rows(), columns);
       if (columns == 0) continue;
       EXPECT_EQ(sums, sums.transpose());
@@ -84,7 +84,7 @@ TEST(TraceScale, SymmetricSumsAreTheMatrixProduct) {
 
 // Not the twin's noise, nor the model's: gains and slopes are uniform, slow noise is a moving mean
 // of exponential draws.
-MatrixXd foreign_residual(const trace::Blocks& blocks, std::uint64_t seed) {
+MatrixXd foreign_residual(const stats::Blocks& blocks, std::uint64_t seed) {
   constexpr int memory = 3;
   Random random(seed, 5);
   const auto uniform = [&] { return std::sqrt(12.0) * (random.uniform() - 0.5); };
@@ -110,7 +110,7 @@ MatrixXd foreign_residual(const trace::Blocks& blocks, std::uint64_t seed) {
 struct Deviations {
   double mean, within;
 };
-Deviations deviations_of(const trace::NoiseModel& n) {
+Deviations deviations_of(const stats::NoiseModel& n) {
   constexpr int blocks = 12;
   double alike = 0, squares = 0;
   for (int i = 0; i < blocks; ++i) {
@@ -126,7 +126,7 @@ Deviations deviations_of(const trace::NoiseModel& n) {
 
 // A standard deviation of 200 tests is off by 5 % (of normal ones; of uniform ones less).
 TEST(SlowTraceScale, NoiseOfSelectedTestsAgreesWithThatOfAll) {
-  const trace::Blocks all = tests_of(1600, 12);
+  const stats::Blocks all = tests_of(1600, 12);
   const auto some = trace::select_tests(all, {}, 1);
   const auto count = static_cast<Index>(all.count());
   const MatrixXd none(count, 0), fitted = VectorXd::Constant(count, 100);
@@ -137,11 +137,11 @@ TEST(SlowTraceScale, NoiseOfSelectedTestsAgreesWithThatOfAll) {
   for (std::uint64_t seed = 1; seed <= campaigns; ++seed) {
     const VectorXd residual = foreign_residual(all, seed).col(0);
     const Deviations whole =
-        deviations_of(trace::fit_noise({residual, tau, all, fitted, none}).noise);
+        deviations_of(stats::fit_noise({residual, tau, all, fitted, none}).noise);
     const VectorXd part = residual(some->rows), part_tau = tau(some->rows);
     const MatrixXd part_fitted = fitted(some->rows, Eigen::all), part_none(part.size(), 0);
     const Deviations selected = deviations_of(
-        trace::fit_noise({part, part_tau, some->blocks, part_fitted, part_none}).noise);
+        stats::fit_noise({part, part_tau, some->blocks, part_fitted, part_none}).noise);
     const double mean = std::log(selected.mean / whole.mean) / error;
     const double within = std::log(selected.within / whole.within) / error;
     EXPECT_LT(std::abs(mean), 3) << "standard errors: " << selected.mean << " " << whole.mean;

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "codegen/native_table.h"
-#include "codegen/template.h"
 #include "core/error.h"
+#include "core/template.h"
 
 namespace frictab::abaqus::table {
 

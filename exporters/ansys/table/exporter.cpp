@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "codegen/native_table.h"
-#include "codegen/template.h"
+#include "core/template.h"
 
 namespace frictab::ansys::table {
 

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "codegen/native_table.h"
-#include "codegen/template.h"
 #include "core/error.h"
+#include "core/template.h"
 
 namespace frictab::deform::table {
 

@@ -6,7 +6,7 @@
 
 #include "codegen/native_table.h"
 #include "codegen/solver_units.h"
-#include "codegen/template.h"
+#include "core/template.h"
 
 namespace frictab::lsdyna::table {
 

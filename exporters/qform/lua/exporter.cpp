@@ -13,7 +13,7 @@
 #include "codegen/flow_curve.h"
 #include "codegen/recipe.h"
 #include "codegen/table_checks.h"
-#include "codegen/template.h"
+#include "core/template.h"
 #include "io/atomic_file.h"
 #include "io/json.h"
 #include "source.h"

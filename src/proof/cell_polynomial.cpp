@@ -1,5 +1,5 @@
 // Tensor and simplex polynomials in Chebyshev form.
-#include "table/cell_polynomial.h"
+#include "proof/cell_polynomial.h"
 
 #include <array>
 #include <cmath>
@@ -7,7 +7,12 @@
 
 #include "table/spline.h"
 
-namespace frictab::table {
+namespace frictab::proof {
+
+using table::Interpolation;
+using table::SplineAxis;
+using table::Table;
+using table::TableAxis;
 
 namespace {
 
@@ -37,7 +42,7 @@ CellPolynomials::CellPolynomials(const Table& table)
   for (const TableAxis& axis : table.axes) {
     Axis out{axis.nodes.size(), {}, {}};
     if (support_ == 4) {
-      splines.push_back(spline_axis(axis));
+      splines.push_back(table::spline_axis(axis));
       out.first = splines.back().first;
       out.basis = splines.back().basis;
     } else {
@@ -49,7 +54,7 @@ CellPolynomials::CellPolynomials(const Table& table)
     axes_.push_back(std::move(out));
   }
   coefficients_ = table.value_coordinates();
-  if (support_ == 4) coefficients_ = spline_coefficients(splines, coefficients_);
+  if (support_ == 4) coefficients_ = table::spline_coefficients(splines, coefficients_);
   stride_.assign(axes_.size(), 1);
   for (std::size_t a = axes_.size(); a-- > 1;)
     stride_[a - 1] = stride_[a] * axes_[a].nodes;
@@ -108,7 +113,7 @@ void CellPolynomials::over(std::span<const CellPart> box, std::vector<double>& t
   }
 }
 
-Rewriting::Rewriting(const expr::Monomials& monomials) : size_(monomials.size()) {
+Rewriting::Rewriting(const Monomials& monomials) : size_(monomials.size()) {
   const std::size_t n = monomials.variables();
   chebyshev_.resize(n);
   lower_.resize(n);
@@ -117,7 +122,7 @@ Rewriting::Rewriting(const expr::Monomials& monomials) : size_(monomials.size())
     for (std::size_t v = 0; v < n; ++v) {
       const std::size_t k = monomials.exponents(i)[v];
       for (std::size_t m = 0; m <= k; ++m) {
-        expr::Monomials::Exponents to = monomials.exponents(i);
+        Monomials::Exponents to = monomials.exponents(i);
         to[v] = static_cast<std::uint8_t>(m);
         const auto from_index = static_cast<std::uint16_t>(i);
         const auto to_index = static_cast<std::uint16_t>(monomials.find(to));
@@ -145,7 +150,7 @@ void Rewriting::halve(std::size_t variable, bool upper, std::span<double> c) con
   apply(upper ? upper_[variable] : lower_[variable], c);
 }
 
-Deviation::Deviation(const expr::Monomials& monomials, std::size_t support)
+Deviation::Deviation(const Monomials& monomials, std::size_t support)
     : variables_(monomials.variables()), degree_(std::max(monomials.degree(), support - 1)),
       support_(support) {
   std::size_t count = 1;
@@ -253,4 +258,4 @@ Deviation::Result Deviation::operator()(std::span<const double> c,
   return out;
 }
 
-} // namespace frictab::table
+} // namespace frictab::proof

@@ -1,6 +1,6 @@
 // Optimises the restricted likelihood of the noise model, in the independent directions of each
 // length.
-#include "trace/noise_fit.h"
+#include "stats/noise_fit.h"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,9 @@
 #include <Eigen/Eigenvalues>
 #include <nlopt.hpp>
 
-#include "trace/projection.h"
+#include "stats/projection.h"
 
-namespace frictab::trace {
+namespace frictab::stats {
 
 namespace {
 
@@ -363,4 +363,4 @@ NoiseFit refine_noise(const NoiseData& data, const NoiseModel& earlier) {
   return NoiseFitter(data, earlier.growth).at_same_length(earlier);
 }
 
-} // namespace frictab::trace
+} // namespace frictab::stats

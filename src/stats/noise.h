@@ -8,9 +8,9 @@
 
 #include <Eigen/Core>
 
-#include "trace/blocks.h"
+#include "stats/blocks.h"
 
-namespace frictab::trace {
+namespace frictab::stats {
 
 // Covariance V of the block means of one experiment, t = predicted shear stress there, x = position
 // in the experiment (-1/2 .. 1/2):
@@ -71,4 +71,4 @@ private:
   Eigen::MatrixXd nuisance_;        // orthonormal, whitened
 };
 
-} // namespace frictab::trace
+} // namespace frictab::stats

@@ -1,5 +1,5 @@
 // REML by Fisher scoring, and the summaries based on it.
-#include "study/random_effects.h"
+#include "stats/random_effects.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "core/no_value.h"
 
-namespace frictab::study {
+namespace frictab::stats {
 
 namespace {
 
@@ -84,9 +84,9 @@ double plain_variance(Estimates all) {
   return sum / free;
 }
 
-constexpr calibrate::Interval no_interval = {no_value, no_value};
+constexpr Interval no_interval = {no_value, no_value};
 
-calibrate::Interval around(double middle, double half_width) {
+Interval around(double middle, double half_width) {
   return {middle - half_width, middle + half_width};
 }
 
@@ -186,7 +186,7 @@ std::vector<Outlier> outliers(Estimates estimates) {
   return found;
 }
 
-calibrate::Interval share_interval(std::size_t count, std::size_t of) {
+Interval share_interval(std::size_t count, std::size_t of) {
   if (of == 0) return no_interval;
   const double n = static_cast<double>(of), p = static_cast<double>(count) / n;
   const double z = gsl_cdf_ugaussian_Pinv(0.975), z2 = z * z / n;
@@ -194,4 +194,4 @@ calibrate::Interval share_interval(std::size_t count, std::size_t of) {
   return {(p + z2 / 2 - half) / (1 + z2), (p + z2 / 2 + half) / (1 + z2)};
 }
 
-} // namespace frictab::study
+} // namespace frictab::stats

@@ -1,5 +1,5 @@
 // Branch and bound over the cells of a table.
-#include "table/bound.h"
+#include "proof/bound.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +13,19 @@
 #include "core/text.h"
 #include "expr/coordinates.h"
 #include "expr/sensitivity.h"
-#include "expr/taylor_model.h"
-#include "table/cell_polynomial.h"
+#include "proof/cell_polynomial.h"
+#include "proof/taylor_model.h"
 #include "table/drift.h"
 #include "table/grid.h"
 
-namespace frictab::table {
+namespace frictab::proof {
+
+using table::Interpolation;
+using table::Probe;
+using table::StateRange;
+using table::Table;
+using table::TableAxis;
+using table::WorstCase;
 
 using expr::Bounds;
 using expr::Expr;
@@ -59,17 +66,18 @@ struct Box {
 };
 
 // The bound of one box, and the range by which to split it.
-struct Look {
+struct BoxBound {
   double bound = HUGE_VAL;
   double drift = 0;          // at the centre of the box
   std::vector<double> state; // the centre
   std::size_t split = 0;     // the range to halve
 };
 
-class Cells {
+class CellBounder {
 public:
-  Cells(const models::AssembledLaw& law, const Table& table, const std::vector<StateRange>& ranges)
-      : ranges_(ranges), table_(table), function_(table), law_(law, names_of(ranges)),
+  CellBounder(const models::AssembledLaw& law, const Table& table,
+              const std::vector<StateRange>& ranges)
+      : ranges_(ranges), table_(table), function_(table), law_(law, table::names_of(ranges)),
         monomials_(table.axes.size(),
                    table.interpolation == Interpolation::cubic ? degree_cubic : degree_linear),
         piece_(piece_of(law, table), axis_names(table), monomials_), interpolant_(table),
@@ -77,7 +85,7 @@ public:
         combine_(
             substitute(combine_of(table), {{"value", table.log_value ? exp(Expr::symbol("value"))
                                                                      : Expr::symbol("value")}}),
-            with_value(ranges), "value") {
+            table::with_value(ranges), "value") {
     for (const TableAxis& axis : table.axes) {
       coordinates_.push_back(axis.coordinates());
       const auto range = std::find_if(ranges.begin(), ranges.end(),
@@ -95,9 +103,9 @@ public:
   };
 
   // Memory of one thread.
-  struct Work {
-    explicit Work(const Cells& cells) : taylor(cells.piece_) {}
-    expr::TaylorProgram::Work taylor;
+  struct Workspace {
+    explicit Workspace(const CellBounder& cells) : taylor(cells.piece_) {}
+    TaylorProgram::Work taylor;
     std::vector<double> tensor;
   };
 
@@ -108,20 +116,22 @@ public:
     return cells;
   }
 
-  struct Open {
+  struct QueueEntry {
     Box box;
-    Look look;
+    BoxBound look;
   };
 
   // Splits the cell until every box is below the goal, or below the largest drift found in the
   // cell.
-  Result run(std::size_t cell, double goal, std::size_t most, Work& work) const {
+  Result run(std::size_t cell, double goal, std::size_t most, Workspace& work) const {
     Result result;
-    std::vector<Open> open; // a heap: the largest bound first
-    const auto smaller = [](const Open& a, const Open& b) { return a.look.bound < b.look.bound; };
+    std::vector<QueueEntry> open; // a heap: the largest bound first
+    const auto smaller = [](const QueueEntry& a, const QueueEntry& b) {
+      return a.look.bound < b.look.bound;
+    };
     const auto add = [&](Box box) {
       ++result.boxes;
-      Look look = at(box, goal, work);
+      BoxBound look = bound_box(box, goal, work);
       if (look.drift > result.drift) {
         result.drift = look.drift;
         result.state = look.state;
@@ -129,18 +139,18 @@ public:
       open.push_back({std::move(box), std::move(look)});
       std::push_heap(open.begin(), open.end(), smaller);
     };
-    add(whole(cell));
+    add(root_box(cell));
     while (true) {
-      const Open& first = open.front();
+      const QueueEntry& first = open.front();
       const double enough = std::max(goal, 1.005 * result.drift);
       if (first.look.bound <= enough || !can_split(first.box, first.look)) break;
       result.out_of_boxes = result.boxes + 2 > most;
       if (result.out_of_boxes) break;
       std::pop_heap(open.begin(), open.end(), smaller);
-      const Open one = std::move(open.back());
+      const QueueEntry one = std::move(open.back());
       open.pop_back();
-      add(half(one.box, one.look, false));
-      add(half(one.box, one.look, true));
+      add(child_box(one.box, one.look, false));
+      add(child_box(one.box, one.look, true));
     }
     result.bound = open.front().look.bound;
     return result;
@@ -166,7 +176,7 @@ private:
         table_.axes[axis].log ? expr::apply(expr::Op::exp, u, {}, {}, {}) : u;
   }
 
-  Box whole(std::size_t cell) const {
+  Box root_box(std::size_t cell) const {
     Box box;
     box.parts.resize(table_.axes.size());
     for (const StateRange& range : ranges_)
@@ -180,7 +190,7 @@ private:
     return box;
   }
 
-  void enclose(Box& box, Work& work) const {
+  void enclose(Box& box, Workspace& work) const {
     std::vector<Bounds> u;
     for (std::size_t a = 0; a < box.parts.size(); ++a)
       u.push_back(coordinate(a, box.parts[a]));
@@ -200,20 +210,20 @@ private:
     return state;
   }
 
-  Look at(Box& box, double goal, Work& work) const;
+  BoxBound bound_box(Box& box, double goal, Workspace& work) const;
   double reach(const Box& box, const Bounds& value) const;
   std::vector<double> shares(const Box& box) const;
-  void choose_split(Look& look, const Box& box, const Bounds& value, double most, double slope,
+  void choose_split(BoxBound& look, const Box& box, const Bounds& value, double most, double slope,
                     const Deviation::Result& bounds) const;
-  bool can_split(const Box& box, const Look& look) const;
-  Box half(const Box& box, const Look& look, bool upper) const;
+  bool can_split(const Box& box, const BoxBound& look) const;
+  Box child_box(const Box& box, const BoxBound& look, bool upper) const;
 
   const std::vector<StateRange>& ranges_;
   const Table& table_;
-  const TableFunction function_;
-  const LawFunction law_;
-  const expr::Monomials monomials_;
-  const expr::TaylorProgram piece_;
+  const table::TableFunction function_;
+  const table::LawFunction law_;
+  const Monomials monomials_;
+  const TaylorProgram piece_;
   const CellPolynomials interpolant_;
   const Rewriting rewriting_;
   const Deviation deviation_;
@@ -223,14 +233,14 @@ private:
 };
 
 // Bounds |d tau_R / d value| over the box.
-double Cells::reach(const Box& box, const Bounds& value) const {
+double CellBounder::reach(const Box& box, const Bounds& value) const {
   std::vector<Bounds> columns{value};
   columns.insert(columns.end(), box.state.begin(), box.state.end());
   return combine_(columns).slope.magnitude();
 }
 
-Look Cells::at(Box& box, double goal, Work& work) const {
-  Look look;
+BoxBound CellBounder::bound_box(Box& box, double goal, Workspace& work) const {
+  BoxBound look;
   look.state = middle(box);
   look.drift = std::abs(law_(look.state) - function_(look.state));
   for (int pass = 0; pass < 2; ++pass) {
@@ -260,7 +270,7 @@ Look Cells::at(Box& box, double goal, Work& work) const {
 
 // Returns each axis' share in the polynomial's error, by its terms and by its width (a branch
 // of the formula can hide the terms).
-std::vector<double> Cells::shares(const Box& box) const {
+std::vector<double> CellBounder::shares(const Box& box) const {
   std::vector<double> terms(box.parts.size(), 0.0), share;
   double all_terms = 1e-300, width = 1e-300;
   for (std::size_t a = 0; a < box.parts.size(); ++a) {
@@ -276,8 +286,8 @@ std::vector<double> Cells::shares(const Box& box) const {
 }
 
 // Chooses the range whose halves promise the smallest bound.
-void Cells::choose_split(Look& look, const Box& box, const Bounds& value, double most, double slope,
-                         const Deviation::Result& bounds) const {
+void CellBounder::choose_split(BoxBound& look, const Box& box, const Bounds& value, double most,
+                               double slope, const Deviation::Result& bounds) const {
   double best = -1;
   const std::vector<double> share = shares(box);
   for (std::size_t r = 0; r < ranges_.size(); ++r) {
@@ -310,14 +320,14 @@ void Cells::choose_split(Look& look, const Box& box, const Bounds& value, double
   }
 }
 
-bool Cells::can_split(const Box& box, const Look& look) const {
+bool CellBounder::can_split(const Box& box, const BoxBound& look) const {
   const std::size_t a = axis_of(look.split);
   if (a < box.parts.size()) return box.parts[a].high - box.parts[a].low > 1e-6;
   const Bounds x = box.state[look.split];
   return x.width() > 1e-6 * (1e-9 + x.magnitude());
 }
 
-Box Cells::half(const Box& box, const Look& look, bool upper) const {
+Box CellBounder::child_box(const Box& box, const BoxBound& look, bool upper) const {
   Box out = box;
   const std::size_t a = axis_of(look.split);
   if (a == box.parts.size()) {
@@ -356,11 +366,12 @@ std::string obstacle(const models::AssembledLaw& law, const Table& table,
   return "";
 }
 
-void run_cells(const Cells& cells, const std::vector<std::size_t>& chosen, double goal,
-               std::size_t most, const Progress& progress, std::vector<Cells::Result>& results) {
+void run_cells(const CellBounder& cells, const std::vector<std::size_t>& chosen, double goal,
+               std::size_t most, const Progress& progress,
+               std::vector<CellBounder::Result>& results) {
   constexpr std::size_t per_task = 16;
   parallel_for((chosen.size() + per_task - 1) / per_task, [&](std::size_t task) {
-    Cells::Work work(cells);
+    CellBounder::Workspace work(cells);
     for (std::size_t c = task * per_task; c < std::min(chosen.size(), (task + 1) * per_task); ++c) {
       results[chosen[c]] = cells.run(chosen[c], goal, most, work);
       progress.tick();
@@ -370,10 +381,10 @@ void run_cells(const Cells& cells, const std::vector<std::size_t>& chosen, doubl
 
 // Bounds every cell. Most cells need few boxes; the boxes they leave go to the other cells, which
 // start again.
-std::vector<Cells::Result> bounds_of(const Cells& cells, const BoundOptions& options,
-                                     const std::string& model) {
+std::vector<CellBounder::Result> bounds_of(const CellBounder& cells, const BoundOptions& options,
+                                           const std::string& model) {
   const std::size_t most_per_cell = std::max<std::size_t>(20, options.most_boxes / 500);
-  std::vector<Cells::Result> results(cells.count());
+  std::vector<CellBounder::Result> results(cells.count());
   std::vector<std::size_t> chosen(results.size());
   std::iota(chosen.begin(), chosen.end(), 0);
   const std::size_t share =
@@ -381,7 +392,7 @@ std::vector<Cells::Result> bounds_of(const Cells& cells, const BoundOptions& opt
   const Progress progress("proving the table of " + model, results.size());
   run_cells(cells, chosen, options.goal_MPa, share, progress, results);
   std::size_t used = 0;
-  for (const Cells::Result& one : results)
+  for (const CellBounder::Result& one : results)
     used += one.boxes;
   std::erase_if(chosen, [&](std::size_t c) { return !results[c].out_of_boxes; });
   if (chosen.empty() || used >= options.most_boxes) return results;
@@ -399,9 +410,9 @@ DriftBound bound_drift(const models::AssembledLaw& law, const Table& table,
   DriftBound out;
   out.why_not = obstacle(law, table, options);
   if (!out.why_not.empty()) return out;
-  const Cells cells(law, table, ranges);
+  const CellBounder cells(law, table, ranges);
   double bound = 0;
-  for (const Cells::Result& one : bounds_of(cells, options, table.model)) {
+  for (const CellBounder::Result& one : bounds_of(cells, options, table.model)) {
     bound = std::max(bound, one.bound);
     out.boxes += one.boxes;
     out.out_of_boxes = out.out_of_boxes || one.out_of_boxes;
@@ -417,12 +428,6 @@ DriftBound bound_drift(const models::AssembledLaw& law, const Table& table,
   return out;
 }
 
-double rounded_up(double value) {
-  if (!(value > 0) || !std::isfinite(value)) return value;
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2);
-  return std::ceil(value / unit * (1 - 1e-12)) * unit;
-}
-
 namespace {
 
 // Estimates the rounding of kernel and law, which the bound leaves out, as 2^-40 of the largest
@@ -431,7 +436,7 @@ double rounding_of(const models::AssembledLaw& law, const std::vector<StateRange
   std::vector<std::string> names;
   for (const StateRange& range : ranges)
     names.push_back(range.name);
-  const Probe box = with_law(LawFunction(law, names), box_points(ranges, 256));
+  const Probe box = table::with_law(table::LawFunction(law, names), table::box_points(ranges, 256));
   double largest = 0;
   for (const double tau : box.law)
     if (std::isfinite(tau)) largest = std::max(largest, std::abs(tau));
@@ -449,11 +454,12 @@ ProvenDrift prove_drift(const models::AssembledLaw& law, const Table& table,
       1e-3 * allowed_MPa, std::clamp(allowed_MPa, 1.02 * found.drift_MPa, 1.1 * found.drift_MPa));
   ProvenDrift out{std::move(found), bound_drift(law, table, ranges, {goal, most_boxes})};
   if (out.bound.found_MPa > out.worst.drift_MPa) {
-    const TableFunction function(table);
-    States start;
+    const table::TableFunction function(table);
+    table::States start;
     for (const double x : out.bound.state)
       start.push_back({x});
-    const WorstCase more = worst_case(LawFunction(law, function.inputs()), function, ranges, start);
+    const WorstCase more =
+        table::worst_case(table::LawFunction(law, function.inputs()), function, ranges, start);
     if (more.drift_MPa > out.worst.drift_MPa) {
       out.worst.drift_MPa = more.drift_MPa;
       out.worst.state = more.state;
@@ -465,4 +471,4 @@ ProvenDrift prove_drift(const models::AssembledLaw& law, const Table& table,
   return out;
 }
 
-} // namespace frictab::table
+} // namespace frictab::proof

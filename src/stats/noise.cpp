@@ -1,14 +1,14 @@
 // Whitening by the noise model.
-#include "trace/noise.h"
+#include "stats/noise.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
 
-#include "trace/projection.h"
+#include "stats/projection.h"
 
-namespace frictab::trace {
+namespace frictab::stats {
 
 namespace {
 
@@ -139,4 +139,4 @@ void Whitener::apply(Eigen::Ref<MatrixXd> columns) const {
   if (nuisance_.cols() > 0) columns -= nuisance_ * (nuisance_.transpose() * columns).eval();
 }
 
-} // namespace frictab::trace
+} // namespace frictab::stats

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace frictab::trace {
+namespace frictab::stats {
 
 // Returns an orthonormal basis Q of the span of the columns (QR with column pivoting), so that x -
 // Q (Q' x) is the part of x orthogonal to them. Columns that are combinations of others, to 1e-7 of
@@ -14,4 +14,4 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
 // Appends the columns of `more` to `to`.
 void append_columns(Eigen::MatrixXd& to, const Eigen::MatrixXd& more);
 
-} // namespace frictab::trace
+} // namespace frictab::stats

@@ -1,12 +1,12 @@
 // Tiles of four by two columns, eight rows at a time.
-#include "trace/gram.h"
+#include "stats/gram.h"
 
 #include <algorithm>
 #include <cstring>
 
 #include "core/wide.h"
 
-namespace frictab::trace {
+namespace frictab::stats {
 
 namespace {
 
@@ -71,4 +71,4 @@ MatrixXd gram(const Eigen::Ref<const MatrixXd>& columns) {
   return all;
 }
 
-} // namespace frictab::trace
+} // namespace frictab::stats

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frictab::codegen {
+namespace frictab {
 
 // What a template may use. Text is inserted as it is; a text of several lines keeps its lines.
 // Where the line before @{name} is only blanks, every line of the text gets those blanks. A line
@@ -44,4 +44,4 @@ std::string insert_names(std::string_view line, const std::map<std::string, std:
 // render(embedded_template(path), "templates/" + path, values)
 std::string render_template(std::string_view path, const TemplateValues& values);
 
-} // namespace frictab::codegen
+} // namespace frictab

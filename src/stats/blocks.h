@@ -9,7 +9,7 @@
 
 #include "data/dataset.h"
 
-namespace frictab::trace {
+namespace frictab::stats {
 
 // Number of experiments up to which each may have the largest number of blocks.
 inline constexpr std::size_t uncut_experiments = 200, most_blocks = 40;
@@ -43,4 +43,4 @@ Blocks make_blocks(const data::Dataset& data, std::size_t most);
 // the sum over them; waves or a run-in shorter than an eighth of the stroke are detected less well.
 Blocks make_blocks(const data::Dataset& data);
 
-} // namespace frictab::trace
+} // namespace frictab::stats

@@ -1,9 +1,9 @@
 // Bases by QR with column pivoting.
-#include "trace/projection.h"
+#include "stats/projection.h"
 
 #include <Eigen/QR>
 
-namespace frictab::trace {
+namespace frictab::stats {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -25,4 +25,4 @@ void append_columns(MatrixXd& to, const MatrixXd& more) {
   to.rightCols(more.cols()) = more;
 }
 
-} // namespace frictab::trace
+} // namespace frictab::stats

@@ -1,16 +1,16 @@
 // The strict renderer: checks that template and values fit each other exactly, then writes.
-#include "codegen/template.h"
+#include "core/template.h"
 
 #include <set>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
 
-#include "codegen/template_tree.h"
 #include "core/error.h"
+#include "core/template_tree.h"
 #include "core/text.h"
 
-namespace frictab::codegen {
+namespace frictab {
 
 extern const std::pair<std::string_view, std::string_view> embedded_files[];
 extern const unsigned embedded_count;
@@ -238,4 +238,4 @@ Lines items(const std::vector<std::string>& texts) {
   return lines;
 }
 
-} // namespace frictab::codegen
+} // namespace frictab

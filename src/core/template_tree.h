@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace frictab::codegen {
+namespace frictab {
 
 // name or item.name, with its place for messages.
 struct TemplateName {
@@ -31,4 +31,4 @@ struct TemplateNode {
 std::vector<TemplateNode> parse_template(std::string_view text, std::string_view file,
                                          FaultList& faults);
 
-} // namespace frictab::codegen
+} // namespace frictab

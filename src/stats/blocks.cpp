@@ -1,12 +1,12 @@
 // Cuts experiments into blocks of rows.
-#include "trace/blocks.h"
+#include "stats/blocks.h"
 
 #include <algorithm>
 #include <numeric>
 
 #include "data/shares.h"
 
-namespace frictab::trace {
+namespace frictab::stats {
 
 namespace {
 
@@ -94,4 +94,4 @@ Blocks make_blocks(const data::Dataset& data, std::size_t most) {
   return blocks;
 }
 
-} // namespace frictab::trace
+} // namespace frictab::stats

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "expr/taylor_model.h"
+#include "proof/taylor_model.h"
 #include "table/table.h"
 
-namespace frictab::table {
+namespace frictab::proof {
 
 // Part of one cell along one axis: interpolation weights from low to high, within 0 .. 1.
 struct CellPart {
@@ -20,7 +20,7 @@ struct CellPart {
 // Coefficients of an interpolant, and per axis the basis functions that multiply them.
 class CellPolynomials {
 public:
-  explicit CellPolynomials(const Table& table);
+  explicit CellPolynomials(const table::Table& table);
 
   // Number of coefficients per axis that act in a cell: 2, or 4 for a cubic spline.
   std::size_t support() const { return support_; }
@@ -44,7 +44,7 @@ private:
 // Rewrites a polynomial in another basis or over a part of its box; coefficients by monomial.
 class Rewriting {
 public:
-  explicit Rewriting(const expr::Monomials& monomials);
+  explicit Rewriting(const Monomials& monomials);
   void to_chebyshev(std::span<double> c) const;
   // Rewrites it over the lower or the upper half of a variable.
   void halve(std::size_t variable, bool upper, std::span<double> c) const;
@@ -63,7 +63,7 @@ private:
 // Bounds of a polynomial minus an interpolant over a box.
 class Deviation {
 public:
-  Deviation(const expr::Monomials& monomials, std::size_t support);
+  Deviation(const Monomials& monomials, std::size_t support);
 
   struct Result {
     expr::Bounds range;
@@ -77,7 +77,7 @@ private:
   std::vector<std::size_t> tensor_index_; // place of a monomial in the tensor, or npos
   std::vector<std::uint32_t> used_;       // per tensor entry: bits of the variables it depends on
   std::vector<std::uint32_t> used_by_;    // variables per monomial, as bits
-  std::vector<expr::Monomials::Exponents> exponents_;
+  std::vector<Monomials::Exponents> exponents_;
 };
 
-} // namespace frictab::table
+} // namespace frictab::proof

@@ -7,7 +7,7 @@
 #include "table/drift.h"
 #include "table/options.h"
 
-namespace frictab::table {
+namespace frictab::proof {
 
 struct DriftBound {
   std::optional<double> MPa; // no state in the ranges drifts further; absent: not available
@@ -33,23 +33,20 @@ struct DriftBound {
 // than `most_boxes`.
 struct BoundOptions {
   double goal_MPa = 0;
-  std::size_t most_boxes = usual_proof_boxes;
+  std::size_t most_boxes = table::usual_proof_boxes;
 };
-DriftBound bound_drift(const models::AssembledLaw& law, const Table& table,
-                       const std::vector<StateRange>& ranges, const BoundOptions& options);
+DriftBound bound_drift(const models::AssembledLaw& law, const table::Table& table,
+                       const std::vector<table::StateRange>& ranges, const BoundOptions& options);
 
 // The largest drift found by search and the proven bound above it. Each helps the other: the bound
 // need not be closer than a few per cent to the drift found, and the worst box centre is one more
 // start for the search.
 struct ProvenDrift {
-  WorstCase worst;
+  table::WorstCase worst;
   DriftBound bound;
 };
-ProvenDrift prove_drift(const models::AssembledLaw& law, const Table& table,
-                        const std::vector<StateRange>& ranges, WorstCase found, double allowed_MPa,
-                        std::size_t most_boxes = usual_proof_boxes);
+ProvenDrift prove_drift(const models::AssembledLaw& law, const table::Table& table,
+                        const std::vector<table::StateRange>& ranges, table::WorstCase found,
+                        double allowed_MPa, std::size_t most_boxes = table::usual_proof_boxes);
 
-// Rounds to three significant digits, never below the value: the form in which a bound is shown.
-double rounded_up(double value);
-
-} // namespace frictab::table
+} // namespace frictab::proof

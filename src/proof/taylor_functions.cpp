@@ -1,5 +1,5 @@
 // Chebyshev interpolation with an error bound from each function's derivatives.
-#include "expr/taylor_functions.h"
+#include "proof/taylor_functions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,9 @@
 
 #include "expr/arithmetic.h"
 
-namespace frictab::expr {
+namespace frictab::proof {
+
+using expr::Op;
 
 namespace {
 
@@ -22,7 +24,7 @@ double distance_from_zero(double low, double high) {
 }
 
 double value_of(Op op, double x) {
-  return op == Op::divide ? 1 / x : apply(op, x, 0, 0, 0);
+  return op == Op::divide ? 1 / x : expr::apply(op, x, 0, 0, 0);
 }
 
 double whole_power(double x, std::size_t n) {
@@ -149,4 +151,4 @@ double chebyshev_fit(Op op, double centre, double radius, std::span<double> c) {
   return truncation * (1 + 1e-9) + rounding + slope;
 }
 
-} // namespace frictab::expr
+} // namespace frictab::proof

@@ -17,9 +17,9 @@
 
 #include <Eigen/Core>
 
-#include "trace/noise.h"
+#include "stats/noise.h"
 
-namespace frictab::trace {
+namespace frictab::stats {
 
 // Data of a noise fit: a residual per block, and the fit that left it.
 struct NoiseData {
@@ -56,4 +56,4 @@ NoiseFit refine_noise(const NoiseData& data, const NoiseModel& earlier);
 // accurately as weights need.
 NoiseFit refit_noise_coarsely(const NoiseData& data, const NoiseModel& earlier);
 
-} // namespace frictab::trace
+} // namespace frictab::stats

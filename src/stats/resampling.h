@@ -7,7 +7,7 @@
 
 #include "data/dataset.h"
 
-namespace frictab::calibrate {
+namespace frictab::stats {
 
 inline constexpr std::size_t no_recording = static_cast<std::size_t>(-1);
 
@@ -52,4 +52,4 @@ double standard_error(std::span<const double> influence, std::span<const double>
 // Quantile by linear interpolation between order statistics; sorts `values`.
 double quantile_of(std::vector<double>& values, double share);
 
-} // namespace frictab::calibrate
+} // namespace frictab::stats

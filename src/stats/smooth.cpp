@@ -1,5 +1,5 @@
 // One generalised eigenproblem; each stiffness then costs a sum.
-#include "trace/smooth.h"
+#include "stats/smooth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-namespace frictab::trace {
+namespace frictab::stats {
 
 namespace {
 
@@ -101,4 +101,4 @@ SmoothFit fit_smooth(const VectorXd& residual, const MatrixXd& basis, const Matr
   return fit;
 }
 
-} // namespace frictab::trace
+} // namespace frictab::stats

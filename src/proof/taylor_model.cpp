@@ -1,5 +1,5 @@
 // Polynomial arithmetic with truncation; truncated terms and rounding go into the error.
-#include "expr/taylor_model.h"
+#include "proof/taylor_model.h"
 
 #include <limits>
 #include <set>
@@ -7,9 +7,13 @@
 #include <unordered_map>
 
 #include "core/wide.h"
-#include "expr/taylor_functions.h"
+#include "proof/taylor_functions.h"
 
-namespace frictab::expr {
+namespace frictab::proof {
+
+using expr::Bounds;
+using expr::Expr;
+using expr::Op;
 
 namespace {
 
@@ -137,7 +141,7 @@ public:
 
   Bounds range(const Model& a) const {
     const double spread = sum_abs(a.c, 1, m_.size_to(a.degree)) + a.error;
-    return outward(a.c[0] - spread, a.c[0] + spread);
+    return expr::outward(a.c[0] - spread, a.c[0] + spread);
   }
   bool is_number(const Model& a) const { return a.degree == 0 && a.error == 0; }
 
@@ -296,7 +300,7 @@ TaylorProgram::TaylorProgram(const Expr& formula, const std::vector<std::string>
                              const Monomials& monomials)
     : monomials_(monomials) {
   std::unordered_map<const Expr::Node*, std::size_t> done;
-  inside_out(formula, [&](const Expr& e) {
+  expr::inside_out(formula, [&](const Expr& e) {
     Step step{.op = e.op()};
     if (e.op() == Op::constant) step.value = e.value();
     if (e.op() == Op::symbol) {
@@ -456,7 +460,7 @@ private:
     if (beyond.low > 0) return take_operand(y, {0, 0}, out);
     if (unknown(x) || unknown(y)) return give_up(out);
     with_.add(y, x, -1, t1_);
-    take_operand(x, hull({0, 0}, with_.range(t1_)), out);
+    take_operand(x, expr::hull({0, 0}, with_.range(t1_)), out);
   }
 
   const TaylorProgram& program_;
@@ -476,4 +480,4 @@ double TaylorProgram::operator()(std::span<const Bounds> box, Work& work,
   return last.error;
 }
 
-} // namespace frictab::expr
+} // namespace frictab::proof

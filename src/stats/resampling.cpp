@@ -1,5 +1,5 @@
 // Sums per experiment and resampling of whole experiments.
-#include "calibrate/resampling.h"
+#include "stats/resampling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 
-namespace frictab::calibrate {
+namespace frictab::stats {
 
 std::vector<ErrorSums> error_sums(std::span<const double> measured,
                                   std::span<const double> predicted,
@@ -113,4 +113,4 @@ double quantile_of(std::vector<double>& values, double share) {
   return part == 0 || next == values[i] ? values[i] : values[i] + part * (next - values[i]);
 }
 
-} // namespace frictab::calibrate
+} // namespace frictab::stats

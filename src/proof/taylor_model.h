@@ -16,7 +16,7 @@
 
 #include "expr/bounds.h"
 
-namespace frictab::expr {
+namespace frictab::proof {
 
 // The monomials of total degree <= `degree`, in ascending total degree; the first is 1, and the
 // next `variables` are the variables themselves.
@@ -63,7 +63,7 @@ private:
 class TaylorProgram {
 public:
   // `columns`: every symbol of the formula, one variable each, in this order.
-  TaylorProgram(const Expr& formula, const std::vector<std::string>& columns,
+  TaylorProgram(const expr::Expr& formula, const std::vector<std::string>& columns,
                 const Monomials& monomials);
 
   // Work space of an evaluation; one per thread.
@@ -71,13 +71,14 @@ public:
 
   // Writes the coefficients by monomial to `polynomial` and returns its largest possible error over
   // the box; infinite if the formula cannot be enclosed there (a logarithm that may reach 0, ...).
-  double operator()(std::span<const Bounds> box, Work& work, std::span<double> polynomial) const;
+  double operator()(std::span<const expr::Bounds> box, Work& work,
+                    std::span<double> polynomial) const;
 
 private:
   class Run;
   static constexpr std::size_t no_variable = static_cast<std::size_t>(-1);
   struct Step {
-    Op op;
+    expr::Op op;
     double value = 0;
     std::size_t symbol = 0;
     std::size_t a[4] = {};
@@ -104,4 +105,4 @@ private:
   std::vector<double> error_;
 };
 
-} // namespace frictab::expr
+} // namespace frictab::proof

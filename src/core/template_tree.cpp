@@ -1,10 +1,10 @@
 // Reads a template into a tree: directives on lines of their own, inserts inside lines.
-#include "codegen/template_tree.h"
+#include "core/template_tree.h"
 
 #include <cctype>
 #include <sstream>
 
-namespace frictab::codegen {
+namespace frictab {
 
 namespace {
 
@@ -198,4 +198,4 @@ std::vector<TemplateNode> parse_template(std::string_view text, std::string_view
   return Parser(text, file, faults).parse();
 }
 
-} // namespace frictab::codegen
+} // namespace frictab

@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-namespace frictab::trace {
+namespace frictab::stats {
 
 struct SmoothFit {
   // -2 log restricted likelihood, up to a constant that all smooths of one residual share;
@@ -27,4 +27,4 @@ struct SmoothFit {
 SmoothFit fit_smooth(const Eigen::VectorXd& residual, const Eigen::MatrixXd& basis,
                      const Eigen::MatrixXd& penalty, const Eigen::MatrixXd& known);
 
-} // namespace frictab::trace
+} // namespace frictab::stats

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/judgement.h"
+#include "stats/interval.h"
 
-namespace frictab::study {
+namespace frictab::stats {
 
 // A campaign's estimate y = mu + u + e, with u the deviation of its true value, variance tau^2, and
 // e its error, variance std_error^2.
@@ -22,11 +22,11 @@ struct Estimate {
 
 struct RandomEffects {
   std::size_t campaigns = 0;
-  double mean = 0;              // mu; in the unit of the values, as all below
-  calibrate::Interval interval; // 95 % of mu; NaN for fewer than two campaigns
-  double between_sd = 0;        // tau; NaN for fewer than two
+  double mean = 0;       // mu; in the unit of the values, as all below
+  Interval interval;     // 95 % of mu; NaN for fewer than two campaigns
+  double between_sd = 0; // tau; NaN for fewer than two
   // 95 % of the true value of a new campaign; NaN for fewer than three
-  calibrate::Interval predicted;
+  Interval predicted;
 };
 
 // Estimates tau^2 by restricted maximum likelihood with one mean per group (Viechtbauer 2005, J.
@@ -52,6 +52,6 @@ struct Outlier {
 std::vector<Outlier> outliers(std::span<const Estimate> estimates);
 
 // 95 % interval of a share of campaigns (Wilson 1927).
-calibrate::Interval share_interval(std::size_t count, std::size_t of);
+Interval share_interval(std::size_t count, std::size_t of);
 
-} // namespace frictab::study
+} // namespace frictab::stats
