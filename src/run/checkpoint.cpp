@@ -1,4 +1,4 @@
-// stages.json of the kept files says what they are of.
+// The stages.json among the kept files records the job and the data they were made from.
 #include "run/checkpoint.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ std::filesystem::path kept_directory(const job::Job& job) {
 std::optional<StageRecord> kept_stages(const job::Job& job) {
   try {
     return std::optional<StageRecord>(std::in_place, job, kept_directory(job));
-  } catch (const InputError&) { // cut short when the power went: made again
+  } catch (const InputError&) { // damaged, for example by a power failure: recomputed
     return std::nullopt;
   }
 }

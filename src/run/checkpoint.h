@@ -1,4 +1,5 @@
-// What a run that did not end had finished: the next one goes on from there, to the same bytes.
+// Results of a run that did not end, in .frictab-kept of the output directory. The next run resumes
+// from them and produces the same bytes.
 #pragma once
 
 #include <filesystem>
@@ -13,18 +14,19 @@ namespace frictab::run {
 
 class Checkpoint {
 public:
-  // Of the job's directory; empty where nothing is kept there, or where it is damaged.
+  // Reads the checkpoint in the job's directory; empty if none was saved or it is damaged.
   explicit Checkpoint(const job::Job& job);
 
-  // The stage was finished, with these data and this job.
+  // True if the stage was finished, with these data (a fingerprint) and this job.
   bool has(const std::string& stage, const std::string& data) const;
-  // Of such a calibration, and of a trace behind it if there is one, all files are there.
+  // True if calibration was finished, as was tracing if it had begun, and all files of both are
+  // unchanged.
   bool has_calibration(const std::string& data) const;
-  // A stage that had begun, with these data and this job, has finished this file.
+  // True if the stage, finished or not, had completed this file with these data and this job.
   bool has_file(const std::string& stage, const std::string& path, const std::string& data) const;
 
   const ResultDirectory& files() const { return files_; }
-  // What calibration and tracing wrote.
+  // Files that calibration and tracing wrote.
   std::vector<std::string> calibration_files() const;
 
 private:

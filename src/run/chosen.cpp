@@ -20,7 +20,8 @@ void add_once(Fits& fits, const ModelFit& fit) {
   if (std::find(fits.begin(), fits.end(), &fit) == fits.end()) fits.push_back(&fit);
 }
 
-// Constants of the literature and means are there to be compared with, not to be mended.
+// True for constants of the literature and means: references to compare with, which tracing does
+// not extend.
 bool is_constant(const models::Law& law) {
   return law.calibrated == models::Calibrated::fixed || law.calibrated == models::Calibrated::mean;
 }

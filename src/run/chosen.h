@@ -1,4 +1,4 @@
-// Which of the calibrated laws a job names.
+// Selects the calibrated laws that a job names.
 #pragma once
 
 #include <string>
@@ -10,20 +10,20 @@
 
 namespace frictab::run {
 
-// The fits of trace.models, each once: "best" is the first candidate of the ranking, "all" every
-// law that was fitted to the data, so none of the constants. Names that were not calibrated are
-// passed over.
+// Returns the fits of trace.models, each once: "best" is the first candidate of the ranking, "all"
+// every law that was fitted to the data, thus without constants. Ignores names that were not
+// calibrated.
 std::vector<const calibrate::ModelFit*> fits_to_trace(const calibrate::Calibration& calibration,
                                                       const trace::TraceOptions& options);
 
-// The fit of this name ("best": the first candidate of the ranking; "recommended": see
-// calibrate/recommended.h); where it is empty, of the first name in
-// table.model. Throws InputError for a law that was not calibrated.
+// Returns the fit of this name ("best": the first candidate of the ranking; "recommended": see
+// calibrate/recommended.h). An empty name stands for the first name in table.model. Throws
+// InputError if the law was not calibrated.
 const calibrate::ModelFit& fit_named(const calibrate::Calibration& calibration,
                                      const std::string& name, const table::TableOptions& options);
 
-// The models of table.model at the quantiles of table.quantile. Throws InputError for a law that
-// was not calibrated, or for a quantile that it does not have.
+// Returns the models of table.model at the quantiles of table.quantile. Throws InputError for a law
+// that was not calibrated, or for a quantile that it does not have.
 std::vector<models::Model> models_to_tabulate(const calibrate::Calibration& calibration,
                                               const table::TableOptions& options);
 

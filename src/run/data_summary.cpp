@@ -1,4 +1,4 @@
-// Tests as lines of a table.
+// Lists the tests as lines of a table.
 #include "run/data_summary.h"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ Cells cells_of(const data::TestOverview& test, const char* use) {
   return cells;
 }
 
-// Columns as wide as their widest cell; the first `names` to the left, numbers to the right.
+// Pads columns to their widest cell; aligns the first `names` columns left, numbers right.
 std::string aligned(const std::vector<Cells>& rows, std::size_t names = 2) {
   std::vector<std::size_t> width(rows.front().size());
   for (const Cells& cells : rows)
@@ -83,7 +83,7 @@ std::vector<std::string> dropped_lines(const Dataset& data) {
   return lines;
 }
 
-// Those of both, each once.
+// Notes of training and validation, each once.
 std::vector<std::string> notes_of(const JobData& data) {
   std::vector<std::string> notes = data.training.notes;
   for (const std::string& note : data.validation.notes)
@@ -96,7 +96,7 @@ std::string clock_text(const data::ClockOffset& clock) {
                      clock.offset, clock.std_error, clock.correlation);
 }
 
-// What each column is to friction, but for quantities, which say so by their names.
+// Roles of the columns in friction; leaves out quantities, whose names state their role.
 std::string roles_text(const Dataset& data) {
   constexpr std::size_t shown = 100;
   std::vector<Cells> rows = {{"column", "role", "why"}};
@@ -206,7 +206,7 @@ std::string data_json(const JobData& data) {
 Dataset canonical(const JobData& data) {
   Dataset all = data.training;
   const auto with_use = [](Dataset& part, std::size_t use) {
-    if (part.has("use")) return; // the data's own: what was written here before
+    if (part.has("use")) return; // from an earlier call: canonical data that were read again
     part.columns.push_back(
         {"use", "", std::vector<double>(part.rows(), 0.0), {std::string(uses[use])}});
   };

@@ -1,4 +1,4 @@
-// One line per table and its routines; then what was found elsewhere.
+// Prints one line per table and its routines, then the findings outside and below the range.
 #include "run/drift_text.h"
 
 #include <algorithm>
@@ -17,22 +17,22 @@ namespace frictab::run {
 
 namespace {
 
-// Of the laws that have a table or were verified.
+// Column width for the names of all laws with a record.
 std::size_t name_width(const verify::Verification& verification) {
   std::vector<std::string> names;
   for (const verify::DriftRecord& r : verification.records)
     names.push_back(r.model);
   return column_width(names);
 }
-// What is said of one table and the routines made from it.
+// Figures of one table and of the routines made from it.
 struct DriftLine {
   double table = 0;
-  std::optional<double> on_rows, share; // none without rows
+  std::optional<double> on_rows, share; // empty without rows
   std::optional<double> proven_MPa;
-  double routines = 0; // the furthest of them
+  double routines = 0; // largest drift of any routine
   std::size_t count = 0, untested = 0;
   bool passed = true, found_passed = true, over_by_proof = false, over_law_error = false;
-  std::string notes; // what did not run, or is over the tolerance
+  std::string notes; // subjects that did not run, or are over the tolerance
 };
 
 void add_to(DriftLine& line, const verify::Verification& verification,
@@ -55,7 +55,7 @@ void add_to(DriftLine& line, const verify::Verification& verification,
                               r.model, r.subject, verify::largest_drift_MPa(r), *r.law_error_MPa);
   if (const std::string left = verify::not_representable_text(r); !left.empty())
     line.notes += fmt::format("  {} {} {}\n", r.model, r.subject, left);
-  if (r.held) return; // has a line of its own
+  if (r.held) return; // add_costs prints these on lines of their own
   if (r.n_rows > 0) {
     line.on_rows = std::max(line.on_rows.value_or(0), r.rows.max_abs);
     line.share = 100.0 * static_cast<double>(r.n_outside) / static_cast<double>(r.n_rows);
@@ -98,7 +98,8 @@ std::string text_of(const DriftLine& line, const std::string& model, std::size_t
                      proven_text(line), routines, on_rows, share, result_of(line), line.notes);
 }
 
-// One line per axis and side that rows of the data lie beyond; they are the same for every subject.
+// Adds one line per axis and side beyond which rows of the data lie. Takes the first subject that
+// ran, because these lines are the same for every subject.
 void add_outside(std::string& out, const verify::Verification& verification,
                  const std::vector<std::string>& models) {
   std::string lines;
@@ -113,7 +114,7 @@ void add_outside(std::string& out, const verify::Verification& verification,
   if (!lines.empty()) out += "Rows outside the range of the tables:\n" + lines;
 }
 
-// One line per model: how far table and routines are from the law below the range.
+// Adds one line per model: drift of table and routines from the law below the range.
 void add_below(std::string& out, const verify::Verification& verification,
                const std::vector<std::string>& models) {
   std::string lines;
@@ -134,7 +135,8 @@ void add_below(std::string& out, const verify::Verification& verification,
   if (!lines.empty()) out += "Off the law below the tested contact normal stresses, MPa:\n" + lines;
 }
 
-// One line per model: the routines in single precision, the one that rounds most first.
+// Adds one line per model: the routines in single precision, those with the largest rounding error
+// first.
 void add_single(std::string& out, const verify::Verification& verification,
                 const std::vector<std::string>& models) {
   std::string lines;
@@ -161,7 +163,7 @@ void add_single(std::string& out, const verify::Verification& verification,
            lines;
 }
 
-// What holds the same states at the same cost.
+// Targets that fix the same states at the same cost.
 struct HeldLine {
   std::string model, text;
   std::vector<std::string> targets;
@@ -174,7 +176,8 @@ std::string text_of(const HeldLine& line, std::size_t width) {
                      line.text);
 }
 
-// Routines and tables that hold states: how far they are from the law there, and what that costs.
+// Adds routines and tables that fix states: their drift from the law at these states, and the error
+// of fixing them.
 void add_costs(std::string& out, const verify::Verification& verification) {
   std::vector<HeldLine> lines;
   for (const verify::DriftRecord& r : verification.records) {

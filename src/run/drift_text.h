@@ -1,4 +1,4 @@
-// How far tables and routines are from their laws, as text.
+// Drift of tables and routines from their laws, as text.
 #pragma once
 
 #include <string>
@@ -7,12 +7,13 @@
 
 namespace frictab::run {
 
-// brief: what is off, what is outside, what is held. full: also below the tested contact normal
-// stresses, and what single precision rounds. verbose: also the coefficients of traced effects.
+// brief: drift, rows outside the range, fixed states. full: also the drift below the tested contact
+// normal stresses and the rounding errors of single precision. verbose: also the coefficients of
+// traced effects.
 enum class Detail { brief, full, verbose };
 
 std::string drift_text(const verify::Verification& verification, Detail detail);
-// One line without its end, of all tables together; empty where nothing was verified.
+// Summarises all tables in one line without a line break; empty if nothing was verified.
 std::string drift_in_short(const verify::Verification& verification);
 
 } // namespace frictab::run

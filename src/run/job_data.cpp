@@ -1,4 +1,4 @@
-// Reads a job's data and splits them where the job does not.
+// Reads a job's data and splits them if the job does not.
 #include "run/job_data.h"
 
 #include <algorithm>
@@ -30,7 +30,8 @@ namespace frictab::run {
 
 namespace {
 
-// Below so many, a share of them is too few to rank laws by, and too many to fit without.
+// Smallest number of experiments from which a share is held out. With fewer, that share would be
+// too small to rank laws by and too large to leave out of the fit.
 constexpr std::size_t few_experiments = 30;
 constexpr double usual_share = 0.25;
 
@@ -49,8 +50,8 @@ void add_oracle(const data::DataOptions& options, JobData& data) {
   data::read_oracle(options, data.training, data.validation);
 }
 
-// [export.inputs] may name what only a traced effect brings in: a recorded column, or a history;
-// and the strain of a hardening curve.
+// Checks the names in [export.inputs]: besides states they may be a recorded column or history that
+// only a traced effect adds to the law, and the strain of a hardening curve.
 void check_export_inputs(const codegen::ExportOptions& exports, const data::Dataset& data) {
   std::vector<std::string> known = {codegen::strain_name};
   for (const data::Quantity& quantity : data::quantities())
@@ -72,7 +73,7 @@ void check_export_inputs(const codegen::ExportOptions& exports, const data::Data
   faults.throw_if_any();
 }
 
-// Tests that stand beside the data and are in neither of the two lists.
+// Test files found next to the data that neither of the two lists uses.
 std::vector<std::string> unused_by_both(const data::Dataset& a, const data::Dataset& b) {
   std::vector<std::string> both;
   for (const std::string& name : a.unused)
@@ -80,7 +81,7 @@ std::vector<std::string> unused_by_both(const data::Dataset& a, const data::Data
   return both;
 }
 
-// Rows, or where `blocks` is not 0 so many blocks of them per experiment (data.condense).
+// Loads all rows, or `blocks` block means per experiment if `blocks` is not 0 (data.condense).
 data::Dataset load(const std::vector<std::string>& files, const data::DataOptions& options,
                    std::size_t blocks) {
   return blocks > 0 ? data::load_condensed(files, options, blocks)
@@ -97,7 +98,8 @@ JobData with_validation_files(const data::DataOptions& options, FaultList& impla
   JobData data;
   const std::size_t blocks = data::blocks_to_condense(options);
   data.training = load(options.training, options, blocks);
-  data::DataOptions alike = options; // what the training tests say of forces holds for these
+  // Force zeros of validation tests are treated as the training tests require.
+  data::DataOptions alike = options;
   if (const auto differ = data::directions_differ(data.training);
       options.force_zero == data::ForceZero::automatic && differ != data::DirectionsDiffer::nowhere)
     alike.force_zero = differ == data::DirectionsDiffer::by_friction ? data::ForceZero::keep
@@ -146,7 +148,7 @@ JobData with_held_out_tests(data::Dataset all, double share, std::uint64_t seed)
   return data;
 }
 
-// The key holds out of few tests as well: someone may want a share that nothing has seen.
+// Applies data.holdout below few_experiments as well: a user may want tests that no fit has seen.
 JobData without_validation_files(const data::DataOptions& options, std::uint64_t seed,
                                  FaultList& implausible) {
   data::Dataset all = load(options.training, options, data::blocks_to_condense(options));
@@ -159,7 +161,7 @@ JobData without_validation_files(const data::DataOptions& options, std::uint64_t
   return with_held_out_tests(std::move(all), options.holdout.value_or(usual_share), seed);
 }
 
-// What the laws of the job take beside quantities.
+// Columns other than quantities that the laws of the job take.
 std::set<std::string> columns_of_laws(const calibrate::ModelOptions& options) {
   std::set<std::string> names;
   const auto& use = options.use;
@@ -170,7 +172,7 @@ std::set<std::string> columns_of_laws(const calibrate::ModelOptions& options) {
   return names;
 }
 
-// What globs and rules of both lists say together.
+// Checks the files that globs and rules of both lists select together.
 void check_files(const data::DataOptions& options) {
   const auto training = data::find_files(options.training, options.base, options.place);
   std::vector<std::string> all = data::find_files(options.validation, options.base, options.place);

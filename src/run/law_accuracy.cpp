@@ -1,4 +1,4 @@
-// Looks a model's fit up in the calibration and derives what its tables need.
+// Finds a model's fit in the calibration and derives the tolerances of its tables.
 #include "run/law_accuracy.h"
 
 #include <algorithm>

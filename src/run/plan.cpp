@@ -1,4 +1,4 @@
-// StageRecord by name: those the command is for, and those they go on from.
+// Plans the stages of a command: its own, and before it the stages that it needs.
 #include "run/plan.h"
 
 #include <algorithm>
@@ -62,7 +62,7 @@ public:
   }
 
 private:
-  // A run makes everything anew, but for what a run that did not end has finished.
+  // Plans a stage of `frictab run`, which rebuilds everything except what its checkpoint has.
   PlannedStage stage_of_run(const std::string& stage) const {
     PlannedStage out{stage, Action::run, "", writes(stage)};
     const Checkpoint kept(job_);
@@ -86,7 +86,7 @@ private:
     return {stage, Action::refuse, "stale, so `" + command + "` stops: " + mend, {}};
   }
 
-  // "models/", "tables/" and "export/" as what will lie in them.
+  // Lists the files that a stage writes, also those within "models/", "tables/" and "export/".
   std::vector<std::string> writes(const std::string& stage) const {
     if (stage == "trace") return {"trace.json", "models/NAME_traced.json where an effect is added"};
     std::vector<std::string> files, in_folders;

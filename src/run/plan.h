@@ -1,4 +1,5 @@
-// What a command would do with a job, from the job, its data and the results that are there.
+// Plan of a command (--dry-run): the stages it would run, given the job, its data and existing
+// results.
 #pragma once
 
 #include <string>
@@ -12,18 +13,18 @@ struct PlannedStage {
   enum class Action { run, keep, refuse };
   std::string name;
   Action action = Action::run;
-  std::string why;                 // why it runs first, is kept, or is refused
-  std::vector<std::string> writes; // below the output directory; NAME/ is a folder
+  std::string why;                 // reason why it runs first, is kept, or is refused
+  std::vector<std::string> writes; // relative to the output directory; NAME/ is a folder
 };
 
 struct Plan {
   std::string directory;
   std::vector<PlannedStage> stages; // in the order of a run
-  bool refused() const;             // by a stage whose results are stale
+  bool refused() const;             // some stage has stale results
 };
 
-// Of "run" or of one stage. Reads the data and checks them as the command would; writes nothing.
-// Throws InputError.
+// Plans "run" or one stage. Reads and checks the data as the command would; writes nothing. Throws
+// InputError.
 Plan plan_of(const job::Job& job, const std::string& command);
 
 std::string plan_text(const Plan& plan);

@@ -1,4 +1,4 @@
-// Reads rows, evaluates the law and its band, and says what lies beyond the data.
+// Reads rows, evaluates the law and its band, and reports rows beyond the data.
 #include "run/predict.h"
 
 #include <algorithm>
@@ -38,7 +38,8 @@ constexpr double band_low = 0.05, band_high = 0.95;
 
 // ---- reading ----
 
-// Only what a traced effect brought in has to be kept beside the quantities.
+// True if an input is a recorded column that a traced effect added; otherwise recorded columns need
+// not be kept in memory.
 bool takes_recorded_columns(const std::vector<std::string>& inputs) {
   return std::any_of(inputs.begin(), inputs.end(), [](const std::string& name) {
     return !data::find_quantity(name) && !data::find_derived(name);
@@ -53,10 +54,10 @@ data::Dataset load_rows(data::DataOptions mapping, const std::vector<std::string
   of_job(mapping.tests);
   for (std::string& name : mapping.join.files)
     of_job(name);
-  mapping.base = ""; // the file is relative to where the command runs
+  mapping.base = ""; // the file is relative to the current directory
   mapping.place = {};
   mapping.measured = false;
-  mapping.bystanders.reset(); // the job's list is of its own files
+  mapping.bystanders.reset(); // the job's list is for its own files
   if (!takes_recorded_columns(inputs)) mapping.bystanders.emplace();
   data::Dataset rows = data::load_dataset({file}, mapping);
   if (std::count(inputs.begin(), inputs.end(), data::direction_column) > 0)
@@ -124,8 +125,7 @@ void check_data_range(const calibrate::ModelFit& fit, const std::vector<std::str
                        "calibrate again with this version");
 }
 
-// As later stages ask, but for the data: where rows are predicted, those of the calibration need
-// not be.
+// Checks the calibration as later stages do, except for its data, which prediction does not need.
 void check_calibration(const job::Job& job) {
   const StageRecord stages(job, job.directory);
   std::string why;
@@ -186,7 +186,7 @@ std::vector<std::string> header_of(const Prediction& p) {
   return names;
 }
 
-// A number, or the level that it stands for.
+// Formats a number, or the level it encodes.
 std::string state_cell(const Prediction& p, std::size_t input, std::size_t row) {
   const double x = p.states[input][row];
   const auto levels = p.model.law->levels.find(p.inputs[input]);
@@ -194,7 +194,7 @@ std::string state_cell(const Prediction& p, std::size_t input, std::size_t row) 
   return io::csv_cell(levels->second[static_cast<std::size_t>(x)]);
 }
 
-// Per row the names of the inputs that lie outside.
+// Names of the inputs outside the data range, per row.
 std::vector<std::string> names_outside(const Prediction& p) {
   std::vector<std::string> names(p.data.rows());
   for (std::size_t i = 0; i < p.inputs.size(); ++i)

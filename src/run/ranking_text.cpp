@@ -1,4 +1,4 @@
-// The laws by error, what tells them apart, and what was left out.
+// Prints the laws by error, their comparison, and the laws left out.
 #include "run/ranking_text.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::string parameters(const calibrate::ModelFit& fit) {
   return text + (fit.reference ? std::string(" (") + calibrate::reference_words + ")" : "");
 }
 
-// "left out, no sigma_f_MPa: levanov, shaw": one line per reason.
+// Adds one line per reason: "left out, no sigma_f_MPa: levanov, shaw".
 void add_left_out(std::string& out, const calibrate::Calibration& calibration) {
   std::map<std::string, std::string> laws;
   for (const calibrate::LeftOut& left : calibration.left_out) {
@@ -52,7 +52,7 @@ std::size_t name_width(const calibrate::Calibration& calibration) {
     names.push_back(fit.model.law->name);
   return column_width(names);
 }
-// What columns of small stresses take beyond those of stresses of forming.
+// Extra column width for small stresses, which need more decimals.
 int more_width(int decimals) {
   return std::max(0, decimals - 4);
 }
@@ -83,7 +83,7 @@ void add_comparison(std::string& out, const calibrate::Comparisons& comparisons)
                      calibrate::family_sentence(comparisons));
 }
 
-// The three best; all are in benchmark.md.
+// Adds the three best laws; benchmark.md has all.
 void add_conditional(std::string& out, const calibrate::Conditional& c, int decimals) {
   if (c.laws.empty()) return;
   std::vector<std::string> names;

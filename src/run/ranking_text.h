@@ -1,4 +1,4 @@
-// Which law misses by how much, as text.
+// The ranking of the laws by error, as text.
 #pragma once
 
 #include <string>
@@ -7,9 +7,11 @@
 
 namespace frictab::run {
 
-// The table of laws, the sentences that compare them, remarks, and laws with a gain per experiment.
+// Returns the table of laws, the sentences that compare them, remarks, and the laws with a gain per
+// experiment.
 std::string ranking_text(const calibrate::Calibration& calibration);
-// The best law, its error and the laws that may be as good: one line without its end.
+// Returns the best law, its error and the laws that may be as good, in one line without a line
+// break.
 std::string best_law_in_short(const calibrate::Calibration& calibration);
 
 } // namespace frictab::run

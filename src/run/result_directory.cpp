@@ -22,8 +22,8 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-// Stems of entries that are called like a model: laws with traced effects and ends of bands have
-// names that no registry knows.
+// Adds the stems of files named like a model: no registry has the names of laws with traced effects
+// or at the ends of bands.
 void add_model_names(std::vector<std::string>& names, const fs::path& directory,
                      const models::Laws& laws) {
   if (!fs::is_directory(directory)) return;
@@ -90,7 +90,8 @@ std::vector<fs::path> ResultDirectory::all_tables() const {
 
 namespace {
 
-// Its file's name is the one that every other stage knows it by.
+// Checks that the file has the name of its table's model, because all stages find tables by file
+// name.
 void check_model(const table::Table& table, const fs::path& file) {
   if (table.model == file.stem()) return;
   throw InputError({file.string(), 0, 0}, "holds a table of '" + table.model + "'",

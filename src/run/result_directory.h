@@ -1,4 +1,4 @@
-// What earlier runs left in a job's output directory: results that a later stage goes on from, and
+// Files of earlier runs in a job's output directory: the results that later stages load, and the
 // files that a stage replaces.
 #pragma once
 
@@ -21,25 +21,26 @@ public:
   explicit ResultDirectory(const job::Job& job);
   ResultDirectory(const job::Job& job, std::filesystem::path directory);
 
-  // Results. Those that a stage cannot do without throw InputError where they are missing, with the
-  // command that makes them; the others are empty.
+  // Results. If one is missing, functions for required results throw InputError with the command
+  // that makes it; the others return an empty value.
   bool has_calibration() const;
   bool has_tables() const;
   calibrate::Calibration calibration() const;
   std::vector<table::Table> tables() const;
-  // All files below it, as paths in it, sorted.
+  // All files below the directory, as sorted relative paths.
   std::vector<std::string> all_files() const;
   codegen::SourceBundle sources(const std::string& directory) const; // export/c, export/c/coulomb
-  // The one of these two that holds this model's sources; where none does, the second.
+  // Returns "export/c" or "export/c/coulomb", whichever holds this model's sources; the second if
+  // neither does.
   std::string source_directory(const std::string& target, const std::string& model) const;
   std::vector<trace::Trace> traces() const;
   std::optional<verify::Verification> verification() const;
 
-  // Files of the tool itself, relative to the directory, that a stage replaces as a whole. Files
-  // that a user put beside them are not among them.
+  // Files written by frictab, as relative paths, which a stage replaces as a whole. Excludes files
+  // that a user has added there.
   std::vector<std::string> model_files() const;  // models/NAME.json
   std::vector<std::string> table_files() const;  // tables/NAME.h5 and its work files
-  std::vector<std::string> source_files() const; // those that recipes list
+  std::vector<std::string> source_files() const; // files listed in recipes
 
 private:
   std::vector<std::filesystem::path> table_paths() const;

@@ -1,5 +1,5 @@
-// The job's files by what they are on the disk; others' are neither in stages.json, as it was
-// found, nor name frictab.
+// Identifies the job's files by their resolved paths. A file is foreign if the stages.json that was
+// found does not list it and its text does not name frictab.
 #include "run/results.h"
 
 #include <algorithm>
@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 const char* const to_mend = "choose another directory: -o DIR, or output.directory of the job";
 constexpr std::string_view stages_file = "stages.json", report = "report.";
 
-// The job file, those of [data], laws and tables that are laws; without links on their way.
+// The job file, the files of [data], and law and table files of [models], with symbolic links
+// resolved.
 std::set<fs::path> files_read_by(const job::Job& job) {
   const data::DataOptions& data = job.data;
   std::vector<std::string> names = job.models.files;
@@ -45,7 +46,8 @@ void check_not_read(const job::Job& job, const std::vector<std::string>& paths) 
 }
 
 std::string beginning_of(const fs::path& file) {
-  constexpr std::streamsize enough = std::streamsize{1} << 16; // of HDF5: the first attributes
+  // Covers the first attributes of an HDF5 file.
+  constexpr std::streamsize enough = std::streamsize{1} << 16;
   std::string text(enough, '\0');
   std::ifstream in(file, std::ios::binary);
   in.read(text.data(), enough);
@@ -53,13 +55,15 @@ std::string beginning_of(const fs::path& file) {
   return text;
 }
 
-// stages.json knows it, or some of its directory: it never has reports.
+// True if stages.json lists the file. Pages are never listed: they are known as soon as stages.json
+// lists any file.
 bool is_known(const StageRecord& stages, const std::string& path) {
   const bool page = path.starts_with(report) || path == "data.html";
   return stages.had_file(path) || (page && stages.had_files());
 }
 
-// Results name frictab near their beginning; columns and tables of numbers have its first line.
+// True if frictab is named, as results do near their beginning, or the file is empty. Columns and
+// tables of numbers do not name it; has_header_of compares their first line.
 bool is_of_frictab(const std::string& beginning) {
   return beginning.empty() || beginning.find("frictab") != beginning.npos;
 }

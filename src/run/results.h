@@ -1,4 +1,5 @@
-// Results go neither over what the job reads, nor over files that frictab did not write.
+// Protects files from being replaced by results: those that the job reads, and those that frictab
+// did not write.
 #pragma once
 
 #include "io/atomic_file.h"
@@ -6,16 +7,18 @@
 
 namespace frictab::run {
 
-// Before a long run: throws InputError where the output directory holds files that are called like
-// results and that frictab did not write. Not where the job replaces files of others.
+// Runs before long computations. Throws InputError if the output directory has files that are named
+// like results but were not written by frictab. Checks nothing if the job may replace files of
+// others.
 void check_directory(const job::Job& job, const StageRecord& stages);
 
-// Fingerprints of the files that are staged; not of reports, which list what their command wrote.
+// Records fingerprints of the staged files, except reports, which list the files of their own
+// command.
 void record_files(StageRecord& stages, const io::OutputFiles& files);
 
-// Puts the files in place, stages.json among them, which says what they are. Throws InputError, and
-// leaves everything as it was, where one of them would stand in place of a file that the job reads
-// or, unless the job replaces files of others, of one that frictab did not write.
+// Moves the files into place, together with stages.json, which records their origin. Throws
+// InputError and changes nothing if a file would replace one that the job reads or, unless the job
+// may replace files of others, one that frictab did not write.
 void commit_results(const job::Job& job, StageRecord& stages, io::OutputFiles& files);
 
 } // namespace frictab::run

@@ -1,4 +1,4 @@
-// The table of stages, and how one of them is run.
+// The table of all stages, and the functions that run one or all of them.
 #include "run/run.h"
 
 #include <algorithm>
@@ -17,6 +17,8 @@ std::vector<std::string> Stage::writes() const {
   return all;
 }
 
+// Order matters: a run goes through the table from top to bottom. A stage function takes its inputs
+// from the Run, stores its values there and writes its files to the workspace.
 const std::vector<Stage>& all_stages() {
   static const std::vector<Stage> all = {
       {.name = "calibrate",
@@ -51,7 +53,7 @@ const std::vector<Stage>& all_stages() {
            [](const ResultDirectory& d, const StageRecord& record) {
              return record.has("export") || !d.source_files().empty();
            },
-       .load = [](Run&, std::string_view) {}, // each target's where they are verified
+       .load = [](Run&, std::string_view) {}, // verify loads the sources of each target when needed
        .run = export_sources},
       {.name = "verify",
        .needs = {"calibrate", "tabulate", "export"},
@@ -99,6 +101,8 @@ void load_data(Run& run) {
                         [&] { return load_job_data(run.job); });
 }
 
+// Puts the values of `stage` into the run: loads current results of an earlier run, or runs the
+// stage if there are none. Throws InputError if those results are stale.
 void make_present(Run& run, const Stage& stage, std::string_view wanted_by) {
   if (run.present.count(stage.name) > 0) return;
   if (!stage.is_there(run.workspace.earlier(), run.workspace.record())) {
@@ -116,6 +120,7 @@ void make_present(Run& run, const Stage& stage, std::string_view wanted_by) {
 void run_stage(Run& run, std::string_view name) {
   const Stage& stage = stage_named(name);
   load_data(run);
+  // A job without targets has no routines to verify.
   for (const std::string& needed : stage.needs)
     if (needed != "export" || !run.job.exports.targets.empty())
       make_present(run, stage_named(needed), name);
@@ -123,6 +128,7 @@ void run_stage(Run& run, std::string_view name) {
 }
 
 void run_all(Run& run) {
+  // Stages that the checkpoint covers load its results instead of computing them.
   run.workspace.resume();
   for (const Stage& stage : all_stages())
     run_stage(run, stage.name);

@@ -1,5 +1,11 @@
-// One command on one job: the values that move from stage to stage, and the workspace they are
-// taken from and written to.
+// One command on one job. Run holds the job, the workspace (the output directory) and the values
+// that move from stage to stage:
+//
+//   data -> calibration -> traces -> tables -> sources -> verification -> report
+//
+// The whole program flow is in three files: this one has the values, run/stage.h defines a stage,
+// and run.cpp has the table of stages and the loop over them. Each stage's work is in its
+// stage_*.cpp.
 #pragma once
 
 #include <map>
@@ -28,32 +34,38 @@ struct Run {
 
   const job::Job job;
   Workspace workspace;
-  std::vector<std::string> notes; // what a user should know
+  std::vector<std::string> notes; // messages for the user
 
-  // Values; empty until a stage has made them or taken them from an earlier run.
-  std::set<std::string> present; // stages whose values are here
-  std::optional<JobData> data;
-  std::optional<calibrate::Calibration> calibration;
-  std::vector<trace::Trace> traces;
-  std::vector<table::Table> tables;
-  std::map<std::string, verify::DriftRecord> drift_of_tables; // of those made here, by model name
-  std::map<std::string, codegen::SourceBundle> sources;       // by directory
-  std::optional<verify::Verification> verification;
-  std::vector<verify::FormComparison> forms;
-  std::vector<std::string> missed; // tables made here that drift further than allowed, in words
+  // Stages whose values below are final, including those known to have none.
+  std::set<std::string> present;
+
+  // Values, in the order in which they are filled, each with its stage. A value is empty until that
+  // stage has computed it or loaded it from an earlier run.
+  std::optional<JobData> data;                       // read before the first stage
+  std::optional<calibrate::Calibration> calibration; // calibrate; trace adds its laws
+  std::vector<trace::Trace> traces;                  // trace
+  std::vector<table::Table> tables;                  // tabulate
+  // Drift of tables made by tabulate in this run, by model name; verify reuses it.
+  std::map<std::string, verify::DriftRecord> drift_of_tables;
+  std::map<std::string, codegen::SourceBundle> sources; // export, or loaded by verify; by directory
+  std::optional<verify::Verification> verification;     // verify
+  std::vector<verify::FormComparison> forms;            // time_forms; run_all only
+  // One message of tabulate per new table that drifts further than allowed.
+  std::vector<std::string> missed;
 
   std::string path(const std::string& result) const; // of a file in the output directory
-  std::string data_fingerprint() const;              // empty where the data were not read
-  // Marks a stage as finished, in stages.json and in the checkpoint.
+  std::string data_fingerprint() const;              // empty if no data were read
+  // Records a finished stage for stages.json and adds it to `present`.
   void finish(const std::string& stage);
 };
 
-// One stage, after those that it goes on from: taken from an earlier run where their results are
-// there and current, made first where there are none. Throws InputError where they are stale.
+// Runs one stage. First puts the values of the stages it needs into the run: loads current results
+// of an earlier run, or runs those stages if there are none. Throws InputError if the earlier
+// results are stale.
 void run_stage(Run& run, std::string_view stage);
 
-// Every stage, from what a run that did not end had finished; then the forms are timed. Nothing
-// appears in the output directory before run.workspace.commit().
+// Runs every stage, resuming from the checkpoint of a run that did not end, then times the forms.
+// The output directory does not change before run.workspace.commit().
 void run_all(Run& run);
 
 } // namespace frictab::run

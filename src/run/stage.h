@@ -1,6 +1,6 @@
-// The stages of a job, in the order of a run: what each goes on from, which sections of the job its
-// results depend on, what it writes, and how it is loaded or run. Commands, --dry-run, status,
-// resuming and stages.json all read this one table.
+// A stage of a job: the stages it needs, the sections of the job that its results depend on, the
+// files it writes, and the functions that load or run it. The table of all stages (run.cpp) is in
+// the order of a run; commands, --dry-run, status, resuming and stages.json all read it.
 #pragma once
 
 #include <string>
@@ -14,19 +14,21 @@ class StageRecord;
 struct Run;
 
 struct Stage {
-  std::string name; // also that of its command
-  std::vector<std::string> needs =
-      {}; // stages whose results it goes on from: made first if missing
-  std::vector<std::string> sections = {}; // of the job; none: its results are not recorded
-  // Files that later stages read, then those for people alone; "models/" is a whole folder.
+  std::string name; // also the name of its command
+  // Stages whose results it needs; run first if their results are missing.
+  std::vector<std::string> needs = {};
+  std::vector<std::string> sections = {}; // sections of the job; empty: results are not recorded
+  // Files that later stages read, and pages that only people read; "models/" is a whole folder.
   std::vector<std::string> results = {}, pages = {};
-  bool optional = false;       // no gap where it has not run
-  std::string made_first = {}; // the note where another stage had to run it
+  bool optional = false;       // not running it leaves no gap
+  std::string made_first = {}; // note to the user, if another stage had to run it first
 
-  // Whether an earlier run has left its results.
+  // True if an earlier run has left its results. Null for stages that no other stage needs.
   bool (*is_there)(const ResultDirectory&, const StageRecord&) = nullptr;
-  // Takes its results from an earlier run; `wanted_by` is the stage that goes on from them.
+  // Loads its results of an earlier run into the Run; `wanted_by` is the stage that needs them.
+  // Null for the last stage.
   void (*load)(Run&, std::string_view wanted_by) = nullptr;
+  // Computes its values from those of earlier stages, stores them in the Run and writes its files.
   void (*run)(Run&) = nullptr;
 
   bool is_recorded() const { return !sections.empty(); }

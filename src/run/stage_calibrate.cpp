@@ -1,4 +1,4 @@
-// The laws, fitted and ranked.
+// Stage calibrate: fits and ranks the laws.
 #include <fmt/format.h>
 
 #include "calibrate/calibration_file.h"
@@ -38,7 +38,7 @@ void calibrate_laws(Run& run) {
       run.calibration = calibrate::calibrate(run.data->calibration_input(run.job));
     });
   workspace.remove_earlier(workspace.earlier().model_files(), "models/");
-  workspace.remove_earlier("trace.json"); // of another calibration
+  workspace.remove_earlier("trace.json"); // belongs to the replaced calibration
   if (is_kept) {
     for (const std::string& path : kept->calibration_files())
       workspace.take_from_checkpoint(path);
@@ -48,14 +48,14 @@ void calibrate_laws(Run& run) {
     write_calibration(run);
   }
   run.finish("calibrate");
-  run.present.insert("trace"); // there is none of this calibration
+  run.present.insert("trace"); // this calibration has no traces yet
   if (!is_kept) workspace.save_checkpoint();
 }
 
 void load_calibration(Run& run, std::string_view) {
   run.workspace.check_as_written("calibrate", "calibration.json");
   run.calibration = run.workspace.earlier().calibration();
-  // What stages.json says, where there is none.
+  // Compares the data here as well, because check_fresh cannot without stages.json.
   const std::string wanted = data::fingerprint(run.data->training, run.data->judged());
   if (run.calibration->data_hash != wanted)
     throw InputError({run.path("calibration.json"), 0, 0},

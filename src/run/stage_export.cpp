@@ -1,4 +1,4 @@
-// The routines of the tables, or of the laws themselves.
+// Stage export: generates the routines of the tables, or of the laws themselves.
 #include <algorithm>
 #include <set>
 
@@ -14,7 +14,7 @@ using table::Table;
 
 namespace {
 
-// Names the target at fault, and replaces the job's key by the place where the job states it.
+// Names the failing target, and replaces the job key by its location in the job file.
 Fault with_job_location(Fault fault, const std::string& target,
                         const codegen::ExportOptions& exports) {
   fault.what = target + ": " + fault.what;
@@ -61,12 +61,12 @@ void export_sources(Run& run) {
                                       "export.targets",
                                       target));
   run.workspace.remove_earlier(run.workspace.earlier().source_files(), "export/");
-  FaultList faults; // of all targets: what one cannot take, another can
+  FaultList faults; // of all targets: one may accept what another refuses
   std::set<const codegen::Exporter*> refused;
   for (const Table& table : run.tables) {
     const Table direct = direct_form(law_of(run, table), table);
     for (const codegen::Exporter* exporter : targets) {
-      if (refused.count(exporter)) continue; // for the same reason
+      if (refused.count(exporter)) continue; // every table would fail for the same reason
       const bool of_law =
           run.job.exports.form == codegen::ExportForm::direct || !exporter->is_routine();
       try {

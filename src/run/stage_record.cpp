@@ -1,4 +1,4 @@
-// Fingerprints of stages.
+// Computes and compares the fingerprints of stages.
 #include "run/stage_record.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::string file_fingerprint(const std::filesystem::path& file) {
   return hash_text(io::read_file(file));
 }
 
-// Whether later stages read this file of the stage; "models/" is a whole folder.
+// True if later stages read this file of the stage; "models/" is a whole folder.
 bool is_result(const Stage& stage, std::string_view path) {
   return std::any_of(stage.results.begin(), stage.results.end(), [&](const std::string& result) {
     return result.ends_with("/") ? path.starts_with(result) : path == result;
@@ -49,12 +49,13 @@ StageRecord::StageRecord(const job::Job& job, const std::filesystem::path& direc
   if (!std::filesystem::exists(file)) return;
   const auto json = io::parse_json(io::read_file(file), file.string());
   io::read_json(file.string(), "remove it, then `frictab run`", [&] {
-    if (json.at("schema") != schema) return; // of another version: nothing is known
+    if (json.at("schema") != schema) return; // written by another version: nothing is known
     for (const auto& [name, inputs] : json.at("stages").items())
       made_[name] = {inputs.at("data"), inputs.at("job"), inputs.at("laws"), inputs.at("from"),
                      inputs.at("version")};
     open_ = json.value("unfinished", "");
-    files_ = json.value("files", std::map<std::string, std::string>()); // none: of 0.1
+    // Missing in files of version 0.1.
+    files_ = json.value("files", std::map<std::string, std::string>());
     for (const auto& [path, fingerprint] : files_)
       had_files_.insert(path);
   });
@@ -65,7 +66,7 @@ std::string StageRecord::key(const std::string& stage) const {
   return hash_text(made.data + made.job + made.laws + made.from + made.version);
 }
 
-// The last stage before it whose results it goes on from: tracing need not have run.
+// Returns the last recorded stage before `stage`. This skips trace if it has not run.
 std::string StageRecord::before(const std::string& stage) const {
   std::string last;
   for (const Stage& one : all_stages()) {

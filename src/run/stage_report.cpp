@@ -1,4 +1,4 @@
-// report.html and report.md, of what there is so far.
+// Stage report: writes report.html and report.md from all existing results.
 #include <algorithm>
 #include <filesystem>
 
@@ -15,14 +15,14 @@ using table::Table;
 
 namespace {
 
-// A job called job.toml says nothing: its folder is the campaign's name then.
+// Name of the campaign: that of the job file, or of its folder if the file is called job.toml.
 std::string campaign_name(const std::string& job_file) {
   const fs::path file(job_file);
   const std::string folder = fs::absolute(file).parent_path().filename().string();
   return file.filename() == "job.toml" && !folder.empty() ? folder : file.filename().string();
 }
 
-// Of the sources that this run made, else of those that lie in the directory.
+// Recipes of the sources made in this run, otherwise of those in the directory.
 std::vector<report::Recipe> recipes_of(const Run& run) {
   const std::vector<std::string> staged = run.workspace.files();
   std::vector<report::Recipe> found;

@@ -1,4 +1,4 @@
-// The chosen laws as tables.
+// Stage tabulate: makes tables of the chosen laws.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ std::string path_of(const std::string& model) {
   return "tables/" + model + ".h5";
 }
 
-// As it was written: what is verified is what users get.
+// Reads the table back from its file, so that verification measures what users get.
 Table staged_table(const Workspace& workspace, const std::string& model) {
   Table table = table::read_table(workspace.staged(path_of(model)));
   table.drift_is_claimed = false;
@@ -46,7 +46,7 @@ Table sampled_table(const Run& run, const models::AssembledLaw& law) {
   return table;
 }
 
-// The drift a user can rely on, measured before the file is written.
+// Measures the drift before the table is written, so that the file carries it.
 void measure_drift(Run& run, const models::AssembledLaw& law, Table& table) {
   const verify::DriftRecord drift =
       verify::verify(verify_input(run, law, table, "the new table"), {}).front();
@@ -78,8 +78,8 @@ Table made_table(Run& run, const models::AssembledLaw& law) {
   return staged_table(run.workspace, name);
 }
 
-// Of the tables in the directory those that table.model names; all of them where it says best or
-// all, which is what the earlier run has resolved.
+// Keeps the loaded tables that table.model names. Keeps all if it names no laws ("best", "all"),
+// because the earlier run has resolved that choice.
 void keep_named(std::vector<Table>& tables, const table::TableOptions& options,
                 const models::Laws& laws) {
   const std::vector<std::string>& names = options.model;
@@ -89,7 +89,7 @@ void keep_named(std::vector<Table>& tables, const table::TableOptions& options,
     there += (there.empty() ? "" : ", ") + table.model;
   const auto is_named = [&](const Table& table) {
     const models::ModelName name = models::read_model_name(table.model, laws);
-    std::string law = table.model; // without its quantile
+    std::string law = table.model; // name without the quantile
     if (name.base) law = name.base->name + (name.traced ? "_traced" : "");
     return std::find(names.begin(), names.end(), law) != names.end() ||
            std::find(names.begin(), names.end(), table.model) != names.end();
@@ -100,7 +100,8 @@ void keep_named(std::vector<Table>& tables, const table::TableOptions& options,
                      "there are tables of " + there + "; frictab tabulate makes others");
 }
 
-// Verification measures a changed table; no other stage takes it for the law.
+// Checks that a table was made from these data and not changed since. Verification measures a
+// changed table and notes it; other stages refuse it.
 void check_origin(Run& run, Table& table, bool to_verify) {
   const std::string file = run.path(path_of(table.model));
   const std::string wanted = run.calibration->data_hash;
@@ -132,7 +133,7 @@ void tabulate_laws(Run& run) {
     workspace.save_checkpoint();
     progress.tick();
   }
-  // As a later stage reads them: by name.
+  // Sorts by name, the order in which later stages load them.
   std::sort(run.tables.begin(), run.tables.end(),
             [](const Table& a, const Table& b) { return a.model < b.model; });
   run.finish("tabulate");

@@ -1,4 +1,5 @@
-// What calibrated laws lack; laws with effects join the calibration.
+// Stage trace: finds effects that calibrated laws lack, and adds the extended laws to the
+// calibration.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ using calibrate::ModelFit;
 
 namespace {
 
-// A trace sorts experiments by name.
+// Sorts errors in the order of `names`, because a trace sorts experiments by name.
 std::vector<calibrate::ExperimentError>
 in_order_of(const std::vector<std::string>& names,
             const std::vector<calibrate::ExperimentError>& errors) {
@@ -30,9 +31,9 @@ in_order_of(const std::vector<std::string>& names,
   return sorted;
 }
 
-// Of few validation tests, which laws are ranked by, a traced law may come out behind the law that
-// its effects were added to; the left-out tests of the trace, by which they were, are more. True
-// where it was.
+// Moves a traced law before the law it extends if the validation tests rank it after that law.
+// Validation tests may be few; the left-out tests of the trace, on which the effects were selected,
+// are more. Returns true if it moved the law.
 bool put_before_its_law(std::vector<ModelFit>& fits, const trace::Trace& trace) {
   const auto with_name = [&](const std::string& name) {
     return std::find_if(fits.begin(), fits.end(),
@@ -67,7 +68,7 @@ std::vector<trace::Trace> traces_of(const Calibration& calibration, const JobDat
   return traces;
 }
 
-// The calibration with the laws that have effects, judged and ranked among the others.
+// Adds the extended laws to the calibration, and validates and ranks them with the others.
 void add_traced_laws(Calibration& calibration, std::vector<trace::Trace>& traces,
                      const calibrate::CalibrationInput& input) {
   std::vector<ModelFit*> by_validation;
@@ -86,7 +87,7 @@ void add_traced_laws(Calibration& calibration, std::vector<trace::Trace>& traces
                      return a.validation.mae_MPa < b.validation.mae_MPa;
                    });
   calibrate::add_comparisons(calibration, input);
-  std::vector<std::string> overruled; // by more tests than rank the laws
+  std::vector<std::string> overruled; // laws ranked after their extension by the left-out tests
   for (const trace::Trace& trace : traces)
     if (put_before_its_law(calibration.fits, trace)) overruled.push_back(trace.model);
   calibrate::add_recommended(calibration, input, overruled);
@@ -99,9 +100,9 @@ void trace_laws(Run& run) {
   const std::string data = run.data_fingerprint();
   if (const Checkpoint* kept = workspace.checkpoint();
       kept && kept->has_calibration(data) && kept->has("trace", data)) {
-    run.traces = kept->files().traces(); // its laws are in the calibration that was kept
+    run.traces = kept->files().traces(); // the checkpoint's calibration contains its laws
   } else {
-    std::erase_if(run.calibration->fits, // of an earlier trace
+    std::erase_if(run.calibration->fits, // laws of an earlier trace
                   [](const ModelFit& fit) { return fit.model.traced(); });
     workspace.remove_earlier(workspace.earlier().model_files(), "models/");
     run.traces = traces_of(*run.calibration, *run.data, run.job);

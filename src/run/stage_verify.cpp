@@ -1,4 +1,5 @@
-// Tables and routines against their laws, and both forms of a law against each other.
+// Stage verify: compares tables and routines with their laws; times tables against the laws
+// themselves.
 #include <algorithm>
 #include <iterator>
 
@@ -21,12 +22,12 @@ const codegen::SourceBundle& sources_in(Run& run, const std::string& directory) 
   return found->second;
 }
 
-// As the recipes say: of the table, or of the law itself.
+// Sources of each target; their recipes record whether they were made from the table or the law.
 std::vector<verify::GeneratedSource> sources_of(Run& run, const Table& table, const Table& direct) {
   std::vector<verify::GeneratedSource> sources;
   for (const codegen::Exporter* exporter : codegen::exporters_named(run.job.exports.targets)) {
     std::string directory = export_directory(run, exporter->name, table);
-    if (!run.sources.count(directory)) // of a run that may have had more tables
+    if (!run.sources.count(directory)) // from an earlier run, which may have had more tables
       directory = run.workspace.earlier().source_directory(exporter->name, table.model);
     const codegen::SourceBundle& bundle = sources_in(run, directory);
     const bool of_law =
@@ -47,7 +48,7 @@ std::vector<verify::DriftRecord> records_of(Run& run, const Table& table) {
   return verify::verify(input, sources_of(run, table, direct));
 }
 
-// Of whole tables, by a run that did not end.
+// Records of tables that a run that did not end had verified completely.
 std::vector<verify::DriftRecord> kept_records(const Run& run) {
   const Checkpoint* kept = run.workspace.checkpoint();
   if (!kept || !kept->has_file("verify", "verify.json", run.data_fingerprint())) return {};

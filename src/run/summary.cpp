@@ -1,4 +1,4 @@
-// Data, laws, effects, tables, drift; the findings in short; what was written.
+// Prints data, laws, effects, tables and drift; the findings in short; the files written.
 #include "run/summary.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ std::string data_text(const Run& run) {
   return out;
 }
 
-// From here on a linear table is slow to compile and no longer fits into a core's cache.
+// Largest node count for which linear tables compile fast and fit into a core's cache.
 constexpr std::size_t many_nodes = 50000;
 
 std::string tables_text(const Run& run) {
@@ -93,7 +93,7 @@ std::string tables_text(const Run& run) {
   return out;
 }
 
-// "report.html, models/ (15), ...": a directory is named once.
+// Groups files by directory: "report.html, models/ (15), ...".
 std::string file_list(const std::vector<std::string>& files) {
   std::vector<std::pair<std::string, std::size_t>> groups;
   for (const std::string& file : files) {
@@ -109,7 +109,7 @@ std::string file_list(const std::vector<std::string>& files) {
   return text;
 }
 
-// What a user does after this: see what is off, look at the page, or the stage behind the last.
+// Suggests the next step: fix the drift, open the page, or run the next stage.
 std::string next_step(const Run& run) {
   const std::vector<std::string> files = run.workspace.files();
   const auto wrote = [&](std::string_view start) {

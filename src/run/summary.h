@@ -1,4 +1,4 @@
-// What a pipeline found, as text that is read in ten seconds, or as JSON.
+// Findings of a run, as text that is read in ten seconds, or as JSON.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace frictab::run {
 
-// brief ends with the findings in a few lines; full says all that the report says.
+// `brief` ends with the findings in a few lines; `full` has everything that the report has.
 std::string summary_text(const Run& run, Detail detail);
 std::string summary_json(const Run& run);
 

@@ -1,4 +1,4 @@
-// The summary as one JSON object.
+// Writes the summary as one JSON object.
 #include <nlohmann/json.hpp>
 
 #include "calibrate/calibration_file.h"

@@ -1,4 +1,4 @@
-// Staged files, the record of stages and the checkpoint, kept in step.
+// Keeps the staged files, the record of stages and the checkpoint consistent.
 #include "run/workspace.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,8 @@ void Workspace::check_fresh(const Stage& stage, const std::string& data) const {
   const std::string why = record_.stale(stage.name, data);
   if (why.empty()) return;
   const fs::path result = fs::path(job_.directory) / stage.results.front();
-  const fs::path named = result.has_filename() ? result : result.parent_path(); // without its slash
+  // Without the trailing slash of a folder.
+  const fs::path named = result.has_filename() ? result : result.parent_path();
   throw InputError({named.string(), 0, 0}, "is stale: " + why,
                    fmt::format("`frictab {} {}` rebuilds it, `frictab run` everything; `frictab "
                                "status` shows all stages",

@@ -1,6 +1,6 @@
-// The output directory of a job for one command: its lock, what earlier runs left there, the files
-// of this run until they are moved into place, the record of stages, and the checkpoint of a run
-// that did not end.
+// The output directory of a job during one command: its lock, the results of earlier runs, the
+// files of this run until they are moved into place, the record of stages, and the checkpoint of a
+// run that did not end.
 #pragma once
 
 #include <atomic>
@@ -21,53 +21,55 @@ namespace frictab::run {
 
 class Workspace {
 public:
-  // Throws InputError where another process writes there, or where files that are called like
-  // results are not frictab's (run/results.h).
+  // Locks the directory. Throws InputError if another process writes there, or if files named like
+  // results were not written by frictab (run/results.h).
   explicit Workspace(const job::Job& job);
 
-  // False where the file system has no locks.
+  // False if the file system has no locks.
   bool is_exclusive() const { return output_.is_exclusive(); }
 
-  // ---- what earlier runs left ----
+  // ---- results of earlier runs ----
   const ResultDirectory& earlier() const { return earlier_; }
   const StageRecord& record() const { return record_; }
-  // Throws InputError where the stage's results there were made from another job or other data.
+  // Throws InputError if the stage's earlier results were made from another job or other data.
   void check_fresh(const Stage& stage, const std::string& data) const;
-  // Throws InputError where a result was changed since the stage wrote it.
+  // Throws InputError if a result was changed since the stage wrote it.
   void check_as_written(std::string_view stage, const std::string& path) const;
 
-  // ---- the files of this run ----
+  // ---- files of this run ----
   void write(const std::string& path, std::string_view text) { output_.write(path, text); }
   std::filesystem::path stage_file(const std::string& path) { return output_.stage(path); }
   std::filesystem::path staged(const std::string& path) const { return output_.staged(path); }
   std::vector<std::string> files() const { return output_.paths(); }
-  // Files of an earlier run that commit() removes unless they are written anew: those that are
-  // called like results, and those in this folder that stages.json lists.
+  // Marks files of an earlier run that commit() removes unless this run writes them again: files
+  // named like results, and all files in this folder that stages.json lists.
   void remove_earlier(const std::vector<std::string>& called_like_results, std::string_view folder);
   void remove_earlier(const std::string& path) { output_.remove_old(path); }
 
   void begin(const std::string& stage, const std::string& data) { record_.begin(stage, data); }
   void record(const std::string& stage, const std::string& data) { record_.record(stage, data); }
-  // Moves all files into place.
+  // Moves all files into place, or none.
   void commit();
 
-  // ---- a run of all stages that does not end ----
-  // Goes on from what an earlier run had finished, and keeps what this one finishes.
+  // ---- checkpoint of a run of all stages ----
+  // Opens the checkpoint of an earlier run; from here on save_checkpoint() saves.
   void resume() { checkpoint_.emplace(job_); }
   const Checkpoint* checkpoint() const { return checkpoint_ ? &*checkpoint_ : nullptr; }
   void take_from_checkpoint(const std::string& path) { output_.take_kept(path); }
-  // What is finished so far outlives the process.
+  // Saves the files of this run so far, so that they outlive the process.
   void save_checkpoint();
-  // What is kept, for a user who sees this run fail or stops it; empty where nothing is.
+  // Message about the saved checkpoint for a user whose run fails or is interrupted; empty if
+  // nothing was saved.
   std::string checkpoint_text() const;
 
 private:
   const job::Job& job_;
-  io::OutputFiles output_; // first: it finishes what a process that died had begun
+  // First member: its constructor finishes an interrupted commit before the others read.
+  io::OutputFiles output_;
   ResultDirectory earlier_;
   StageRecord record_;
   std::optional<Checkpoint> checkpoint_;
-  std::atomic<bool> has_saved_ = false; // read when the run is interrupted
+  std::atomic<bool> has_saved_ = false; // read by the thread that handles interruptions
 };
 
 } // namespace frictab::run
