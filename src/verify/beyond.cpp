@@ -42,7 +42,7 @@ RowsBeyond rows_beyond(const table::Table& table, const table::States& states) {
         count(ends[2 * a], axes[a].low - x);
       else
         count(ends[2 * a + 1], x - axes[a].high);
-      if (axes[a].held) continue; // by the law as well: compared
+      if (axes[a].held) continue; // the law clamps it as well: compared
       if (axes[a].refuses(x))
         out.kinds[i] = RowKind::refused;
       else if (!axes[a].extends(x) && out.kinds[i] != RowKind::refused)

@@ -1,4 +1,4 @@
-// Drift of the laws in one user file.
+// Measures the drift of the laws combined in one user file.
 #include "verify/combined.h"
 
 #include <algorithm>
@@ -15,9 +15,9 @@ namespace frictab::verify {
 namespace {
 
 constexpr const char* normal_stress = "sigma_n_MPa";
-constexpr std::size_t points_below = 4096; // Halton points
+constexpr std::size_t points_below = 4096; // number of Halton points
 
-// States over a law's range and what its table says there.
+// States over a law's range, and tau_R of its table at these states, MPa.
 struct Asked {
   std::vector<std::string> names;
   table::States states;
@@ -31,7 +31,7 @@ struct Asked {
   }
 };
 
-// Where the solver gets mu, tau_R is at most the largest one times the pressure.
+// Limits tau_R to the largest mu that targets write, times the pressure; for solvers that get mu.
 void limit_mu(Asked& asked) {
   const auto at = std::find(asked.names.begin(), asked.names.end(), normal_stress);
   if (at == asked.names.end()) return;
@@ -41,7 +41,8 @@ void limit_mu(Asked& asked) {
     asked.tau[i] = std::min(asked.tau[i], codegen::fortran::largest_coefficient * pressure[i]);
 }
 
-// Over the range, and where forming contacts begin: in the decade below its lowest pressure.
+// Returns states over the range and, where forming contacts begin, in the decade below its lowest
+// pressure.
 table::States states_of(const table::Table& table, std::size_t samples) {
   auto ranges = table::table_ranges(table, nullptr, table.model);
   table::States states = table::probe_points(ranges, table.axes, samples);
@@ -85,7 +86,7 @@ void compare(DriftRecord& record, const Asked& asked, const std::vector<double>&
     record.max_vs_table_MPa = d;
     furthest = i;
   }
-  // A law that was never asked has shown nothing.
+  // A law without representable states has not been tested and must not pass.
   if (record.n_points_not_representable == tau.size()) record.max_vs_table_MPa = HUGE_VAL;
   for (std::size_t d = 0; d < asked.names.size(); ++d)
     record.worst_state[asked.names[d]] = asked.states[d][furthest];

@@ -1,5 +1,5 @@
-// Several laws in one user file (codegen/combine.h): each is asked through the entry that they
-// share, as its solver would under the law's name, and compared with its own table.
+// Verifies several laws in one user file (codegen/combine.h). Each law is called through the entry
+// that all share, as its solver would with the law's name, and compared with its own table.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ struct CombinedSource {
   codegen::CombinedBundle bundle;
 };
 
-// One record for each law and variant, its model "PUNCH: coulomb". The drift from the law is that
-// from the table, over its whole range and the decade below its lowest pressure, and what the table
-// itself is known to drift from its law (0 of a table that does not say it); allowed is
-// `max_drift_MPa`, else the table's tolerance, else 0.5 MPa. Throws InputError where a table has no
-// range for a state.
+// Returns one record per law and variant, with a model such as "PUNCH: coulomb". The drift from the
+// law is the sum of the drift from its table, over the table's whole range and the decade below its
+// lowest pressure, and the table's recorded drift from the law (0 if the table has none). The
+// allowed drift is `max_drift_MPa`, otherwise the table's tolerance, otherwise 0.5 MPa. Throws
+// InputError if a table has no range for a state.
 std::vector<DriftRecord> verify_combined(const CombinedSource& source,
                                          std::optional<double> max_drift_MPa, std::size_t samples);
 

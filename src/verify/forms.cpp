@@ -1,4 +1,4 @@
-// Times the two forms of a law against each other.
+// Times the two forms of a law, table and direct, against each other.
 #include "verify/forms.h"
 #include "codegen/baked_table.h"
 
@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t states_timed = 4096;
 constexpr std::size_t repeats = 11;
-constexpr double least_seconds = 5e-4; // of one repeat
+constexpr double least_seconds = 5e-4; // shortest duration of one repeat
 
 double thread_seconds() {
   timespec t{};
@@ -31,7 +31,7 @@ double thread_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// One form, compiled and ready to be asked.
+// One form, compiled and ready to be called.
 class Subject {
 public:
   Subject(const codegen::Exporter& exporter, const table::Table& table,
@@ -50,7 +50,7 @@ public:
     return tau_;
   }
 
-  // Also finds how many calls fill a repeat.
+  // Returns the time per query. Doubles the number of calls until they fill a repeat.
   double ns_per_query() {
     for (;;) {
       const double before = thread_seconds();
@@ -90,7 +90,7 @@ void measure(FormComparison& out, const codegen::Exporter& exporter,
   for (std::size_t i = 0; i < answer.size(); ++i)
     out.direct.drift_MPa = std::max(out.direct.drift_MPa, std::abs(answer[i] - probe.law[i]));
   std::array<double, repeats> table_ns{}, law_ns{};
-  of_table.ns_per_query(), of_law.ns_per_query(); // the first calls warm up
+  of_table.ns_per_query(), of_law.ns_per_query(); // warms up caches and finds the number of calls
   for (std::size_t r = 0; r < repeats; ++r) {
     table_ns[r] = of_table.ns_per_query();
     law_ns[r] = of_law.ns_per_query();
@@ -130,7 +130,8 @@ FormComparison compare_forms(const models::AssembledLaw& law, const table::Table
 
 std::string form_verdict(const FormComparison& c) {
   if (!c.why_not.empty()) return c.why_not;
-  const double faster = c.direct.ns_per_query / c.table.ns_per_query; // the table than the law
+  // Speed of the table relative to the law.
+  const double faster = c.direct.ns_per_query / c.table.ns_per_query;
   if (faster >= 2) return fmt::format("the table is {:.1f} times faster than the law", faster);
   if (faster > 1.05)
     return fmt::format("the table is only {:.1f} times faster: export.form = \"direct\" has no "

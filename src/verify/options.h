@@ -1,4 +1,4 @@
-// [verify] of a job.
+// Options in [verify] of a job.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,12 @@
 namespace frictab::verify {
 
 struct VerifyOptions {
-  std::optional<double> max_drift_MPa;                // absent: table.tolerance_MPa
-  std::size_t samples = 200000;                       // points over the whole range
-  std::size_t proof_boxes = table::usual_proof_boxes; // that a proof looks at (table/bound.h)
-  bool require_proof = false; // a table has to be proven to keep the tolerance
-  bool require_run = false;   // every routine has to be compiled and run
+  std::optional<double> max_drift_MPa; // empty: table.tolerance_MPa
+  std::size_t samples = 200000;        // number of points over the whole range
+  // Largest number of boxes that a proof examines (table/bound.h).
+  std::size_t proof_boxes = table::usual_proof_boxes;
+  bool require_proof = false; // fail tables without a proof of their tolerance
+  bool require_run = false;   // fail routines that could not be compiled and run
 };
 
 } // namespace frictab::verify

@@ -26,20 +26,20 @@ namespace {
 
 using Columns = std::vector<const double*>;
 
-// Everything of one table that its sources are compared with.
+// Probes at which a table's sources are evaluated and compared.
 struct Subjects {
   std::vector<std::string> names; // the table's inputs
   std::vector<table::StateRange> ranges;
   Probe rows;
   RowsBeyond beyond;
   Probe range;
-  Probe below; // the range, at lower contact normal stresses: BelowRange
+  Probe below; // the range at lower contact normal stresses (BelowRange)
   std::vector<table::StateRange> ranges_below;
   std::optional<BelowRange> where;
-  proof::ProvenDrift proven; // empty where the table's own record is known
+  proof::ProvenDrift proven; // empty if the table's own record is known
 };
 
-// What every source is compared with.
+// Evaluates the law and the table as reference for every source.
 struct Reference {
   Reference(const VerifyInput& input, const std::vector<std::string>& names)
       : law(input.law, names), table(input.table) {}
@@ -55,7 +55,7 @@ struct Reference {
 };
 
 constexpr const char* pressure = "sigma_n_MPa";
-constexpr std::size_t most_below = 4096; // Halton points
+constexpr std::size_t most_below = 4096; // number of Halton points
 
 // Fills `below`, `ranges_below` and `where`.
 void add_below(Subjects& s, const VerifyInput& input, const Reference& reference) {
@@ -97,7 +97,7 @@ Subjects prepare(const VerifyInput& input) {
     for (const double x : s.proven.worst.state)
       worst.push_back({x});
   }
-  table::append(s.range, reference.probe(worst)); // sources are looked at there as well
+  table::append(s.range, reference.probe(worst)); // sources are evaluated there as well
   add_below(s, input, reference);
   if (input.rows) {
     table::States states = calibrate::input_columns(input.law, s.names, *input.rows).values();
@@ -107,7 +107,7 @@ Subjects prepare(const VerifyInput& input) {
   return s;
 }
 
-// Gives the row that is furthest off.
+// Fills the figures of the rows. Returns the row with the largest drift.
 std::size_t compare_rows(DriftRecord& record, const Probe& reference, const RowsBeyond& beyond,
                          const std::vector<double>& answer) {
   std::vector<double> inside;
@@ -228,7 +228,7 @@ DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::stri
   return record;
 }
 
-// A table made to a tolerance may meet it exactly.
+// Allows rounding errors, because a table built to a tolerance may meet it exactly.
 constexpr double proof_rounding = 1e-9;
 
 DriftRecord compare_table(const VerifyInput& input, const Subjects& s) {
@@ -244,7 +244,7 @@ DriftRecord compare_table(const VerifyInput& input, const Subjects& s) {
   return record;
 }
 
-// The columns that a source takes: the direct form may need fewer states than the table.
+// Returns the columns that a source takes: the direct form may need fewer states than the table.
 Columns columns_for(const table::Table& source, const Subjects& s, const Probe& reference) {
   Columns columns;
   for (const std::string& name : source.inputs()) {
@@ -254,8 +254,8 @@ Columns columns_for(const table::Table& source, const Subjects& s, const Probe& 
   return columns;
 }
 
-// The same states with some of them held. A solver's own table answers beyond its ends as it
-// likes: rows that the table refuses are none of its failures.
+// Returns the same probes with some states fixed. For a solver's own table, rows that the table
+// refuses count as clamped, because the solver decides what happens beyond its ends.
 Subjects at_held(const table::Table& table, const Subjects& s, const Reference& reference,
                  const table::HeldStates& held, bool own_table) {
   Subjects out;
@@ -277,8 +277,8 @@ Subjects at_held(const table::Table& table, const Subjects& s, const Reference& 
   return out;
 }
 
-// The same where the solver gets mu, which no target writes above a stated value: tau_R is at most
-// that times the pressure.
+// Returns the same probes for a solver that gets mu. No target writes mu above largest_coefficient,
+// so tau_R is at most that times the pressure.
 Subjects with_largest_mu(const Subjects& s) {
   Subjects out = s;
   const auto at = std::find(s.names.begin(), s.names.end(), pressure);
@@ -294,8 +294,8 @@ Subjects with_largest_mu(const Subjects& s) {
   return out;
 }
 
-// The law as a solver's own table holds it: with some states as numbers, and no larger mu than
-// there is.
+// Returns the law that a solver's own table represents: with fixed states as numbers, and mu at
+// most largest_coefficient.
 models::AssembledLaw law_of_own_table(const models::AssembledLaw& law,
                                       const table::HeldStates& held, bool gives_mu) {
   models::AssembledLaw out = law;
@@ -309,8 +309,9 @@ models::AssembledLaw law_of_own_table(const models::AssembledLaw& law,
   return out;
 }
 
-// The states at which the search finds a solver's own table furthest from the law: its errors peak
-// inside cells, where the samples of another table need not lie. `ranges` are those of all states.
+// Returns the states at which the search finds a solver's own table furthest from the law. Its
+// errors peak inside its cells, which the samples of another table may miss. `ranges` covers all
+// states.
 table::States furthest_states(const table::Table& own, const models::AssembledLaw& law,
                               const table::HeldStates& held,
                               const std::vector<table::StateRange>& ranges, std::size_t samples) {
@@ -321,7 +322,7 @@ table::States furthest_states(const table::Table& own, const models::AssembledLa
                                     [&](const auto& range) { return range.name == name; });
     if (known != ranges.end())
       searched.push_back(*known);
-    else if (const auto ends = own.range(name)) // a pressure that the law does not ask for
+    else if (const auto ends = own.range(name)) // a pressure that the law does not take
       searched.push_back({name, ends->first, ends->second, ""});
     else
       return {};
@@ -342,7 +343,7 @@ table::States furthest_states(const table::Table& own, const models::AssembledLa
   return states;
 }
 
-// Adds those states, of the range and of the decade below it.
+// Adds these states in the range and in the decade below it.
 void add_furthest(Subjects& s, const VerifyInput& input, const Reference& reference,
                   const table::Table& own, const table::HeldStates& held, bool gives_mu) {
   const models::AssembledLaw own_law = law_of_own_table(input.law, held, gives_mu);
@@ -363,7 +364,8 @@ DriftRecord compare_reduced(const VerifyInput& input, const Subjects& s, const S
   record.held = held;
   if (s.rows.law.empty()) return record;
   std::vector<double> tau(s.rows.law.size(), not_representable);
-  // A solver's table knows nothing of them; a routine's driver may set its constants.
+  // The solver's table is evaluated at the rows' own states, because it ignores the fixed ones. A
+  // routine's driver could set the constants from the row, so a routine gets the fixed values.
   answer(own_table ? s.rows : at_held.rows, tau);
   std::size_t count = 0;
   double sum = 0;

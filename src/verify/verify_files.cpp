@@ -104,7 +104,7 @@ Json record_json(const DriftRecord& record) {
   return j;
 }
 
-// null: nothing failed, but something was not tested.
+// Returns null if nothing failed but something was not tested.
 Json passed_json(const Verification& verification) {
   if (verification.passed() && verification.untested() > 0) return nullptr;
   return verification.passed();
@@ -133,7 +133,7 @@ std::size_t count_or_0(const Json& j, const char* key) {
   return j.contains(key) ? io::count_of(j.at(key)) : 0;
 }
 
-// Of that many rows.
+// Reads a share and returns it as a number of `rows`.
 std::size_t share_of(const Json& j, std::size_t rows) {
   const double share = j.get<double>();
   if (!(share >= 0 && share <= 1) || rows > (std::size_t{1} << 50))
@@ -158,7 +158,8 @@ Verification parse_verification(std::string_view text, const std::string& file) 
       r.ran = one.at("ran");
       if (r.ran) {
         r.passed = one.at("passed");
-        r.allowed_MPa = one.value("allowed_MPa", verification.max_drift_MPa); // none: of 0.1
+        // Missing in files of version 0.1.
+        r.allowed_MPa = one.value("allowed_MPa", verification.max_drift_MPa);
         r.allowed_from = one.value("allowed_from", "");
         if (one.contains("law_error_MPa")) r.law_error_MPa = one.at("law_error_MPa");
         r.over_law_error = one.value("over_law_error", false);
@@ -224,7 +225,7 @@ void add_property(pugi::xml_node properties, const std::string& name, const std:
   property.append_attribute("value") = value.c_str();
 }
 
-// The figures of verify.json, of cases that passed as well: a pipeline can plot them.
+// Adds the figures of verify.json, also for cases that passed, so that a CI pipeline can plot them.
 void add_figures(pugi::xml_node test, const DriftRecord& record) {
   const Json figures = record_json(record);
   pugi::xml_node properties = test.append_child("properties");
@@ -234,7 +235,7 @@ void add_figures(pugi::xml_node test, const DriftRecord& record) {
 
 } // namespace
 
-// No times: the same job gives the same bytes.
+// Leaves out times, so that the same job gives the same bytes.
 std::string verification_junit(const Verification& verification) {
   pugi::xml_document document;
   pugi::xml_node suite = document.append_child("testsuites").append_child("testsuite");
