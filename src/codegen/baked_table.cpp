@@ -1,4 +1,4 @@
-// Values as the kernels read them; the size of a source, counted in numbers.
+// Computes values as the kernels read them, and the size of a source, counted in numbers.
 #include "codegen/baked_table.h"
 
 #include "codegen/layer.h"
@@ -8,7 +8,8 @@ namespace frictab::codegen {
 
 namespace {
 
-// Nodes, 1/width, polynomials of the cells; of the law itself the two ends.
+// Counts the numbers per node: for a table its position, 1/width and the polynomials of its cell;
+// for the law itself, whose axes have only two ends, the end.
 std::size_t numbers_per_node(const table::Table& table) {
   if (table.is_direct()) return 1;
   return is_cubic(table) ? 18 : 2;

@@ -1,4 +1,4 @@
-// The numbers of a table as they stand in generated code, and how many these are.
+// The numbers of a table as generated code contains them, and their count.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,14 @@
 
 namespace frictab::codegen {
 
-// Whether the code needs the spline kernel: a cubic table with axes.
+// True if the code needs the spline kernel: for a cubic table with axes.
 bool is_cubic(const table::Table& table);
 
-// What the routine looks up, per node: values, or coefficients of the spline with the 2 zeros that
-// its kernel reads behind them.
+// Returns the numbers that the routine looks up, per node: values, or spline coefficients followed
+// by the 2 zeros that the kernel reads past their end.
 std::vector<double> baked_values(const table::Table& table);
 
-// Numbers that the source of a table, or of its direct form, holds.
+// Count of the numbers in the source of a table, or of its direct form.
 std::size_t baked_numbers(const table::Table& table);
 
 } // namespace frictab::codegen

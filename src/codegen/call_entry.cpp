@@ -1,4 +1,4 @@
-// Calls frictab_tau_R and frictab_tau_R_batch with as many arguments as they have.
+// Calls frictab_tau_R and frictab_tau_R_batch with the number of arguments they have.
 #include "codegen/call_entry.h"
 
 #include <array>
@@ -13,8 +13,7 @@ namespace frictab::codegen {
 
 namespace {
 
-// Arguments that a call can have: the contract's six and 18 columns and histories of traced
-// effects.
+// Largest number of arguments: the contract's six, and 18 columns and histories of traced effects.
 constexpr std::size_t most_arguments = 24;
 
 template <std::size_t> using Number = double;

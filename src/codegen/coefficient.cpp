@@ -19,14 +19,14 @@ std::size_t n_states(const table::Table& table) {
   return std::max<std::size_t>(table.inputs().size(), 1);
 }
 
-// From 1; 0 where the table does not take it.
+// Returns the number of an input, from 1; 0 if the table does not take it.
 std::size_t number_of(const table::Table& table, const std::string& name) {
   const std::vector<std::string> inputs = table.inputs();
   const auto at = std::find(inputs.begin(), inputs.end(), name);
   return at == inputs.end() ? 0 : static_cast<std::size_t>(at - inputs.begin()) + 1;
 }
 
-// All inputs at `share` (0 the low end, 1 the high end) of what is known of them.
+// Returns all inputs at `share` (0 the low end, 1 the high end) of their known ranges.
 std::vector<double> state_at(const table::Table& table, double share) {
   std::vector<double> state;
   for (const std::string& name : table.inputs()) {
@@ -66,7 +66,8 @@ bool same_at_every_pressure(const table::Table& table, Coefficient kind) {
   for (const double share : {0.0, 0.5, 1.0}) {
     std::vector<double> state = state_at(table, share);
     double first = 0;
-    for (const double p : {1e-6, 1.0, 1e3, 1e6, 1e12}) { // a shear limit would bind at the last
+    // A shear limit would be active at the last one.
+    for (const double p : {1e-6, 1.0, 1e3, 1e6, 1e12}) {
       state[pressure - 1] = p;
       const double mu = tau(state) / p;
       if (p == 1e-6) first = mu;

@@ -1,4 +1,4 @@
-// Fills templates/fortran/frictab_combined.f, and writes the recipe of several laws.
+// Fills templates/fortran/frictab_combined.f and writes the recipe of several laws.
 #include "codegen/combine.h"
 
 #include <algorithm>
@@ -23,12 +23,12 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-// In a line of its own: '     &  ' and quotes, within 72 columns.
+// Longest name that fits its own line: '     &  ' and quotes, within 72 columns.
 constexpr std::size_t longest_law_name = 50;
 
 constexpr std::size_t laws_per_letter = 9;
 
-// DEFORM's USRUPD calls it, once for all laws.
+// Unit that DEFORM's USRUPD calls, once for all laws.
 constexpr const char* called_by_solver = "ftupd";
 
 // ---- names ----
@@ -75,8 +75,7 @@ bool is_comment(std::string_view line) {
   return !line.empty() && (line[0] == 'C' || line[0] == 'c' || line[0] == '*' || line[0] == '!');
 }
 
-// Calls `word(text)` for every word of a line that is not in quotes; what it gives takes the word's
-// place.
+// Replaces every word of a line that is not in quotes by `word(text)`.
 template <class Word> std::string with_words(std::string_view line, const Word& word) {
   const auto part_of_word = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
@@ -111,7 +110,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// Words of statements, in small letters.
+// Returns the words of statements, in small letters.
 std::set<std::string> words_of_statements(const std::vector<std::string>& lines) {
   std::set<std::string> words;
   for (const std::string& line : lines)
@@ -123,7 +122,7 @@ std::set<std::string> words_of_statements(const std::vector<std::string>& lines)
   return words;
 }
 
-// Names that a linker sees, of units and COMMON blocks, in small letters.
+// Returns the names that a linker sees, of units and COMMON blocks, in small letters.
 std::set<std::string> linked_names(const SourceBundle& sources) {
   std::set<std::string> names;
   for (const auto& [path, text] : sources) {
@@ -140,14 +139,14 @@ std::set<std::string> linked_names(const SourceBundle& sources) {
   return names;
 }
 
-// fttau -> f1tau, FTCONS -> F1CONS; other words stay.
+// Renames fttau -> f1tau, FTCONS -> F1CONS; returns other words unchanged.
 std::string renamed(const std::string& word, const std::set<std::string>& names,
                     const std::string& stem) {
   if (!names.count(lower_case(word))) return word;
   return (word[0] == 'f' ? stem : upper_case(stem)) + word.substr(2);
 }
 
-// A name that goes on in the next line could not be found by its words.
+// Checks that no name continues in the next line, because renaming could not find it.
 void check_whole_words(const std::vector<std::string>& lines) {
   const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
   for (std::size_t i = 1; i < lines.size(); ++i) {
@@ -159,13 +158,13 @@ void check_whole_words(const std::vector<std::string>& lines) {
   }
 }
 
-// Whether the source, or the line of one, has the head of this entry.
+// True if the source, or one of its lines, has the head of this entry.
 bool holds(const std::string& source, const std::string& entry) {
   return source.find("      subroutine " + entry) != std::string::npos;
 }
 
-// One law's source among several: its linked names with another stem, in statements and comments,
-// and its entry. Texts in quotes stay.
+// Returns one law's source as one of several: its linked names and its entry get another stem, in
+// statements and comments. Texts in quotes are unchanged.
 std::string with_stem(const std::string& source, const std::set<std::string>& names,
                       const std::string& entry, const std::string& stem) {
   const std::vector<std::string> lines = lines_of(source);
@@ -188,7 +187,7 @@ std::string with_stem(const std::string& source, const std::set<std::string>& na
 
 // ---- the entry ----
 
-// The names between the brackets of "subroutine vfric(...)".
+// Returns the names between the brackets of "subroutine vfric(...)".
 std::string argument_names(const std::string& arguments) {
   std::string code;
   for (const std::string& line : lines_of(arguments))
@@ -200,7 +199,7 @@ std::string argument_names(const std::string& arguments) {
   return names;
 }
 
-// Decks come in capitals, unless a name stands in quotes there.
+// Compares names in both cases, because decks are converted to capitals except for names in quotes.
 std::string condition(const std::string& name, const LawSelector& by) {
   if (by.number) return fmt::format("{} .eq. {}", by.argument, name);
   const auto is = [&](const std::string& text) {
@@ -221,7 +220,7 @@ std::string comment_lines(const std::string& text) {
   return out;
 }
 
-// What ends the analysis where there is no law.
+// Returns the ftquit with which the entry ends the analysis if a contact has no law.
 std::string own_quit(const Combination& c, const std::string& stem) {
   const std::set<std::string> names = linked_names({{"quit.f", c.quit}});
   return fortran::without_last_break(with_stem(c.quit, names, c.entry, stem));
@@ -268,7 +267,7 @@ std::string deck_of(std::string deck, const std::string& name, const LawSelector
   return deck;
 }
 
-// What a recipe says of the law and not of the routine.
+// Keys of a recipe that describe the law and not the routine.
 const std::vector<std::string> of_law = {"model",           "form",
                                          "data_origin",     "values_file",
                                          "options",         "dimension",
@@ -308,7 +307,7 @@ json combined_recipe(const Combination& c, const std::vector<ExportRequest>& law
   return out;
 }
 
-// In a recipe, the names that its law's sources have now.
+// Renames the units in a recipe as in its law's sources.
 std::string recipe_with_stem(const std::string& recipe, const std::set<std::string>& names,
                              const std::string& stem) {
   return with_words("C" + recipe,
@@ -316,7 +315,8 @@ std::string recipe_with_stem(const std::string& recipe, const std::set<std::stri
       .substr(1);
 }
 
-// A file beside the entry's stands once for all laws: it may know none of them. All have ftnan.
+// Checks a file other than the entry's. It is kept once for all laws, so it must not depend on one
+// of them; ftnan is part of all laws.
 void check_further(const std::string& path, const std::string& source,
                    const std::set<std::string>& names, const ExportRequest& law) {
   for (const std::string& word : words_of_statements(lines_of(source)))
@@ -328,7 +328,7 @@ void check_further(const std::string& path, const std::string& source,
                        "laws that take slip, friction work and peak pressure at most");
 }
 
-// The files of a law as parts of the whole.
+// Returns the files of a law as parts of the combined bundle.
 SourceBundle one_of_several(const SourceBundle& alone, const ExportRequest& law,
                             const std::string& entry) {
   const std::string own = stem(law);

@@ -1,11 +1,11 @@
-// Several laws in one user file: different lubricants on punch and die. The file has one entry with
-// the solver's own argument list, which calls the law that belongs to the contact it is asked for.
-// Each law's source is what it is alone, but for the names of its program units: "ft" gives way to
-// a stem of the law's own (fttau -> f1tau, f2tau), which stands in front of its entry as well
-// (vfric -> f1vfric). A contact that none of the laws is for ends the analysis.
+// Several laws in one user file, for different lubricants on punch and die. The file has one entry
+// with the solver's own argument list, which calls the law of the contact it is called for. Each
+// law's source is the one it has alone, except that its program units are renamed: "ft" is replaced
+// by a stem of the law (fttau -> f1tau, f2tau), which is also put before its entry (vfric ->
+// f1vfric). A contact without a law ends the analysis.
 //
 // A solver may want several entries in its one user file (VFRIC for contact pairs, VFRICTION for
-// general contact): their stems differ, so that their sources can stand behind each other.
+// general contact). Their stems differ, so that their sources can follow one another in one file.
 #pragma once
 
 #include <string>
@@ -19,27 +19,28 @@
 
 namespace frictab::codegen {
 
-// How the arguments of an entry tell contacts apart.
+// Arguments of an entry that distinguish contacts.
 struct LawSelector {
-  std::string argument = {}; // "surfInt"; empty: they do not, and no laws are combined
-  std::string meaning = {};  // "name of the *SURFACE INTERACTION"; where there is no argument: why
-  bool number = false;       // else the deck's text, padded with blanks
-  std::string alone = {};    // what drivers say where there is one law: "FRICTAB"
-  std::string guard = {};    // statements in front: calls that ask for no friction
+  std::string argument = {}; // "surfInt"; empty: none, so laws cannot be combined
+  // "name of the *SURFACE INTERACTION"; without an argument: the reason.
+  std::string meaning = {};
+  bool number = false;         // true: a number; false: the deck's text, padded with blanks
+  std::string alone = {};      // name that drivers pass if there is one law: "FRICTAB"
+  std::string guard = {};      // first statements: return from calls without friction
   std::string letters = "fgh"; // stems: f1 to f9, g1 ...; f0 of the entry's own units
-  std::string user_file = {};  // what may stand in one user file with it
-  // In the lines for the input deck: what stands for the name ("FRICTAB"), and what takes its place
-  // where there are several laws, with the name as @.
+  std::string user_file = {};  // entries that may share the user file
+  // For the lines of the input deck: the text that stands for the name ("FRICTAB"), and its
+  // replacement if there are several laws, with @ for the name.
   std::vector<std::pair<std::string, std::string>> deck = {};
 };
 
-// Requests of one target, its options and units the same in all, as the parts of one file: each
-// with its name and stem. Throws InputError where there are no or too many of them, where a name
-// is no name by which this solver could call, or where two are the same (case does not count).
+// Returns the requests as parts of one file, each with its name and stem. All have the same target,
+// options and units. Throws InputError for no or too many laws, a name that this solver cannot
+// pass, or equal names (compared without case).
 std::vector<ExportRequest> named_laws(std::vector<ExportRequest> laws,
                                       const std::vector<std::string>& names, const LawSelector& by);
 
-// What `make` gives; faults that it throws say whose they are: "PUNCH: ...".
+// Returns the result of `make`; adds the law's name to faults that it throws: "PUNCH: ...".
 template <class Make> auto said_of(const std::string& whose, const Make& make) {
   try {
     return make();
@@ -51,23 +52,23 @@ template <class Make> auto said_of(const std::string& whose, const Make& make) {
   }
 }
 
-// What names of program units start with: "ft", or the stem of one of several laws.
+// First letters of the names of program units: "ft", or the stem of one of several laws.
 std::string stem(const ExportRequest& request);
-// Those that the entry calls itself: "ft", or "f0" where there are several laws.
+// First letters for the units that the entry itself calls: "ft", or "f0" if there are several laws.
 std::string entry_stem(const ExportRequest& request);
 
-// What the combined file is made of.
+// Parts of the combined file that depend on the target.
 struct Combination {
   const Exporter& exporter;
   std::string entry;     // "vfric"
-  std::string arguments; // its head: argument list and declarations
+  std::string arguments; // head of the entry: argument list and declarations
   std::string quit;      // ftquit of fortran::Core
   const LawSelector& by;
 };
 
-// `laws` are named_laws(), `bundles` what each gives alone. A source without the entry, which the
-// solver's own code calls by its name ("ftupd"), stands once: throws InputError where it would have
-// to know one of the laws.
+// Combines the bundles of several laws. `laws` are from named_laws(), `bundles` have the files of
+// each alone. Files without the entry, whose units the solver's own code calls by name ("ftupd"),
+// are kept once for all laws; throws InputError if such a file depends on one of the laws.
 SourceBundle combine(const Combination& combination, const std::vector<ExportRequest>& laws,
                      const std::vector<SourceBundle>& bundles);
 

@@ -1,4 +1,4 @@
-// Runs compilers and loads what they made.
+// Runs compilers and loads the libraries they make.
 #include "codegen/compile.h"
 
 #include <fstream>
@@ -71,7 +71,7 @@ CompiledTarget::CompiledTarget(const Exporter& exporter, const ExportRequest& re
     return;
   }
   library_.emplace(compile_library(bundle, variant, directory_.path()));
-  // The option is there for all targets of a job, and not all follow it.
+  // The prefix option exists for all targets of a job, but not all of them use it.
   for (const std::string& symbol :
        {std::string("frictab_directory"), prefixed(request, "frictab_directory")})
     library_->tell_directory(directory_.path(), symbol);

@@ -1,4 +1,4 @@
-// Compiles a bundle into a shared library and loads it: how generated code is proven.
+// Compiles a bundle into a shared library and loads it, to test generated code.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,11 @@
 namespace frictab::codegen {
 
 // Writes bundle and extra files below `work_dir`, runs the variant's command there without a shell
-// and gives the library's path. Throws std::runtime_error with the compiler's output where it
-// fails.
+// and returns the library's path. Throws std::runtime_error with the compiler's output if it fails.
 std::filesystem::path compile_library(const SourceBundle& bundle, const BuildVariant& variant,
                                       const std::filesystem::path& work_dir);
 
-// A loaded shared library; closed at the end of its life.
+// A loaded shared library; the destructor closes it.
 class Library {
 public:
   explicit Library(const std::filesystem::path& file); // throws std::runtime_error
@@ -25,13 +24,13 @@ public:
   Library& operator=(const Library&) = delete;
 
   void* handle() const { return handle_; }
-  // Throws std::runtime_error where the library does not hold it.
+  // Throws std::runtime_error if the library does not have the symbol.
   template <class Function> Function* find(const std::string& symbol) const {
     return reinterpret_cast<Function*>(address(handle_, symbol));
   }
   static void* address(void* handle, const std::string& symbol);
-  // Tells generated code that reads a file of values where it lies, by this C name; nothing to tell
-  // to code without it.
+  // Passes the directory of the values file to generated code that reads one, through the C
+  // function `symbol`. Does nothing if the code has no such function.
   void tell_directory(const std::filesystem::path& directory,
                       const std::string& symbol = "frictab_directory") const;
 
@@ -39,10 +38,10 @@ private:
   void* handle_;
 };
 
-// One bundle of a target, made ready in a directory of its own and called as its solver would.
+// One bundle of a target, compiled in its own directory and called as its solver would.
 class CompiledTarget {
 public:
-  // Throws std::runtime_error with the compiler's words where it fails.
+  // Throws std::runtime_error with the compiler's output if it fails.
   CompiledTarget(const Exporter& exporter, const ExportRequest& request, const SourceBundle& bundle,
                  const BuildVariant& variant);
 

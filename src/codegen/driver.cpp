@@ -1,4 +1,4 @@
-// Rows of states against what one contact point, and one call, can be.
+// Groups rows of states into the calls of a routine that one contact point and one call allow.
 #include "codegen/driver.h"
 
 #include <algorithm>
@@ -19,9 +19,9 @@ namespace frictab::codegen {
 
 namespace {
 
-constexpr double some_flow_stress = 480; // MPa, where a law does not ask for one
-// MPa, likewise: far above those where a coefficient is cut; a power of two, which changes no bits
-// in mm-t-s.
+constexpr double some_flow_stress = 480; // MPa, if a law does not take one
+// MPa, if a law does not take one: far above the pressures at which a coefficient is limited. A
+// power of two changes no bits in mm-t-s.
 constexpr double usual_pressure = 1024;
 
 using Ftdriv = void(const std::int32_t* points, const std::int32_t* states, const double* v,
@@ -29,12 +29,12 @@ using Ftdriv = void(const std::int32_t* points, const std::int32_t* states, cons
                     const std::int32_t* fields, const double* field, const std::int32_t* histories,
                     const double* history, double* tau);
 
-// Points of one call, as ftdriv takes them.
+// The points of one call, as ftdriv takes them.
 struct Block {
   std::vector<double> v, property, field, history, tau;
 };
 
-// The routine, and the columns of a table of rows by what the driver hands them over as.
+// The routine, and the columns of a table of rows, sorted by the way the driver hands them over.
 class Routine {
 public:
   Routine(const Driver& driver, const std::vector<SolverInput>& inputs, const Built& built,
@@ -52,13 +52,13 @@ public:
     temperature_ = table_row("T_contact_C").column;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       if (is_given(c, "s_mm")) slips_.push_back(columns_[c]);
-      // The law's own, wherever it has it from.
+      // The law's own flow stress, from any source.
       if (inputs_[c].argument.name == "sigma_f_MPa") flow_stress_ = columns_[c];
     }
   }
 
-  // Whether a contact point can be in the state of this row: not where the row contradicts itself;
-  // NaN contradicts nothing.
+  // True if a contact point can be in the state of this row, which is not the case if the row
+  // contradicts itself. NaN contradicts nothing.
   bool is_representable(std::size_t row) const {
     for (std::size_t i = 1; i < slips_.size(); ++i)
       if (slips_[i - 1][row] != slips_[i][row]) return false;
@@ -88,11 +88,11 @@ public:
   }
 
 private:
-  // What stands in a row of the solver's table that the law does not take from there.
+  // Values in a row of the solver's table that the law does not take from there.
   enum class Otherwise { zero, pressure, flow_stress };
 
   struct TableRow {
-    const double* column = nullptr; // canonical; null where the law does not take it from there
+    const double* column = nullptr; // canonical; null if the law does not take it from there
     SolverUnit unit = {};
     Otherwise otherwise = Otherwise::zero;
   };
@@ -111,7 +111,7 @@ private:
     return {};
   }
 
-  // Below it no peak is one, where the law does not say the pressure.
+  // The pressure below which a peak is not one, if the law does not take the pressure.
   double lowest_pressure() const {
     return driver_.peak_presses ? std::numeric_limits<double>::denorm_min() : usual_pressure;
   }
@@ -168,17 +168,17 @@ private:
   std::span<const double* const> columns_; // canonical, the first of inputs_
   SolverUnit stress_;
   Ftdriv* call_;
-  double* constants_; // null where the source has none that can be set
+  double* constants_; // null if the source has no constants that can be set
   std::size_t fields_ = 0;
-  std::vector<TableRow> table_rows_; // as Driver::gives has them
-  std::vector<const double*> slips_; // sliding distances that the solver's one row stands for
-  // Null where the law does not take them (the first three: from the solver).
+  std::vector<TableRow> table_rows_; // in the order of Driver::gives
+  std::vector<const double*> slips_; // sliding distances that share the solver's one row
+  // Null if the law does not take them (the first three: from the solver).
   const double *pressure_ = nullptr, *peak_ = nullptr, *temperature_ = nullptr,
                *flow_stress_ = nullptr;
 };
 
-// These rows in groups that can share a call, at most `most` each: properties are constants of a
-// call, so all rows of a group agree in them.
+// Groups rows that can share a call, at most `most` each: properties are constants of a call, so
+// all rows of a group have the same.
 std::vector<std::vector<std::size_t>> call_groups(const std::vector<SolverInput>& inputs,
                                                   std::vector<std::size_t> rows,
                                                   std::span<const double* const> columns,

@@ -19,9 +19,11 @@ std::string replace_ending(const std::string& name, std::string_view from, std::
   return name.substr(0, name.size() - from.size()) + std::string(to);
 }
 
-constexpr std::size_t longest_argument = 40; // Fortran takes 63, with what stands around it
+// Fortran allows 63 letters, including those that are added.
+constexpr std::size_t longest_argument = 40;
 
-// A column's own name may hold anything; the prefix keeps it off keywords and generated names.
+// Makes an identifier from a column's name, which may contain any characters; the prefix avoids
+// collisions with keywords and generated names.
 std::string identifier(const std::string& name) {
   std::string text = data::find_quantity(name) ? "" : "in_";
   for (const char c : name)
@@ -50,7 +52,7 @@ InputArgument argument(const table::Table& table, const std::string& name, std::
     input.unit = table.axes[a].unit;
     if (!table.axes[a].long_name.empty()) input.meaning = table.axes[a].long_name;
   }
-  if (data::find_quantity(name)) { // whatever the axis says
+  if (data::find_quantity(name)) { // the axis may have another name for it
     input.unit = meaning.unit;
     input.meaning = meaning.text;
   }
@@ -79,7 +81,8 @@ std::vector<InputArgument> entry_arguments(const table::Table& table, std::strin
     else
       found->used = true;
   }
-  for (InputArgument& a : arguments) { // Fortran does not tell capital letters from small ones
+  // Fortran does not distinguish capital from small letters.
+  for (InputArgument& a : arguments) {
     const std::string first = a.argument;
     for (int n = 2; !taken.insert(lower_case(a.argument)).second; ++n)
       a.argument = first + "_" + std::to_string(n);

@@ -1,4 +1,4 @@
-// Law, units, arguments, what lies outside.
+// Writes law, units, arguments and the behaviour outside the range.
 #include "codegen/entry_text.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What the head of a source with frictab_tau_R as its entry says, in lines of at most 92 columns.
+// Head comments of a source whose entry is frictab_tau_R, in lines of at most 92 columns.
 #pragma once
 
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace frictab::codegen {
 
-// Law, data, units, drift, formula.
+// Lists law, data, units, drift and formula.
 std::vector<std::string> about_entry(const ExportRequest& request);
 
-// Each argument with unit, meaning and range.
+// Lists each argument with unit, meaning and range.
 std::vector<std::string> argument_lines(const ExportRequest& request,
                                         const std::vector<InputArgument>& inputs);
 
-// "1u psi" per axis and input that is held (`suffix`: u), as frictab_outside gives them.
+// Lists the bits of frictab_outside, "1u psi" per axis and clamped input (`suffix`: u).
 std::vector<std::string> outside_bits(const table::Table& table, const std::string& suffix);
 
-// What holds outside the range, for NaN and in threads; where a file of values lies.
+// States the behaviour outside the range, for NaN and in threads, and the place of the values file.
 std::vector<std::string> entry_notes(const ExportRequest& request);
 
 } // namespace frictab::codegen

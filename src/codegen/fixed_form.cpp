@@ -1,4 +1,4 @@
-// Cuts statements and DATA where the columns end.
+// Cuts statements and DATA at the last column.
 #include "codegen/fixed_form.h"
 
 #include <stdexcept>
@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t statement_columns = 66; // 7..72
 constexpr std::size_t continuations = 19;
 
-// Where to cut: behind the last blank or comma that fits, or anywhere (blanks mean nothing).
+// Returns the place of the cut: after the last blank or comma that fits, or anywhere (blanks have
+// no meaning).
 std::size_t cut(std::string_view text, std::size_t columns) {
   if (text.size() <= columns) return text.size();
   const std::size_t at = text.find_last_of(" ,", columns - 1);
@@ -41,7 +42,7 @@ std::string data(const std::string& name, const std::vector<std::string>& number
   };
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::string item = numbers[i] + ",";
-    // One column less than there is: the last line ends with a slash instead of a comma.
+    // Uses one column less than available, because the last line ends with a slash as well.
     if (!lines.empty() && lines.back().size() + item.size() <= statement_columns - 1) {
       lines.back() += item;
     } else {
@@ -58,7 +59,7 @@ std::string data(const std::string& name, const std::vector<std::string>& number
 
 std::string fixed_form(const std::string& statement) {
   std::string_view rest = statement;
-  std::string out, set_in; // where it is cut between words
+  std::string out, set_in; // indentation for lines cut between words
   for (std::size_t line = 0; !rest.empty(); ++line) {
     if (line > continuations) throw std::logic_error("Fortran statement too long: " + statement);
     const std::size_t end = cut(rest, statement_columns - set_in.size());

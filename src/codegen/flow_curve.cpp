@@ -1,4 +1,4 @@
-// Puts the curve into a table's formula, and finds the strain of a flow stress.
+// Puts the curve into a table's formula, and finds the strain for a flow stress.
 #include "codegen/flow_curve.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ void check_curve(const expr::Expr& curve, const table::Table& table) {
                      "\"field:1\" or \"property\"");
 }
 
-// Where nothing else is said of a state.
+// Default of a state for which the job has no value.
 double usual_value(const table::Table& table, const std::string& name) {
   if (const auto typical = typical_value(table, name)) return *typical;
   const data::Quantity* known = data::find_quantity(name);
@@ -58,7 +58,7 @@ std::vector<std::string> other_states(const expr::Expr& curve) {
   return others;
 }
 
-// Column by name: of the law's own states those of `columns`, of others what is usual.
+// Returns a column by name: the law's own states from `columns`, others at their default.
 std::vector<double> column_of(const table::Table& table, const std::string& name, std::size_t rows,
                               std::span<const double* const> columns) {
   const std::vector<std::string> own = table.inputs();
@@ -77,7 +77,7 @@ std::vector<double> picked(const std::vector<double>& values,
   return out;
 }
 
-// The curve along strain, at one state of the rest.
+// The curve as a function of strain, at one state of its other inputs.
 class AlongStrain {
 public:
   explicit AlongStrain(const expr::Expr& curve)
@@ -91,7 +91,7 @@ public:
     return program_(row_, {});
   }
 
-  // The smallest strain that gives this flow stress; NaN where none does.
+  // Returns the smallest strain with this flow stress; NaN if there is none.
   double solve(double wanted) {
     double low = 0, at_low = (*this)(low)-wanted;
     for (int cell = 1; cell <= cells && at_low != 0; ++cell) {
@@ -148,7 +148,7 @@ CurvedRequest::CurvedRequest(const ExportRequest& request, const SolverGives& gi
   curved_->inputs.erase(stress_name);
 }
 
-// The strains over which the curve stays where the law was tested.
+// Sets the range of strains in which the curve stays within the tested flow stresses.
 void CurvedRequest::set_range() {
   const auto tested = original_.table.range(stress_name);
   AlongStrain curve(curve_);

@@ -1,4 +1,4 @@
-// The flags of gfortran, and a stand-in for what ends an analysis.
+// The flags of gfortran, and a replacement for the routine that ends an analysis.
 #include "codegen/fortran_build.h"
 
 #include <set>
@@ -36,7 +36,8 @@ BuildVariant fortran_variant(const ExportRequest& request, const std::string& na
   out.name = name;
   out.eps = eps;
   out.command = library_command(flags);
-  if (quits || ends(request)) { // of two definitions the linker takes the first
+  // The linker takes the first of two definitions.
+  if (quits || ends(request)) {
     out.command.insert(out.command.end(), {"-Wl,-z,muldefs", "@{dir}/ftquit.f"});
     for (const std::string& letters : std::set<std::string>{entry_stem(request), stem(request)})
       out.extra["ftquit.f"] +=

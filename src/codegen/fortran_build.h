@@ -1,6 +1,6 @@
-// How gfortran compiles generated sources in fixed form: here, to drive and test them, and as a
-// check that recipes offer. Always with the same flags: the standard that the solvers' compilers
-// keep, 72 columns, and no fused multiply-add, which would change the last bits.
+// Compilation of generated sources in fixed form by gfortran: here, to drive and test them, and as
+// a check that recipes offer. The flags are always the same: the standard of the solvers'
+// compilers, 72 columns, and no fused multiply-add, which would change the last bits.
 #pragma once
 
 #include <string>
@@ -10,14 +10,15 @@
 
 namespace frictab::codegen::fortran {
 
-// gfortran with `flags` behind its own, up to the library's name; sources are to follow.
+// Returns the gfortran command with `flags` after its usual ones, up to the library's name; the
+// caller appends the sources.
 std::vector<std::string> library_command(const std::vector<std::string>& flags);
 
-// The command line that compiles a source by itself.
+// Returns the command line that compiles a source on its own.
 std::string fixed_form_check(const std::string& file);
 
-// How gfortran makes a library of these files of the bundle. Where they hold an ftquit, one that
-// comes back in silence takes its place, so that rows can be driven one after another. `quits` as
+// Returns the variant that compiles these files of the bundle to a library. If they have an ftquit,
+// one that returns silently replaces it, so that rows can be driven one after another. `quits` as
 // in CoreOptions, eps as in BuildVariant.
 BuildVariant fortran_variant(const ExportRequest& request, const std::string& name, double eps,
                              const std::vector<std::string>& sources,

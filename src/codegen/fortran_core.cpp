@@ -24,7 +24,7 @@ using table::Table;
 
 namespace {
 
-// The direct form has no nodes.
+// Returns the tabulated axes; the direct form has none.
 std::vector<table::TableAxis> tabulated(const Table& table) {
   return table.is_direct() ? std::vector<table::TableAxis>{} : table.axes;
 }
@@ -40,7 +40,7 @@ void add_coordinates(TemplateValues& values, const Table& table) {
     axes.back().text["coordinate"] = axis.log ? "ftlog(" + x + ")" : x;
   }
   values.text["n_axes"] = std::to_string(table.axes.size());
-  std::string& only = values.text["only_value"]; // where nothing is interpolated
+  std::string& only = values.text["only_value"]; // if nothing is interpolated
   if (table.is_direct())
     only = "ftpiec(x)";
   else if (table.axes.empty())
@@ -49,7 +49,7 @@ void add_coordinates(TemplateValues& values, const Table& table) {
   values.flags["uses_log"] = logarithm;
 }
 
-// What lies beyond the ends of the axes, and of inputs that are held.
+// Adds the behaviour beyond the ends of the axes and of clamped inputs.
 void add_ends(TemplateValues& values, const Table& table) {
   for (const table::AxisEnds& axis : table::all_ends(table)) {
     TemplateValues one;
@@ -62,8 +62,8 @@ void add_ends(TemplateValues& values, const Table& table) {
   values.lists["extending"] = table.is_direct() ? Lines{} : sides(table, table::Outside::law);
 }
 
-// The program units of the piece and of the gradient, and the helpers that any unit calls. Gives
-// the numbers of the piece.
+// Adds the program units of the piece and of the gradient, and the helpers that any unit calls.
+// Returns the numbers of the piece.
 std::string add_parts(TemplateValues& values, const ExportRequest& request,
                       const CoreOptions& options, std::vector<std::string> helpers) {
   const Table& table = request.table;
@@ -83,7 +83,7 @@ std::string add_parts(TemplateValues& values, const ExportRequest& request,
   return law.data;
 }
 
-// Gives the numbers of the law's own formula.
+// Adds the law's own formula. Returns its numbers.
 std::string add_formula(TemplateValues& values, const ExportRequest& request,
                         const CoreOptions& options) {
   const Table& table = request.table;
@@ -153,7 +153,7 @@ std::string head_text(const ExportRequest& request, const std::vector<SolverInpu
   return without_last_break(render_template("fortran/frictab_head.f", values));
 }
 
-// ftload and what it calls.
+// Returns ftload and the units that it calls.
 std::string values_unit(const ExportRequest& request, const std::vector<double>& numbers,
                         const CoreOptions& options) {
   TemplateValues values;
@@ -183,7 +183,8 @@ Core core(const ExportRequest& request, const CoreOptions& options) {
   values.text["summary"] = options.summary;
   values.flags["summarises"] = !options.summary.empty();
   add_units(values, options.units);
-  values.text["pure_tau"] = file ? "" : values.text["pure"]; // reading a file is no pure act
+  // A unit that reads a file cannot be pure.
+  values.text["pure_tau"] = file ? "" : values.text["pure"];
   const std::string weights = add_formula(values, request, options);
   const std::vector<double> numbers =
       values.flags["interpolates"] ? baked_values(table) : std::vector<double>{};

@@ -14,7 +14,7 @@ namespace frictab::codegen::fortran {
 
 namespace {
 
-// Coordinates of the axes that are looked up, and the states behind them.
+// Returns the coordinates of the tabulated axes, and the states they are computed from.
 Lines axes(const table::Table& table, const TemplateValues& core) {
   Lines out;
   const std::vector<table::AxisEnds> ends = table::axis_ends(table);
@@ -29,7 +29,7 @@ Lines axes(const table::Table& table, const TemplateValues& core) {
   return out;
 }
 
-// The states by which the value inside the formula may change.
+// True for the states that may change the value inside the formula.
 std::vector<bool> behind_value(const table::Table& table) {
   std::vector<bool> out;
   for (const std::string& name : table.inputs())
@@ -39,14 +39,14 @@ std::vector<bool> behind_value(const table::Table& table) {
   return out;
 }
 
-// tau, then dtau(i) = what the formula says at a fixed value, and through the value.
+// Adds tau, then dtau(i) = derivative at a fixed value plus the part through the value.
 void add_formula(TemplateValues& values, const table::Table& table,
                  std::vector<std::string>& helpers) {
   const std::string tau = "tau";
   Variables variables(table, table.combine, Language::fortran);
   const std::vector<std::string> inputs = table.inputs();
   const std::vector<bool> behind = behind_value(table);
-  // Of a value that no state changes nobody asks the slope.
+  // The slope is needed only if some state changes the value.
   const bool changes = std::count(behind.begin(), behind.end(), true) > 0;
   std::vector<Wanted> wanted{{table.combine, tau},
                              {changes ? derivative(table.combine, "value") : expr::Expr(0.0),

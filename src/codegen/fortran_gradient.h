@@ -6,8 +6,8 @@
 
 namespace frictab::codegen::fortran {
 
-// The subroutine ftgrad of Core, and the helpers that it calls. `core`: what the values of
-// frictab_core.f say about coordinates and value.
+// Returns the subroutine ftgrad of Core, and the helpers that it calls. `core`: the values of
+// frictab_core.f for coordinates and value.
 Piece gradient_unit(const ExportRequest& request, const TemplateValues& core, Units units);
 
 } // namespace frictab::codegen::fortran

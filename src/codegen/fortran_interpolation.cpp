@@ -1,4 +1,5 @@
-// Axes as data and literals; sums over corners as statements in the order of the C kernels.
+// Writes axes as data and literals, and sums over corners as statements in the order of the C
+// kernels.
 #include "codegen/fortran_interpolation.h"
 
 #include <algorithm>
@@ -28,13 +29,13 @@ std::vector<long> strides(const Table& table) {
   return out;
 }
 
-// "tv(at+5)"
+// Returns "tv(at+5)".
 std::string value_at(long offset) {
   return offset == 0 ? "tv(at)" : fmt::format("tv(at+{})", offset);
 }
 
-// Statements of ft_corners_N, depth first: p and q are the two ends on the last axis, "a" and "b"
-// the two sides of the axis before.
+// Writes the statements of ft_corners_N, depth first: p and q are the two ends on the last axis,
+// "a" and "b" the two sides of the axis before.
 void corners(const std::vector<long>& stride, std::size_t axis, long offset, char side,
              Strings& out) {
   const std::size_t number = axis + 1;
@@ -72,8 +73,9 @@ Strings linear_names(std::size_t axes) {
   return out;
 }
 
-// Statements of ft_sum_N for axes `axis` and behind, into r(1..4), with the first coefficient at
-// `at`; as there, rows are added in pairs, further axes one coefficient after the other.
+// Writes the statements of ft_sum_N for axis `axis` and all further ones, into r(1..4), with the
+// first coefficient at `at`. As in ft_sum_N, rows are added in pairs, further axes one coefficient
+// after the other.
 void sums(const Table& table, const std::vector<long>& stride, std::size_t axis,
           const std::string& at, const std::string& indent, Strings& out) {
   const std::size_t n = table.axes[axis].nodes.size(), support = std::min<std::size_t>(n, 4);
@@ -121,7 +123,7 @@ Strings cubic_steps(const Table& table, const std::vector<long>& stride,
   return out;
 }
 
-// Of the value alone; `counters` are needed for the derivatives as well.
+// Declarations for the value alone; the derivatives need `counters` as well.
 Strings cubic_names(std::size_t axes) {
   Strings out{"double precision r(4)"};
   for (std::size_t d = 1; d + 2 <= axes; ++d)
@@ -146,7 +148,7 @@ std::vector<TemplateValues> statements(const Strings& lines) {
   return out;
 }
 
-// What the arrays of all axes hold, one axis after the other.
+// Arrays of all axes, one axis after the other.
 struct Data {
   std::vector<double> nodes, per_cell, basis;
   std::vector<int> guide, first;
@@ -176,7 +178,7 @@ void add_axis(TemplateValues& axis, const table::AxisSearch& search, long stride
                 {"bisected", n > 2 && !(search.scale > 0)}};
 }
 
-// How each axis is searched, and the numbers of all.
+// Returns how each axis is searched; adds the numbers of all axes to `data`.
 std::vector<TemplateValues> search_axes(const Table& table, const std::vector<long>& stride,
                                         Data& data) {
   std::vector<TemplateValues> axes;
@@ -223,7 +225,7 @@ std::string data_text(const Table& table, const Data& data, const std::vector<do
   return without_last_break(render_template("fortran/frictab_data.f", values));
 }
 
-// One program unit: the value, its derivatives, or, chosen by a flag, both.
+// One program unit: the value, its derivatives, or both, chosen by a flag.
 struct Unit {
   bool value, slopes;
 };

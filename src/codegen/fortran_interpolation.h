@@ -1,5 +1,5 @@
-// The interpolation, written out for one table: what frictab_kernel.h and
-// frictab_cubic.h do where the axes are constants, a Fortran compiler would not find by itself.
+// The interpolation, written out for one table: a Fortran compiler would not do by itself what
+// frictab_kernel.h and frictab_cubic.h do for constant axes.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace frictab::codegen::fortran {
 
-// `values` are baked_values. The function ftintp(u), one coordinate per axis; with `gradient` also
-// the subroutine ftintg, which gives the derivatives as well: on its own it holds the numbers for
-// both and takes a flag, in a module the two are apart. No text where there is nothing to
-// interpolate.
+// Returns the function ftintp(u), one coordinate per axis; with `gradient` also the subroutine
+// ftintg, which returns the derivatives as well. As an external unit, ftintg contains the numbers
+// for both and takes a flag; in a module the two are separate. The text is empty if nothing is
+// interpolated. `values` are baked_values.
 Piece interpolation(const ExportRequest& request, const std::vector<double>& values, bool gradient,
                     Units units);
 
-// Statements of ft_linear_gradient_N and ft_cubic_gradient_N, and what they declare.
+// Statements of ft_linear_gradient_N and ft_cubic_gradient_N, and their declarations.
 struct Slopes {
   std::vector<std::string> names, steps;
 };

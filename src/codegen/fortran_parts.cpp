@@ -1,4 +1,4 @@
-// Names, comments, the law's own formula and the sides of the axes in fixed form.
+// Writes names, comments, the law's own formula and the sides of the axes in fixed form.
 #include "codegen/fortran_parts.h"
 
 #include <algorithm>
@@ -129,7 +129,7 @@ std::vector<std::string> helpers_of(const std::string& statements) {
 
 namespace {
 
-// Where an axis is held at an end, its state is.
+// Clamps the state of an axis that is clamped at an end.
 std::vector<std::string> held_lines(const Table& table, const Variables& variables) {
   std::vector<std::string> lines;
   for (const table::AxisEnds& axis : table::axis_ends(table)) {
@@ -175,12 +175,13 @@ std::string weights(const UnitLayer& l) {
   return without_last_break(render_template("fortran/frictab_weights.f", values));
 }
 
-// What the result changes by the weighted sum of feature f's units.
+// Symbol for the derivative of the result by the weighted sum of feature f's units.
 std::string feature_slope(std::size_t f) {
   return fmt::format("layer slope {}", f);
 }
 
-// By each input: what the formula behind the layer says, and through the layer's features.
+// Returns the derivatives by each input: of the formula after the layer, and through the layer's
+// features.
 std::vector<Expr> input_slopes(const Table& table, const LayeredFormula& formula) {
   std::vector<Expr> slopes;
   for (const std::string& name : table.inputs()) {
@@ -194,8 +195,8 @@ std::vector<Expr> input_slopes(const Table& table, const LayeredFormula& formula
   return slopes;
 }
 
-// Features of the layer, value, adjoints of the layer's outputs and slopes, in this order: the
-// layer's own sums stand behind the first and before the last of them.
+// Returns, in this order, features of the layer, value, adjoints of the layer's outputs and slopes.
+// The layer's own sums come after the features and before the slopes.
 std::vector<Wanted> formulas_of(const Table& table, const LayeredFormula& formula, bool gradient,
                                 const std::string& value, Variables& variables) {
   const UnitLayer none;
@@ -219,7 +220,7 @@ std::vector<Wanted> formulas_of(const Table& table, const LayeredFormula& formul
   return wanted;
 }
 
-// Of ftpiec or ftpieg, whose result is `value`. Gives the statements.
+// Adds the formulas of ftpiec or ftpieg, whose result is `value`. Returns the statements.
 Statements add_formulas(TemplateValues& values, const Table& table, const LayeredFormula& formula,
                         bool gradient, const std::string& value, Variables& variables) {
   const Statements code =
@@ -253,7 +254,7 @@ Statements add_formulas(TemplateValues& values, const Table& table, const Layere
   return code;
 }
 
-// Where an axis is held at an end, the formula does not change by it.
+// Lists the sides at which an axis is clamped: the formula does not change by it beyond them.
 Lines stopped_sides(const Table& table) {
   Lines lines;
   for (const Outside kind : {Outside::clamp, Outside::error})

@@ -1,4 +1,4 @@
-// What the parts of Fortran sources in fixed form are filled with.
+// Parts of Fortran sources in fixed form.
 #pragma once
 
 #include <string>
@@ -11,62 +11,64 @@
 
 namespace frictab::codegen::fortran {
 
-// Comment lines, set in by `indent`; what does not fit goes on, set in by two more.
+// Returns comment lines, indented by `indent`; longer texts continue indented by two more.
 Lines comments(const std::vector<std::string>& texts, std::size_t indent = 0);
 
 // Interfaces of the system's lock, <stem>lock(lock) and <stem>free(lock): subroutines on Windows,
-// else functions.
+// otherwise functions.
 std::string locks(const std::string& stem, bool windows);
 
-// What may stand between apostrophes in a line of Fortran: 30 characters of a name.
+// Shortens a name to the 30 characters that fit between apostrophes in a line of Fortran.
 std::string in_apostrophes(std::string_view name);
 
-// The first line of a remark: what follows is in the head of the file.
+// Cuts a remark to its first line; the rest is in the head of the file.
 std::string clip(const std::string& text);
 
-// "double precision mu, k, ..."
+// Returns "double precision mu, k, ..."
 Lines declarations(const std::vector<std::string>& names);
 
-// Where a state stands in x: x(1), ...
+// Returns the place of a state in x: x(1), ...
 std::string place_of(const table::Table& table, const std::string& state);
 
-// The constants that a formula uses, as named constants.
+// Declares the constants that a formula uses, as named constants.
 Lines constant_lines(const table::Table& table, const Variables& variables);
 
-// The states that a formula uses, by their names: declared in `names`, "sigma_n_MPa = x(1)".
+// Returns assignments of the states that a formula uses, "sigma_n_MPa = x(1)"; adds their names to
+// `names`.
 std::vector<std::string> states_from_x(const table::Table& table, const Variables& variables,
                                        const expr::Expr& formula, std::vector<std::string>& names);
 
-// Where a result is not in its variable: the line that puts it there.
+// Returns the assignment of a result to its variable; empty if it is already there.
 std::vector<std::string> moved(const std::string& result, const std::string& variable);
 
-// Statements in fixed form.
+// Formats statements in fixed form.
 Lines fixed_lines(const std::vector<std::string>& statements);
 
-// ftmin, ftmax, ftwhle, where these statements call them.
+// Returns those of ftmin, ftmax, ftwhle that these statements call.
 std::vector<std::string> helpers_of(const std::string& statements);
 
-// How program units stand: on their own, each declaring those it calls, with its numbers inside;
+// Form of program units: external, each with declarations of those it calls and its numbers inside;
 // or in a module, pure, with the numbers in the module (Core::data).
 enum class Units { external, module };
 
-// Adds what the templates need to write units either way.
+// Adds the values with which templates write units in either form.
 void add_units(TemplateValues& values, Units units);
 
-// A unit, the helpers (of helpers_of) that it calls, and its numbers where these stand apart.
+// A unit, the helpers (of helpers_of) that it calls, and its numbers if these are outside it.
 struct Piece {
   std::string text;
   std::vector<std::string> helpers;
   std::string data;
 };
 
-// The law's own formula, ftpiec; with `gradient` also ftpieg, which gives its derivatives as well.
+// Returns the law's own formula, ftpiec; with `gradient` also ftpieg, which returns its derivatives
+// as well.
 Piece piece(const table::Table& table, bool gradient, Units units);
 
-// "x(index) relation limit" for each side of that kind.
+// Returns "x(index) relation limit" for each side of that kind.
 Lines sides(const table::Table& table, table::Outside kind);
 
-// A template's text, to be inserted into another one: without the line break at its end.
+// Removes the line break at the end of a template's text, for insertion into another template.
 std::string without_last_break(std::string text);
 
 } // namespace frictab::codegen::fortran

@@ -1,5 +1,5 @@
-// The interpolation with its derivatives as statements, in the order of frictab_gradient.h and
-// frictab_cubic_gradient.h.
+// Writes the interpolation with its derivatives as statements, in the order of frictab_gradient.h
+// and frictab_cubic_gradient.h.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -12,9 +12,9 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-// As ft_corners_gradient_N, depth first. p and q: the two ends on the last axis; "a" and "b": the
-// two sides of the axis before; p2a: the value along axes 2 and further, p2a3: its derivative by
-// axis 3's weight.
+// Writes ft_corners_gradient_N, depth first. p and q: the two ends on the last axis; "a" and "b":
+// the two sides of the axis before; p2a: the value along axes 2 and further, p2a3: its derivative
+// by axis 3's weight.
 class Fan {
 public:
   Fan(const std::vector<long>& stride, Slopes& out) : stride_(stride), out_(out) {}
@@ -56,8 +56,8 @@ private:
   Slopes& out_;
 };
 
-// As ft_sum_gradient_N: rr(1..4,0) is the value left on the last axis, rr(1..4,k) its derivative by
-// axis k; a1, a2, ... gather it along the axes before.
+// Writes ft_sum_gradient_N: rr(1..4,0) is the remaining value on the last axis, rr(1..4,k) its
+// derivative by axis k; a1, a2, ... accumulate it along the axes before.
 class Bundle {
 public:
   Bundle(const table::Table& table, const std::vector<long>& stride, Slopes& out)
@@ -92,7 +92,7 @@ private:
     out_.steps.push_back("end do");
   }
 
-  // The value's column, then those of the axes from this one to the last but one.
+  // Returns the column of the value, then those of the axes from this one to the last but one.
   Strings columns(std::size_t number, const char* text) const {
     Strings out{fmt::format(fmt::runtime(text), number, 0)};
     for (std::size_t by = number; by < stride_.size(); ++by)
@@ -100,7 +100,7 @@ private:
     return out;
   }
 
-  // As ft_rows, with the weights `weight` of this axis, into rr(l,column).
+  // Writes ft_rows, with the weights `weight` of this axis, into rr(l,column).
   void rows(std::size_t axis, const std::string& at, const std::string& weight, std::size_t column,
             Strings& out) const {
     const std::size_t n = nodes(axis);
@@ -119,7 +119,7 @@ private:
   Slopes& out_;
 };
 
-// As ft_dot4.
+// Writes ft_dot4.
 std::string dot(const std::string& weight, std::size_t axis, std::size_t column) {
   return fmt::format("({0}(1,{1})*rr(1,{2}) + {0}(2,{1})*rr(2,{2})) + "
                      "({0}(3,{1})*rr(3,{2}) + {0}(4,{1})*rr(4,{2}))",

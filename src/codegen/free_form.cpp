@@ -1,4 +1,5 @@
-// Fixed form to free form, line by line: what fixed_form and the templates write, no more.
+// Converts fixed form to free form, line by line; handles only the text that fixed_form and the
+// templates write.
 #include <regex>
 #include <sstream>
 
@@ -8,7 +9,7 @@ namespace frictab::codegen::fortran {
 
 namespace {
 
-// "ftmin" of "pure double precision function ftmin(a, b)"; empty for another line.
+// Returns "ftmin" for "pure double precision function ftmin(a, b)"; empty for other lines.
 std::string unit_of(const std::string& line) {
   static const std::regex head(R"(^(?:[a-z][a-z ]* )?(function|subroutine) ([a-z]+)\()");
   std::smatch found;
@@ -29,18 +30,19 @@ std::string free_form(const std::string& fixed) {
   std::string out, unit, indent = "  ";
   for (std::string line; std::getline(in, line);) {
     if (line.empty()) continue;
-    if (line[0] == 'C') { // "C" alone stands between units
+    if (line[0] == 'C') { // a "C" without text separates units
       out += line.size() < 7 ? "\n" : indent + "! " + line.substr(6) + "\n";
       continue;
     }
-    if (line[5] == '&') { // both ends marked: the statement goes on where it was cut
+    // Both ends are marked, so that the statement continues exactly where it was cut.
+    if (line[5] == '&') {
       out.back() = '&';
       out += "\n" + indent + "  &" + line.substr(6) + "\n";
       continue;
     }
     const std::string text = statement(line.substr(6)), name = unit_of(text);
     if (text == "implicit none" || text == "return")
-      continue; // the module says so; the end says so
+      continue; // implied by the module or the end of the unit
     if (!name.empty() || text == "end") indent = "  ";
     out += indent + text + (text == "end" ? " " + unit : "") + "\n";
     if (name.empty()) continue;

@@ -1,4 +1,4 @@
-// State variables of histories, and the Fortran that continues them.
+// Writes the state variables of histories, and the Fortran that updates them.
 #include "codegen/histories.h"
 
 #include <algorithm>
@@ -18,9 +18,11 @@ namespace {
 
 using C = data::Continuation;
 
-constexpr double zero_celsius = 273.15; // K: a peak is kept above absolute zero, 0 stands for none
+// K: a peak is kept above absolute zero, 0 means none.
+constexpr double zero_celsius = 273.15;
 
-// What is no derived quantity is a state that the job wants smoothed, or from areas.
+// Returns the rule of an input. Inputs that are not derived quantities are states that the job
+// wants smoothed or computed from areas.
 data::Continuation continuation(const SolverInput& input) {
   if (const auto* derived = data::find_derived(input.argument.name)) return derived->continuation;
   if (input.smoothed_over > 0) return {C::recent, C::speed};
@@ -39,7 +41,7 @@ bool takes_mean(const SolverInput& input) {
   return is(input, C::mean) || is(input, C::lag);
 }
 
-// Number of the state variable that holds the time under pressure, from 1; 0: there is none.
+// Returns the number of the state variable with the time under pressure, from 1; 0: there is none.
 std::size_t time_state(const std::vector<SolverInput>& inputs) {
   std::size_t last = 0;
   bool mean = false;
@@ -58,7 +60,7 @@ HistoryState state_of(const SolverInput& input, std::string_view units) {
   return {input.argument.name, rule.times_time ? unit + " s" : unit, rule.meaning, rule.grows};
 }
 
-// The statements of one history, the law's input number `index`, in fixed form.
+// Writes the statements of one history, the law's input number `index`, in fixed form.
 class RuleText {
 public:
   RuleText(const SolverInput& input, std::size_t index, std::size_t time, std::string_view units)
@@ -90,7 +92,8 @@ private:
   static std::string distance_of(const SolverInput& input) {
     const data::Continuation how = continuation(input);
     if (!is_state(how.rule)) return "";
-    if (!(how.distance_mm > 0)) // a law with an open parameter, whose file was made elsewhere
+    // A law with an open parameter, from a file made elsewhere.
+    if (!(how.distance_mm > 0))
       throw InputError({},
                        fmt::format("the slip distance of {} is not a number", input.argument.name),
                        "routines need it: aging_state_over_0p02mm");
@@ -112,14 +115,14 @@ private:
   std::map<std::string, std::string> names_;
 };
 
-// Whether any of these texts calls a function.
+// True if any of these texts calls the function.
 bool calls(const Lines& histories, const char* part, const std::string& function) {
   return std::any_of(histories.begin(), histories.end(), [&](const TemplateValues& one) {
     return one.text.at(part).find(function + "(") != std::string::npos;
   });
 }
 
-// The column of a name; null where it is none.
+// Returns the column of a name; null if there is none.
 const double* column_of(const std::string& name, const std::vector<SolverInput>& inputs,
                         std::span<const double* const> columns) {
   for (std::size_t c = 0; c < columns.size(); ++c)
@@ -127,7 +130,8 @@ const double* column_of(const std::string& name, const std::vector<SolverInput>&
   return nullptr;
 }
 
-// What a driver presents now, canonical, where the law does not take the quantity itself.
+// Returns the present value (canonical) that a driver uses, also if the law does not take the
+// quantity itself.
 double present(C::Of of, const std::vector<SolverInput>& inputs,
                std::span<const double* const> columns, std::size_t row) {
   const std::string name = followed(of).state;
@@ -138,18 +142,18 @@ double present(C::Of of, const std::vector<SolverInput>& inputs,
   return 0;
 }
 
-// The peak at which a load is that part of it; without a load it is any, or none yet.
+// Returns the peak of which the pressure is the given ratio; any peak, or none yet, without a load.
 double peak_of(double ratio, double pressure) {
   if (ratio == 1) return pressure;
   return ratio == 0 ? 1.0 : pressure / ratio;
 }
 
-// Where a load that rises (1) or falls (0) is at its extreme: highest, or minus the lowest.
+// Returns the extreme of a load that rises (1) or falls (0): the highest, or minus the lowest.
 double extreme_of(double rises, double pressure) {
   return rises == 1 ? pressure : -pressure;
 }
 
-// In the solver's unit.
+// Converts a pressure to the solver's unit.
 double pressure_now(const std::vector<SolverInput>& inputs, double canonical) {
   for (const SolverInput& input : inputs)
     if (input.argument.name == "sigma_n_MPa")
@@ -276,7 +280,7 @@ std::vector<double> history_values(const std::vector<SolverInput>& inputs,
                                    std::span<const double* const> columns, std::size_t row) {
   const std::size_t time = time_state(inputs);
   std::vector<double> values(history_count(inputs), 0.0);
-  if (time > 0) values[time - 1] = 1; // any: means are taken over it
+  if (time > 0) values[time - 1] = 1; // any value: means are computed over it
   for (std::size_t c = 0; c < columns.size(); ++c)
     if (is(inputs[c], C::per_time)) values[time - 1] = columns[c][row];
   for (std::size_t c = 0; c < columns.size(); ++c) {

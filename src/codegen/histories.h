@@ -1,10 +1,10 @@
-// Histories that a law takes beyond slip, friction work and peak pressure: a routine keeps state
-// variables for them, in the solver's units, where its law takes them and only there.
+// Histories that a law takes in addition to slip, friction work and peak pressure. A routine keeps
+// state variables for them, in the solver's units, only if its law takes them.
 //
 // Calibration computes a history along the rows of an experiment (data/derived.h). A simulation has
-// no rows, but increments, so a contact point keeps what continues it, h, and the law's input x
-// follows from h and the state now. With the pressure p, the speed v, the temperature T, the slip
-// ds and the time dt of an increment under pressure, and q one of p, v and T:
+// increments instead of rows, so a contact point keeps a state variable h, and the law's input x
+// follows from h and the present state. With the pressure p, the speed v, the temperature T, the
+// slip ds and the time dt of an increment under pressure, and q one of p, v and T:
 //
 //   integral over the slip     h' = h + p ds                      x = h
 //   time under pressure        h' = h + dt                        x = h
@@ -21,17 +21,17 @@
 //   smoothed speed             h' = h + (v - h)/n                 x = h + (v - h)/n
 //   growth of the area a       h' = a of the first increment      x = a/h
 //
-// The last two are asked for by the job, "smoothed:n" for the sliding speed and "area_ratio" for
-// the surface expansion, of solvers whose table says that they can (SolverGives). What the surface
-// had expanded before its first contact in this analysis is not in a/h, and new nodes (remeshing)
-// begin again.
+// The job requests the last two, "smoothed:n" for the sliding speed and "area_ratio" for the
+// surface expansion, from solvers whose table offers them (SolverGives). a/h leaves out any
+// expansion of the surface before its first contact in this analysis, and starts over at new nodes
+// (remeshing).
 //
-// Integrals and means end before the present increment, so that the law's stress does not depend
-// on itself and no iteration is needed. Peaks include it: its pressure, speed and temperature are
-// known. To first order in the increment this is what rows give. Means are over the time under
-// pressure, which is a mean over rows where these are evenly spaced in time; in the first increment
-// of a contact they are the present value. The first and the highest temperature are kept in K: 0,
-// with which a solver begins, then stands for "no contact yet".
+// Integrals and means end before the present increment, so that the law's stress does not depend on
+// itself and no iteration is needed. Peaks include it, because its pressure, speed and temperature
+// are known. To first order in the increment this equals the result from rows. Means are over the
+// time under pressure, which equals a mean over rows that are evenly spaced in time; in the first
+// increment of a contact they are the present value. The first and the highest temperature are kept
+// in K, so that 0, the solver's initial value, means "no contact yet".
 #pragma once
 
 #include <span>
@@ -45,67 +45,72 @@ namespace frictab::codegen {
 
 // One state variable.
 struct HistoryState {
-  std::string name;    // of the state that follows from it: "energy"
-  std::string unit;    // the solver's
+  std::string name;    // name of the state computed from it: "energy"
+  std::string unit;    // in the solver's system
   std::string meaning; // "contact normal stress times time under pressure"
-  bool grows = true;   // a sum from the start: its increments are small against it
+  bool grows = true;   // a sum from the start: its increments are small relative to it
 };
 
-// Those that these inputs (Source::history) need, in the order of SolverInput::history; behind them
-// the time that means are taken over, where no input is it.
+// Returns the state variables that these inputs (Source::history) need, in the order of
+// SolverInput::history, followed by the time over which means are taken, unless an input is that
+// time.
 std::vector<HistoryState> history_states(const std::vector<SolverInput>& inputs,
                                          std::string_view units);
 std::size_t history_count(const std::vector<SolverInput>& inputs);
 
-// Behind them what the solver's precision rounds off each; `before`: state variables in front.
+// Appends, for each, the part lost to rounding in the solver's precision; `before`: number of
+// preceding state variables.
 std::vector<HistoryState> with_remainders(std::vector<HistoryState> states, std::size_t before);
 
-// "8 pressure times slip, summed (MPa mm)", the first with that number; `pattern` writes it.
+// Returns "8 pressure times slip, summed (MPa mm)", the first with number `first`; `pattern`
+// formats the number.
 std::vector<std::string> numbered(const std::vector<HistoryState>& states, std::size_t first,
                                   const std::string& pattern = "{}");
 
-// Numbers of those that are 0 K where there was no contact yet: no value to take a mean with.
+// Returns the numbers of state variables that are 0 K before the first contact, which a mean must
+// not include.
 std::vector<std::size_t> peak_temperatures(const std::vector<SolverInput>& inputs);
 
-// The state variable that holds the area at the first contact, from 1; 0: there is none.
+// Returns the number of the state variable with the area at the first contact, from 1; 0: none.
 std::size_t first_area(const std::vector<SolverInput>& inputs);
 
-// True for a history that needs a state variable of its own.
+// True for a history that needs its own state variable.
 bool is_further_history(const std::string& name);
-// Numbers of those that hold the temperature at the start of contact in K, 0 where there was none.
+// Returns the numbers of the state variables with the temperature at the start of contact in K, 0
+// before it.
 std::vector<std::size_t> start_temperatures(const std::vector<SolverInput>& inputs);
 
-// Whether it follows the contact temperature, which the routine then has to know as well.
+// True if the history follows the contact temperature, which the routine then needs as well.
 bool follows_temperature(const std::string& name);
 
 namespace fortran {
 
-// Adds to the values of a source in fixed form: flag has_histories; texts temperature_now ("x(5)",
-// or a zero where none follows it), area_now (", area" where one follows it, an argument behind the
-// temperature) and histories_text, the units
-//   ftpast(h, p, v, t, x): those states x (canonical) from the state variables h before the
-//     increment and the present pressure and speed (solver's units) and temperature (degC),
-//   ftnext(h, p, v, t, pmax, tau, ds, dt, h1): h1 behind the increment, of slip ds and time dt;
-//     pmax is the peak pressure so far, tau the frictional stress,
-//   ftlive(h, p, v, t, dy, dp, dv, dt), with `gradient`: adds to the derivatives of tau_R by
-//     pressure, speed and temperature (canonical) what histories of the present values add.
-// Empty where the law has none. NaN in gives NaN where it is used.
+// Adds values for a source in fixed form: flag has_histories; texts temperature_now ("x(5)", or a
+// zero if no history follows the temperature), area_now (", area" if a history follows it, as an
+// argument after the temperature) and histories_text, the units
+//   ftpast(h, p, v, t, x): sets these states x (canonical) from the state variables h before the
+//   increment and the present pressure and speed (solver's units) and temperature (degC),
+//   ftnext(h, p, v, t, pmax, tau, ds, dt, h1): sets h1 after the increment, with slip ds and time
+//   dt; pmax is the peak pressure so far, tau the frictional stress,
+//   ftlive(h, p, v, t, dy, dp, dv, dt), with `gradient`: adds the contributions of histories of the
+//   present values to the derivatives of tau_R by pressure, speed and temperature (canonical).
+// The texts are empty if the law has no histories. NaN gives NaN wherever it is used.
 void add_histories(TemplateValues& values, const std::vector<SolverInput>& inputs,
                    std::string_view units, bool gradient);
 
 } // namespace fortran
 
-// For drivers of solvers that give the area: flag has_area and text first_area.
+// Returns values for drivers of solvers that give the area: flag has_area and text first_area.
 TemplateValues area_of_driver(const ExportRequest&, const std::vector<SolverInput>& inputs);
 
-// The state variables (solver's units) at which a row's histories are what its columns say, on an
+// Returns the state variables (solver's units) at which the histories equal a row's columns, on an
 // area of 1.
 std::vector<double> history_values(const std::vector<SolverInput>& inputs,
                                    std::span<const double* const> columns, std::size_t row);
 
-// Whether a contact point can have these histories: a peak is not below the present value (0 where
-// the law does not take it and it is no constant), a mean needs time, a load over its peak a load
-// that the law takes, and a load rises or falls.
+// True if a contact point can have these histories: a peak is not below the present value (taken as
+// 0 if the law does not take it and it has no constant), a mean needs time, a load over its peak
+// needs a load as input, and a load rises or falls.
 bool histories_are_representable(const std::vector<SolverInput>& inputs,
                                  std::span<const double* const> columns, std::size_t row);
 

@@ -1,4 +1,4 @@
-// One function per rule.
+// Returns the rules of the table in histories.h, one function per rule.
 #include "codegen/history_rules.h"
 
 #include <stdexcept>
@@ -49,7 +49,7 @@ HistoryRule slip_since_peak() {
           .grows = false};
 }
 
-// The sum of q dt, which mean and lag divide by the time.
+// Sums q dt, which mean and lag divide by the time.
 HistoryRule sum_over_time(C::Of of) {
   HistoryRule sum;
   sum.next = "@{h1} = @{h}\n"
@@ -142,7 +142,8 @@ HistoryRule recent_speed() {
           .grows = false};
 }
 
-// The state of before the increment, as of all histories: the slip of the increment ages it behind.
+// Uses the state before the increment, as all histories do; the slip of the increment ages it
+// afterwards.
 HistoryRule slip_state(C::Rule rule) {
   HistoryRule out;
   out.now = "@{x} = ftthta(@{h}, v@{from_speed}, @{distance})";

@@ -1,5 +1,4 @@
-// The rules by which a routine continues histories (the table in histories.h), each with the
-// Fortran that does it.
+// The rules by which a routine updates histories (the table in histories.h), each with its Fortran.
 #pragma once
 
 #include <string>
@@ -8,21 +7,22 @@
 
 namespace frictab::codegen {
 
-// Statements, a line each. They may hold @{x} (the law's input), @{h} and @{h1} (the state variable
-// before and behind the increment), @{time} (the state variable of the time that means are taken
-// over), @{increments} (those that the speed is smoothed over), @{q} (the argument p, v, t or a
-// that the rule follows), @{dy} (the derivative of tau_R by x), and the conversions from the
+// Statements, one per line. They may contain @{x} (the law's input), @{h} and @{h1} (the state
+// variable before and after the increment), @{time} (the state variable of the time over which
+// means are taken), @{increments} (over which the speed is smoothed), @{q} (the argument p, v, t or
+// a that the rule follows), @{dy} (the derivative of tau_R by x), and the conversions from the
 // solver's units @{convert} (of x), @{from_stress} and @{from_speed}; @{slowest} (speed) and
-// @{distance} in mm of a state of rate-and-state friction.
+// @{distance} in mm for a state of rate-and-state friction.
 struct HistoryRule {
-  // sets @{x} by @{h} and the pressure p, speed v, temperature t and area a now
+  // Sets @{x} from @{h} and the present pressure p, speed v, temperature t and area a.
   std::string now = {};
-  std::string next = {};  // sets @{h1}; knows the peak pmax, tau, slip ds and time dt as well
-  std::string slope = {}; // adds to dp, dv and dt what x changes by p, v and t
+  // Sets @{h1}; may also use the peak pmax, tau, slip ds and time dt.
+  std::string next = {};
+  std::string slope = {}; // adds the derivatives of x by p, v and t to dp, dv and dt
 
   std::string meaning = {};
-  std::string unit = {};   // of h, canonical; empty: that of x
-  bool times_time = false; // that unit times s
+  std::string unit = {};   // canonical unit of h; empty: that of x
+  bool times_time = false; // multiply this unit by s
   bool grows = true;       // as in HistoryState
 };
 
@@ -31,10 +31,10 @@ HistoryRule history_rule(const data::Continuation& how);
 
 // A quantity that a rule may follow.
 struct Followed {
-  const char* state; // canonical name; empty: no law takes it
+  const char* state; // canonical name; empty: not an input of any law
   const char* unit;
-  const char* name;     // for people
-  const char* argument; // of the Fortran routines
+  const char* name;     // for messages and comments
+  const char* argument; // argument of the Fortran routines
 };
 const Followed& followed(data::Continuation::Of of);
 

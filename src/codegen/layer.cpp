@@ -1,4 +1,4 @@
-// Recognises sums of tanh of sums, as every network with one hidden layer has them.
+// Recognises sums of tanh of sums, the form of every network with one hidden layer.
 #include "codegen/layer.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using expr::Op;
 
 namespace {
 
-// constant + sum of factor * node, where no node is itself such a sum.
+// A sum: constant + sum of factor * node, whose nodes are not sums themselves.
 struct Sum {
   double constant = 0;
   std::vector<std::pair<Expr, double>> terms; // in the order of the formula
@@ -65,7 +65,7 @@ Sum sum_of(const Expr& e) {
   return sum;
 }
 
-// The nodes of a formula that are sums of tanh and of nothing else.
+// Finds the nodes of a formula that are sums of tanh and of nothing else.
 class Outputs {
 public:
   explicit Outputs(const Expr& formula) { visit(formula); }
@@ -98,7 +98,7 @@ bool holds_tanh(const Expr& formula) {
   return holds;
 }
 
-// Adds one unit; false where its sum holds another unit: that would be a second layer.
+// Adds one unit; returns false if its sum contains another unit, which would be a second layer.
 bool add_unit(UnitLayer& layer, const Expr& unit, double gain) {
   const Sum sum = sum_of(unit.operands()[0]);
   const std::size_t u = layer.units();

@@ -1,5 +1,5 @@
-// Cells along each axis are as long as the error measured on lines through the box allows; the
-// error allowed is then corrected by what the complete grid shows.
+// Makes the cells along each axis as long as the error on lines through the box allows, then
+// corrects the allowed error by the error of the complete grid.
 #include "codegen/native_grid.h"
 
 #include <algorithm>
@@ -17,12 +17,13 @@ using table::States;
 
 namespace {
 
-constexpr std::size_t probes = 40000;       // Halton points of the complete check
-constexpr std::size_t most_centres = 40000; // cell centres of the same
-constexpr std::size_t lines_inside = 48;    // per axis, besides those through the corners
-constexpr std::size_t worst_kept = 6;       // states of a check that become lines
-constexpr double smallest_pressure = 1e-6;  // of the highest: where the coefficient of zero is read
-constexpr int most_rounds = 16;             // with a complete check each
+constexpr std::size_t probes = 40000;       // number of Halton points of the complete check
+constexpr std::size_t most_centres = 40000; // number of cell centres of the complete check
+constexpr std::size_t lines_inside = 48;    // number per axis, without those through the corners
+constexpr std::size_t worst_kept = 6;       // number of states of a check that become lines
+// Relative to the highest: the pressure at which the coefficient for zero is computed.
+constexpr double smallest_pressure = 1e-6;
+constexpr int most_rounds = 16; // each with a complete check
 
 double parsed(const std::string& text) {
   return std::strtod(text.c_str(), nullptr);
@@ -72,19 +73,20 @@ double NativeValues::at(std::span<const double> x) const {
 
 namespace {
 
-// States, one vector per axis, canonical, with the coefficient there.
+// States, one vector per axis, in canonical units, with their coefficients.
 struct Sampled {
   States states;
   std::vector<double> coefficient;
 };
 
-// Places evenly spread on each axis that its nodes are chosen from.
+// Number of places, evenly spaced on each axis, from which its nodes are chosen.
 std::size_t candidates(std::size_t axes) {
   if (axes == 1) return 8193;
   return axes == 2 ? 2049 : 1025;
 }
 
-// A grid that meets the aim before one that does not; then fewer values, or the smaller error.
+// Prefers a grid that meets the aim; of two that do, the one with fewer values; of two that do not,
+// the one with the smaller error.
 bool better(const NativeGrid& a, const NativeGrid& b) {
   if (a.met != b.met) return a.met;
   if (a.met) return a.values.value.size() < b.values.value.size();
@@ -98,11 +100,11 @@ public:
 
 private:
   struct Axis {
-    std::vector<double> written; // places a node may have, solver's unit
-    std::vector<double> place;   // the same, canonical
+    std::vector<double> written; // possible places of nodes, solver's unit
+    std::vector<double> place;   // the same places, canonical units
     bool depends = false;
     std::vector<std::vector<double>> coefficient; // per line and place
-    std::vector<double> pressure;                 // per line, where pressure is another axis
+    std::vector<double> pressure;                 // per line, if pressure is another axis
   };
 
   bool pressed() const { return problem_.pressure != NativeProblem::no_column; }
@@ -139,7 +141,7 @@ Maker::Maker(const NativeProblem& problem, const NativeGoal& goal)
   add_lines(table::box_points(ranges, lines_inside)); // and through all corners
 }
 
-// tau_R / factor, without the limit.
+// Returns tau_R / factor, without the limit.
 std::vector<double> Maker::coefficients(const States& given) const {
   States states = given;
   const std::size_t rows = states.empty() ? 1 : states.front().size();
@@ -182,7 +184,7 @@ void Maker::place_candidates() {
   }
 }
 
-// Lines along every axis through these states.
+// Adds lines along every axis through these states.
 void Maker::add_lines(const States& through) {
   const std::size_t count = through.empty() ? 0 : through.front().size();
   for (std::size_t d = 0; d < axes_.size(); ++d) {
@@ -207,7 +209,7 @@ void Maker::add_lines(const States& through) {
   }
 }
 
-// Largest error in MPa of interpolation between places i and j, on all lines.
+// Largest error in MPa of interpolating between places i and j, on all lines.
 double Maker::cell_error(const Axis& axis, std::size_t d, std::size_t i, std::size_t j) const {
   double worst = 0;
   const bool own = problem_.pressure == d;
@@ -223,7 +225,7 @@ double Maker::cell_error(const Axis& axis, std::size_t d, std::size_t i, std::si
   return worst;
 }
 
-// From end to end the longest cells whose error is allowed.
+// Returns nodes from end to end such that the cells are the longest with an allowed error.
 std::vector<std::size_t> Maker::nodes_of(std::size_t d, double allowed) const {
   const Axis& axis = axes_[d];
   const std::size_t last = axis.place.size() - 1;
@@ -232,7 +234,7 @@ std::vector<std::size_t> Maker::nodes_of(std::size_t d, double allowed) const {
   while (nodes.back() < last) {
     const std::size_t i = nodes.back();
     std::size_t good = i + 1, step = 1, bad = last + 1;
-    while (good < last && bad > last) { // gallop
+    while (good < last && bad > last) { // exponential search
       const std::size_t next = std::min(last, good + step);
       if (cell_error(axis, d, i, next) <= allowed)
         good = next;
@@ -249,7 +251,7 @@ std::vector<std::size_t> Maker::nodes_of(std::size_t d, double allowed) const {
   return nodes;
 }
 
-// Without values where there would be more than `most` of them.
+// Returns a grid without values if it would have more than `most`.
 NativeValues Maker::grid(double allowed, std::size_t most, double& count) const {
   NativeValues out;
   States places(axes_.size());
@@ -271,12 +273,12 @@ NativeValues Maker::grid(double allowed, std::size_t most, double& count) const 
   out.value = coefficients(states);
   for (double& value : out.value)
     value = as_written(value);
-  for (std::vector<double>& nodes : out.nodes) // the state is no matter
+  for (std::vector<double>& nodes : out.nodes) // the coefficient does not depend on the state
     if (nodes.size() < 2) nodes.clear();
   return out;
 }
 
-// All centres of cells, or as many spread evenly.
+// Returns the centres of all cells, or of as many as allowed, evenly chosen.
 States Maker::centres(const NativeValues& values) const {
   std::size_t cells = 1;
   for (const auto& nodes : values.nodes)
@@ -289,7 +291,7 @@ States Maker::centres(const NativeValues& values) const {
       const NativeAxis& axis = problem_.axes[d];
       const std::size_t n = std::max<std::size_t>(nodes.size(), 2) - 1, i = rest % n;
       rest /= n;
-      // An axis without nodes: to and fro between its ends.
+      // Alternates between the ends of an axis without nodes.
       out[d].push_back(nodes.empty() ? (out[d].size() % 2 ? axis.low : axis.high)
                                      : axis.unit.to_canonical(0.5 * (nodes[i] + nodes[i + 1])));
     }

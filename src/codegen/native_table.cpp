@@ -1,4 +1,4 @@
-// From a request to the numbers of a solver's own table.
+// Computes the numbers of a solver's own table from a request.
 #include "codegen/native_table.h"
 
 #include <algorithm>
@@ -26,7 +26,8 @@ using expr::Expr;
 namespace {
 
 constexpr double usual_tolerance_MPa = 0.5;
-// Of the tolerance: what the grid's own check, on fewer states than verification, may miss.
+// Share of the tolerance for the grid; the rest allows for errors that the grid's own check misses,
+// because it has fewer states than verification.
 constexpr double share_of_tolerance = 0.93;
 constexpr double least_share = 0.05;
 
@@ -34,7 +35,8 @@ bool is_pressure(const NativeColumn& column) {
   return column.state == "sigma_n_MPa";
 }
 
-// A state that the table need not know: solver_inputs tells nothing about it.
+// Returns the argument of a state that the table may not take, so that solver_inputs does not have
+// it.
 InputArgument argument_of(const ExportRequest& request, const std::string& name) {
   const auto all = entry_arguments(request.table, request.units);
   return *std::find_if(all.begin(), all.end(), [&](const auto& a) { return a.name == name; });
@@ -47,7 +49,7 @@ std::optional<std::pair<double, double>> range_of(const table::Table& table,
   return quantity && quantity->paper_range ? quantity->paper_range : std::nullopt;
 }
 
-// Where the coefficient is m: it needs a flow stress even where the law does not.
+// True if the coefficient is m, which needs a flow stress even if the law does not.
 bool asks_flow_stress(const ExportRequest& request, const NativeForm& form) {
   const auto inputs = request.table.inputs();
   return form.factor == NativeFactor::shear_yield &&
@@ -131,7 +133,7 @@ template <class Number> Number shear_yield(const Number& flow_stress) {
   return flow_stress / std::sqrt(3.0);
 }
 
-// tau_R = min(rest, limit), where the limit is one number. No rest: the limit is all there is.
+// tau_R = min(rest, limit), where the limit is one number. Without rest, tau_R is the limit.
 struct Limited {
   std::optional<Expr> rest;
   std::optional<double> limit;
@@ -170,7 +172,7 @@ public:
   }
 
 private:
-  // Its value, where it depends on nothing that varies.
+  // Returns the value of an expression that depends on nothing that varies.
   std::optional<double> constant(const Expr& e) const {
     std::vector<std::string> names;
     std::vector<double> values;
@@ -187,7 +189,7 @@ private:
   std::map<std::string, double> known_;
 };
 
-// A table at its held states, as a function of columns.
+// A table at its fixed states, as a function of the columns.
 class HeldTable {
 public:
   HeldTable(const table::Table& table, const std::vector<NativeColumn>& columns,
@@ -251,15 +253,15 @@ double aim_of(const table::Table& table) {
   return std::max(share_of_tolerance * (tolerance - own), least_share * tolerance);
 }
 
-// The solver's limit is part of the text: rounded as that.
+// Rounds the solver's limit as its text does.
 double limit_as_written(double limit, const ExportRequest& request) {
   const SolverUnit stress = solver_unit("MPa", request.units);
   return stress.to_canonical(as_written(stress.from_canonical(limit)));
 }
 
-// Solvers keep the coefficient below the first pressure of their table. So the table goes down to
-// where that is no matter: where tau_R of every state is below the aim, or every coefficient at its
-// largest.
+// Returns the first pressure of the table, below which solvers keep the coefficient constant. It is
+// so low that this has no effect: tau_R of every state is below the aim, or every coefficient is at
+// its largest.
 double first_pressure(const NativeProblem& problem, std::size_t column, double aim_MPa) {
   std::vector<table::StateRange> ranges;
   for (const NativeAxis& axis : problem.axes)
@@ -292,7 +294,7 @@ NativeProblem problem_of(const ExportRequest& request, const NativeForm& form,
   if (form.limits) {
     const Limited parts = LimitSplit(table, held).split(table.combine);
     if (parts.limit) problem.limit_MPa = limit_as_written(*parts.limit, request);
-    if (parts.limit && !parts.rest) { // the limit is all there is
+    if (parts.limit && !parts.rest) { // tau_R is the limit
       problem.tau = [slope = problem.most, p = problem.pressure](std::size_t rows, auto given,
                                                                  auto tau) {
         for (std::size_t i = 0; i < rows; ++i)
@@ -313,7 +315,7 @@ NativeProblem problem_of(const ExportRequest& request, const NativeForm& form,
 
 NativeTable native_table(const ExportRequest& request, const NativeForm& form) {
   check_table(request.table);
-  solver_unit("MPa", request.units); // refuses an unknown system
+  solver_unit("MPa", request.units); // throws for an unknown system
   NativeTable out;
   out.columns = native_columns(request, form);
   out.held = native_held(request, form);
@@ -356,13 +358,13 @@ void drive_native(const NativeForm& form, const NativeValues& values, const Expo
   const auto state_in = [&](std::size_t column, std::size_t row) {
     if (sources[column]) return sources[column][row];
     if (!is_pressure(columns[column])) return 0.0;
-    // A pressure that the law does not ask for: all of its range in turn.
+    // Varies a pressure that the law does not take over all of its range.
     const double w = static_cast<double>(row % 97) / 96;
     return range.first + w * (range.second - range.first);
   };
   std::vector<double> x(columns.size());
   for (std::size_t i = 0; i < rows; ++i) {
-    double factor = 0; // solver's unit
+    double factor = 0; // in the solver's unit
     for (std::size_t c = 0; c < columns.size(); ++c) {
       x[c] = columns[c].argument.solver.from_canonical(state_in(c, i));
       if (is_pressure(columns[c])) factor = x[c];
@@ -384,7 +386,8 @@ table::Table native_as_table(const NativeForm& form, const NativeValues& values,
   table::Table out;
   out.model = request.table.model;
   out.value = values.value;
-  for (std::size_t c = columns.size(); c-- > 0;) { // the first varies fastest: the last axis
+  // The first column varies fastest, which is the last axis here.
+  for (std::size_t c = columns.size(); c-- > 0;) {
     if (values.nodes[c].size() < 2) continue;
     table::TableAxis axis;
     axis.name = columns[c].argument.name;

@@ -1,4 +1,4 @@
-// What the texts of solvers' own tables share: comments, recipe, reading back.
+// Shared parts of the texts of solvers' own tables: comments, recipe, reading back.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -180,7 +180,7 @@ std::vector<std::string_view> split_cells(std::string_view line, char separator)
   for (std::size_t at = 0; at <= line.size();) {
     const std::size_t end = std::min(line.find(separator, at), line.size());
     const std::string_view cell = trimmed(line.substr(at, end - at));
-    if (separator != ' ' || !cell.empty()) cells.push_back(cell); // blanks in a row are one
+    if (separator != ' ' || !cell.empty()) cells.push_back(cell); // consecutive blanks are one
     at = end + 1;
   }
   return cells;

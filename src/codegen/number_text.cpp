@@ -1,4 +1,4 @@
-// The shortest text of a double, as C and as Fortran write it; lines of limited width.
+// Writes the shortest text of a double, as in C and as in Fortran, and lines of limited width.
 #include "codegen/number_text.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// [export] of a job.
+// Options in [export] of a job.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace frictab::codegen {
 
-// What a generated routine holds.
+// Content of a generated routine.
 enum class ExportForm {
   table, // the sampled table
   direct // the law itself, over the table's ranges
@@ -19,16 +19,20 @@ struct ExportOptions {
   std::vector<std::string> targets{"c", "abaqus_vfric"}; // names, or all
   std::string units = "mm-t-s";                          // mm-t-s (MPa, mm/s) | m-kg-s (Pa, m/s)
   ExportForm form = ExportForm::table;
-  // Where a state comes from that the solver does not give: "constant:1.0", "property" (input deck
-  // constant), "field:2" (predefined field variable) or what the target gives by itself ("state",
-  // "temperature", "solver"). By canonical name, or by the symbol of a traced law's further input.
+  // Sources of states that the solver does not give: "constant:1.0", "property" (input deck
+  // constant), "field:2" (predefined field variable) or one that the target offers ("state",
+  // "temperature", "solver"). Keys are canonical names, or the symbol of a traced law's further
+  // input.
   std::map<std::string, std::string> inputs;
-  std::map<std::string, std::map<std::string, std::string>> inputs_of_target; // instead of those
-  std::map<std::string, Place> input_places;  // of "export.inputs.psi", "export.c.inputs.psi"
-  std::map<std::string, std::string> options; // choices that targets offer, by their names
+  // Overrides `inputs` for one target.
+  std::map<std::string, std::map<std::string, std::string>> inputs_of_target;
+  // Places of "export.inputs.psi", "export.c.inputs.psi".
+  std::map<std::string, Place> input_places;
+  // Choices that targets offer, by option name.
+  std::map<std::string, std::string> options;
   Place place;
 
-  // What holds for one target.
+  // Returns the sources for one target.
   std::map<std::string, std::string> inputs_for(const std::string& target) const {
     std::map<std::string, std::string> all = inputs;
     if (const auto own = inputs_of_target.find(target); own != inputs_of_target.end())

@@ -1,4 +1,4 @@
-// Puts the prefix in front of what would meet in one program.
+// Adds the prefix to names that would collide in one program.
 #include "codegen/prefix.h"
 
 #include <algorithm>
@@ -15,10 +15,10 @@ namespace {
 
 constexpr const char* usual_prefix = "frictab";
 constexpr const char* prefix_name = "prefix";
-// The longest name behind it has 21 characters; Fortran allows 63, and 132 in a line.
+// Longest prefix: names add up to 21 characters; Fortran allows 63 per name, and 132 per line.
 constexpr std::size_t longest_prefix = 24;
 
-// Beginnings of names, and what the linker sees of module units that read a file of values.
+// Beginnings of names, including the linked names of module units that read a values file.
 constexpr std::array prefixed_names = {
     "frictab_tau_R",  "frictab_outside", "frictab_count_outside", "frictab_directory",
     "frictab_values", "frictab_law",     "frictab_read_values",   "frictab_once"};
@@ -40,7 +40,7 @@ std::string renamed(std::string text, const std::string& prefix) {
   std::string guard = prefix;
   std::transform(guard.begin(), guard.end(), guard.begin(),
                  [](unsigned char c) { return std::toupper(c); });
-  text = replace_all(text, "FRICTAB_TAU_R_", guard + "_TAU_R_"); // the headers' guards
+  text = replace_all(text, "FRICTAB_TAU_R_", guard + "_TAU_R_"); // include guards of the headers
   return replace_all(text, "/ftdone/", "/" + prefix + "_ftdone/");
 }
 

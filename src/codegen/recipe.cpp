@@ -126,7 +126,7 @@ json recipe_table(const ExportRequest& request) {
 
 namespace {
 
-// Of one law, or of several in one user file.
+// Reads the recipe of one law, or of several in one user file.
 json read_recipe(const std::string& text, const std::string& file) {
   json recipe = io::parse_json(text, file);
   const bool combined = recipe.is_object() && recipe.value("schema", json()) == combined_schema;

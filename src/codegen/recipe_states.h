@@ -1,4 +1,4 @@
-// recipe.json: where the states come from, as every routine with SolverInputs says it.
+// recipe.json: the sources of the states, for every routine with SolverInputs.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,12 @@
 
 namespace frictab::codegen {
 
-// One object per state: quantity, unit, meaning, source; `constant` (solver's unit) where the
-// source is one.
+// Returns one object per state: quantity, unit, meaning, source; `constant` (solver's unit) if the
+// source is a constant.
 nlohmann::ordered_json recipe_states(const std::vector<SolverInput>& inputs);
 
-// One object per property of the deck: number, quantity, unit, meaning, used_when, where_absent.
+// Returns one object per property of the deck: number, quantity, unit, meaning, used_when,
+// where_absent.
 nlohmann::ordered_json recipe_properties(const std::vector<SolverInput>& inputs,
                                          const FurtherProperties& further = {});
 

@@ -1,4 +1,4 @@
-// Bundle, variants and calls of a target with a routine.
+// Makes the bundle, variants and calls of a target with a routine.
 #include "codegen/routine_target.h"
 
 #include <nlohmann/json.hpp>

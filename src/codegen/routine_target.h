@@ -1,4 +1,4 @@
-// A target whose solver calls a Fortran routine: what is left to say once its parts are there.
+// A target whose solver calls a Fortran routine: assembles it from its parts.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace frictab::codegen {
 
-// A target named `marc_ufric` has its templates in marc/ufric; driver.f there calls the routine.
+// Templates of a target named `marc_ufric` are in marc/ufric; driver.f there calls the routine.
 class RoutineTarget : public Exporter {
 public:
   SourceBundle generate(const ExportRequest& request) const final;
@@ -30,26 +30,27 @@ public:
 protected:
   using Inputs = std::vector<SolverInput>;
 
-  // `entry`: "ufric"; `selector`: which of the arguments tells several laws apart.
+  // `entry`: "ufric"; `selector`: the argument that distinguishes several laws.
   RoutineTarget(TargetDescription description, std::string entry, LawSelector selector);
 
 private:
-  // What the solver gives; may depend on the job's [export.options].
+  // The states that the solver gives; may depend on the job's [export.options].
   virtual const SolverGives& gives(const ExportRequest& request) const = 0;
-  // The sources by name, without values file and recipe.
+  // Sources by name, without values file and recipe.
   virtual SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const = 0;
-  // Adds to recipe.json what stands between its head and the table.
+  // Adds the part of recipe.json between its head and the table.
   virtual void add_recipe(nlohmann::ordered_json& out, const ExportRequest& request,
                           const Inputs& inputs) const = 0;
-  virtual std::vector<BuildVariant> builds(const ExportRequest& request) const = 0; // no driver yet
+  // Without the driver.
+  virtual std::vector<BuildVariant> builds(const ExportRequest& request) const = 0;
   virtual Driver driver(const ExportRequest& request, const Inputs& inputs) const = 0;
   // Throws InputError for inputs that the routine cannot take.
   virtual void check(const ExportRequest&, const Inputs&) const {}
-  // What the driver's template is filled with.
+  // Values for the driver's template.
   virtual TemplateValues driver_values(const ExportRequest&, const Inputs&) const { return {}; }
-  // The head of the entry: argument list and declarations of the arguments.
+  // Head of the entry: argument list and declarations of the arguments.
   virtual std::string arguments(const ExportRequest& request) const;
-  // ftquit of fortran::Core, for a contact that none of several laws is for.
+  // ftquit of fortran::Core, for a contact to which none of several laws belongs.
   virtual std::string quit() const { return ""; }
 
   std::string template_path(const std::string& file) const;

@@ -1,5 +1,5 @@
-// Reads the job's [export.inputs] against a solver's table, and writes the Fortran that it has for
-// each state.
+// Reads the job's [export.inputs], checks them against a solver's table, and writes the table's
+// Fortran for each state.
 #include "codegen/solver_inputs.h"
 #include "core/template.h"
 
@@ -28,12 +28,12 @@ Place input_place(const std::string& name) {
 
 namespace {
 
-// The state that a solver's table has a row for: what a routine sums up as slip is both.
+// Returns the state's row in a solver's table: routines sum slip, which is both sliding distances.
 std::string state_of(const std::string& name) {
   return name == "sliding_distance" ? "s_mm" : name;
 }
 
-// The whole text as a number.
+// Reads the whole text as a number.
 template <class Number> std::optional<Number> number(std::string_view text) {
   Number value{};
   const char* const end = text.data() + text.size();
@@ -42,12 +42,12 @@ template <class Number> std::optional<Number> number(std::string_view text) {
   return value;
 }
 
-// The table's answer is not the law's there.
+// True if the table clamps a value that the law does not.
 bool clamps(const table::AxisEnds& axis, double value) {
   return axis.leaves(value) && !axis.extends(value);
 }
 
-// One state's choice.
+// The choice of one state's source.
 class Choice {
 public:
   Choice(SolverInput& input, const SolverGives& gives, const table::Table& table, FaultList& faults)
@@ -92,10 +92,10 @@ public:
     }
   }
 
-  // When a property stands in for what the solver gives.
+  // Condition under which a property replaces the solver's value.
   std::string without() const { return input_.source == Source::given ? given_->without : ""; }
 
-  // In canonical units, whatever the solver's.
+  // The constant in canonical units, independent of the solver's.
   std::string constant_text() const {
     const std::string& unit = input_.argument.unit;
     return "constant " + shortest(*input_.fallback) + (unit == "1" ? "" : " " + unit);
@@ -172,7 +172,8 @@ private:
             fmt::format("at least {} {}", known->lowest, known->unit));
   }
 
-  // The word that asks for what the solver, or the routine's own memory, gives.
+  // Returns the word by which the job requests the value of the solver or of the routine's own
+  // memory.
   static std::string choice_of(const std::string& name) {
     const data::Quantity* known = data::find_quantity(name);
     return known ? known->choice : "state";
@@ -182,15 +183,16 @@ private:
 
   SolverInput& input_;
   const SolverGives& gives_;
-  const table::TableAxis* axis_; // null: the state is none
-  bool grows_, smooths_;         // by the area of contact; it may be smoothed
+  const table::TableAxis* axis_; // null if the state is not an axis
+  // By the area of contact; may be smoothed.
+  bool grows_, smooths_;
   FaultList& faults_;
   const GivenState* given_ = nullptr;
-  std::string
-      own_; // the word for the solver's, or the routine's own, value; empty: neither has one
+  // Word for the value of the solver or the routine's own memory; empty: neither has one.
+  std::string own_;
 };
 
-// What stands in where the deck or the solver gives nothing.
+// Returns the value that is used if neither the deck nor the solver gives one.
 std::optional<double> fallback(const table::Table& table, const std::string& name) {
   if (const auto typical = typical_value(table, name)) return typical;
   const data::Quantity* known = data::find_quantity(name);
@@ -202,7 +204,7 @@ void check_names(const ExportRequest& request, const std::vector<std::string>& n
   std::vector<std::string> known = needed;
   for (const data::Quantity& quantity : data::quantities())
     if (quantity.state) known.push_back(quantity.name);
-  // Columns of other tables of the same job are not ours to judge; typing errors are.
+  // Reports misspelt names only: other names may belong to other tables of the same job.
   for (const auto& [name, choice] : request.inputs)
     if (std::find(known.begin(), known.end(), name) == known.end())
       if (const std::string near = nearest_name(name, known); !near.empty())
@@ -306,7 +308,7 @@ namespace fortran {
 namespace {
 
 const GivenState& row_of(const SolverInput& input, const SolverGives& gives) {
-  static const GivenState continued = {.part = "ftpast"}; // fills these itself
+  static const GivenState continued = {.part = "ftpast"}; // ftpast fills these itself
   switch (input.source) {
   case Source::given:
     return *gives.find(input.given);
@@ -322,7 +324,7 @@ const GivenState& row_of(const SolverInput& input, const SolverGives& gives) {
   return continued;
 }
 
-// One state's statements.
+// Writes one state's statements.
 class Statements {
 public:
   Statements(const SolverInput& input, std::size_t index, std::size_t indent)
@@ -342,7 +344,7 @@ public:
       add("C     " + line.text.at("text"));
   }
 
-  // A statement per line; its own leading blanks stay.
+  // Writes a statement per line, with its own leading blanks.
   void write(std::string_view lines, std::size_t deeper = 0) {
     while (!lines.empty()) {
       const std::size_t end = std::min(lines.find('\n'), lines.size());
@@ -397,7 +399,7 @@ std::string reads(const std::vector<SolverInput>& inputs, const SolverGives& giv
     one.read(row, gives.property);
     all.push_back(std::move(one.out));
   }
-  if (inputs.empty() && gives.constant.part == part) { // x(1) exists even so
+  if (inputs.empty() && gives.constant.part == part) { // x(1) exists even then
     const SolverInput none;
     Statements one(none, 1, indent);
     one.comment("no state is needed");

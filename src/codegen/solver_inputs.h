@@ -1,6 +1,6 @@
-// Where each state of the law comes from inside a solver's routine. A solver is a table: a row for
-// every state that it gives, with the text that reads it there. What it does not give, the job's
-// [export.inputs] says.
+// The source of each state of the law inside a solver's routine. A solver is described by a table:
+// one row per state that it gives, with the text that reads the state. The job's [export.inputs]
+// names the source of states that the solver does not give.
 #pragma once
 
 #include <map>
@@ -15,85 +15,95 @@
 namespace frictab::codegen {
 
 enum class Source {
-  given,    // by the solver: a row of its table
-  history,  // follows from a state variable that the routine continues (codegen/histories.h)
+  given, // given by the solver: a row of its table
+  // Computed from a state variable that the routine updates (codegen/histories.h).
+  history,
   property, // a constant of the input deck
   field,    // a field variable of the model
-  constant  // in the source
+  constant  // a constant in the source
 };
 
-// A row of a solver's table. Texts may hold @{index} (of the state, from 1), @{property}, @{field}
-// (their numbers), @{fallback} (what stands in where nothing gives the state, in Fortran) and
+// A row of a solver's table. Texts may contain @{index} (of the state, from 1), @{property},
+// @{field} (their numbers), @{fallback} (replacement if nothing gives the state, in Fortran) and
 // @{convert} ("/1.0D6": from the solver's unit of this state to the canonical one).
 struct GivenState {
-  // Canonical name; of a sliding distance "s_mm", whichever name the law has for it. Empty in the
-  // rows of properties, fields and constants.
+  // Canonical name; for a sliding distance "s_mm", even if the law has another name for it. Empty
+  // in the rows of properties, fields and constants.
   std::string state = {};
-  std::string text = {};    // where it comes from, for people: "fNormal/areaSec of the node"
-  std::string without = {}; // "nTemp = 0": where a property stands in for it; empty: nowhere
+  std::string text = {}; // source in words: "fNormal/areaSec of the node"
+  // Condition under which a property replaces it: "nTemp = 0"; empty: never.
+  std::string without = {};
 
-  // The rest is Fortran, for targets with a routine in it. The value in the solver's unit:
-  // "temp(1)"; or, of several lines, statements that set @{x}.
+  // The rest is Fortran, for targets with a routine. The value in the solver's unit: "temp(1)"; or,
+  // if of several lines, statements that set @{x}.
   std::string read = {};
-  bool canonical = false;  // `read` is in the canonical unit already
+  bool canonical = false;  // `read` is already in the canonical unit
   std::string exists = {}; // "nTemp .gt. 0"; empty: always
-  std::string absent = {}; // the value (canonical) where it does not; empty: @{fallback}
-  std::string part = {};   // of the routine, where it reads in several places
-  // What the routine does with dy(@{index}), for its derivatives. Once for every state of the law
-  // that this row stands for: the row of s_mm may stand for two, so that it has to add.
+  // Value (canonical) if it does not exist; empty: @{fallback}.
+  std::string absent = {};
+  std::string part = {}; // part of the routine, if it reads states in several places
+  // Use of dy(@{index}) in the routine, for its derivatives. Written once for every state of the
+  // law that this row represents: the row of s_mm may represent two, so the text must add.
   std::string slope = {};
 };
 
-// What a solver hands to its routine. Its driver (codegen/driver.h) gets values in this order.
+// Everything a solver hands to its routine. Its driver (codegen/driver.h) gets values in this
+// order.
 struct SolverGives {
   std::vector<GivenState> states;
-  GivenState property = {}; // "property @{property}"; no text where decks give none
-  GivenState field = {};    // "predefined field @{field}"; no text where there is none
+  GivenState property = {}; // "property @{property}"; no text if decks have none
+  // "predefined field @{field}"; no text if there are none.
+  GivenState field = {};
   GivenState constant = {.read = "@{fallback}", .canonical = true};
-  std::string history = {}; // of a state variable: "STATEV(@{number})"; empty: it keeps none
-  std::size_t before_histories = 0; // state variables in front of those of Source::history
-  // Where it gives the area of contact, for people: "areaSec of the surface node". The job may say
-  // psi = "area_ratio" then. Empty: it gives none.
+  // "STATEV(@{number})", for a state variable; empty: it keeps none.
+  std::string history = {};
+  // Number of state variables before those of Source::history.
+  std::size_t before_histories = 0;
+  // Source of the area of contact in words: "areaSec of the surface node". Allows psi =
+  // "area_ratio" in the job. Empty: not given.
   std::string area = {};
-  bool smooths_speed = false; // the job may say v_rel_mm_s = "smoothed:N"
+  bool smooths_speed = false; // allows v_rel_mm_s = "smoothed:N" in the job
 
-  const GivenState* find(const std::string& state) const; // null where it gives no such state
+  const GivenState* find(const std::string& state) const; // null if it does not give the state
 };
 
 struct SolverInput {
   InputArgument argument;
   Source source = Source::property;
-  std::string given = {};        // where the solver gives it: the state of that row
-  std::size_t property = 0;      // its number from 1, where the source is property, or as reference
-  std::size_t field = 0;         // field variable, from 1
-  std::size_t history = 0;       // where the source is history: its number among those, from 1
-  std::size_t smoothed_over = 0; // increments; 0: not smoothed
-  std::optional<double> fallback; // canonical: the constant, or what stands in for a missing value
-  std::string text;               // "property 2", ... for people
-  std::string without;            // when the property stands in; empty: it is the source
+  std::string given = {}; // state of the solver's row, if given by the solver
+  // Number from 1, if the source is property, or as replacement.
+  std::size_t property = 0;
+  std::size_t field = 0; // number of the field variable, from 1
+  // Number among histories from 1, if the source is history.
+  std::size_t history = 0;
+  std::size_t smoothed_over = 0; // number of increments; 0: not smoothed
+  // Canonical value: the constant, or the replacement for a missing value.
+  std::optional<double> fallback;
+  std::string text;    // "property 2", ... in words
+  std::string without; // condition under which the property is used; empty: always
 };
 
-// The states the table needs, in the order of table.inputs(), by the job's [export.inputs]; where
-// that says nothing: what the solver gives, else a property, else a constant. Behind them the
-// contact temperature where only a history follows it. Throws InputError with every fault of these
+// Returns the states the table needs, in the order of table.inputs(), with their sources from the
+// job's [export.inputs]; by default the solver, else a property, else a constant. The contact
+// temperature is appended if only a history follows it. Throws InputError with every fault of these
 // choices.
 std::vector<SolverInput> solver_inputs(const ExportRequest& request, const SolverGives& gives);
 
-// [export.inputs] NAME, for faults.
+// [export.inputs] NAME, as the place of faults.
 Place input_place(const std::string& name);
 
-// A property of the deck that is no state of the law: what the routine itself has to be told. Its
-// number comes behind those of the states.
+// A property of the deck that is not a state of the law but a parameter of the routine itself. Its
+// number follows those of the states.
 struct FurtherProperty {
   std::size_t number; // from 1
   std::string quantity, unit, meaning;
-  std::string line;        // what a source says of it, behind the number
-  std::string placeholder; // what the deck has in its place
-  double where_absent;     // what the routine takes where the deck does not give it
+  std::string line;        // comment of the source about it, after the number
+  std::string placeholder; // text of the deck in its place
+  double where_absent;     // value that the routine takes if the deck does not give it
 };
 using FurtherProperties = std::vector<FurtherProperty>;
 
-// Those that the job says are constants, [export.inputs] NAME = "constant:VALUE".
+// Returns the inputs that the job makes constants, [export.inputs] NAME = "constant:VALUE".
 table::HeldStates said_constants(const ExportRequest& request,
                                  const std::vector<SolverInput>& inputs);
 
@@ -103,33 +113,34 @@ bool takes(const std::vector<SolverInput>& inputs, const std::string& state); //
 
 std::string meaning_and_unit(const SolverInput& input); // "contact temperature, degC"
 
-// What a deck has in the properties' places, for the user to replace: "<flow stress of the
-// workpiece, MPa>". A number would be taken for one that belongs to the process.
+// Texts of a deck in the properties' places, for the user to replace: "<flow stress of the
+// workpiece, MPa>". A number could be mistaken for one of the process.
 std::vector<std::string> property_placeholders(const std::vector<SolverInput>& inputs,
                                                const FurtherProperties& further);
 
-// "/1.0D6": what turns the solver's unit into the canonical one; empty where they are one.
+// Returns "/1.0D6", the conversion from the solver's unit to the canonical one; empty if they are
+// equal.
 std::string fortran_conversion(const SolverUnit& unit);
 
 namespace fortran {
 
-// Statements in fixed form, set in by `indent` blanks, that fill x(1), ..., x(n) with those states
-// that this part of the routine reads (GivenState::part); without the line break at the end, empty
-// where there are none. Where the law needs no state at all, the part of the constants sets x(1).
+// Returns statements in fixed form, indented by `indent` blanks, that fill x(1), ..., x(n) with the
+// states that this part of the routine reads (GivenState::part); without the line break at the end,
+// empty if there are none. If the law needs no state at all, the part of the constants sets x(1).
 std::string reads(const std::vector<SolverInput>& inputs, const SolverGives& gives,
                   const std::string& part = {}, std::size_t indent = 0);
 
-// The same for GivenState::slope; `names` are further @{names} in it.
+// Same for GivenState::slope; `names` are further @{names} in it.
 std::string slopes(const std::vector<SolverInput>& inputs, const SolverGives& gives,
                    const std::map<std::string, std::string>& names, std::size_t indent = 0);
 
-// Whether reads() of any part calls ftqnan(): a value that nothing stands in for.
+// True if reads() of any part calls ftqnan(), for a value without a replacement.
 bool needs_unknown(const std::vector<SolverInput>& inputs, const SolverGives& gives);
 
 } // namespace fortran
 
-// Comment lines: each state, its source and the table's range; each property with what stands in,
-// "none" where there is none.
+// Returns comment lines: each state, its source and the table's range; each property and its
+// replacement, "none" if there is none.
 std::vector<std::string> state_lines(const ExportRequest& request,
                                      const std::vector<SolverInput>& inputs);
 std::vector<std::string> property_lines(const std::vector<SolverInput>& inputs,

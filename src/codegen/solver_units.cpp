@@ -1,4 +1,4 @@
-// Which canonical units an analysis in metres has other units for.
+// Lists the canonical units that differ in an analysis in metres.
 #include "codegen/solver_units.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ SolverUnit solver_unit(std::string_view canonical_unit, std::string_view units) 
     if (canonical_unit == "mm/s") return {"m/s", 1e3, 1};
     if (canonical_unit == "mm") return {"m", 1e3, 1};
     if (canonical_unit == "mm^2") return {"m^2", 1e6, 1};
-    // Work and power per area; a name may write the product either way.
+    // Work and power per area; names may write the product either way.
     if (canonical_unit == "MPa mm") return {"Pa m", 1, 1e3};
     if (canonical_unit == "MPa*mm") return {"Pa*m", 1, 1e3};
     if (canonical_unit == "MPa mm/s") return {"Pa m/s", 1, 1e3};

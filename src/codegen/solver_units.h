@@ -1,5 +1,5 @@
-// The units of a solver. frictab keeps stress in MPa, length in mm, speed in mm/s; an analysis is
-// made in mm-t-s or in m-kg-s. Every number that enters or leaves a routine goes through here.
+// The units of a solver. frictab has stress in MPa, length in mm, speed in mm/s; an analysis is in
+// mm-t-s or in m-kg-s. Every number that enters or leaves a routine is converted here.
 #pragma once
 
 #include <string>
@@ -18,8 +18,8 @@ struct SolverUnit {
   bool same() const { return times == 1 && over == 1; }
 };
 
-// `units` is mm-t-s or m-kg-s; throws InputError for another one. Units without a counterpart
-// (degC, 1, a traced column's) stay as they are.
+// Returns the solver's unit. `units` is mm-t-s or m-kg-s; throws InputError otherwise. Units
+// without a counterpart (degC, 1, a traced column's) are unchanged.
 SolverUnit solver_unit(std::string_view canonical_unit, std::string_view units);
 
 } // namespace frictab::codegen

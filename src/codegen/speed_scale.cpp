@@ -1,4 +1,4 @@
-// The property that says by how much a simulation is faster than its process.
+// The property with the factor by which a simulation is faster than its process.
 #include "codegen/speed_scale.h"
 
 namespace frictab::codegen {

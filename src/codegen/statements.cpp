@@ -21,8 +21,9 @@ using expr::Op;
 namespace {
 
 constexpr std::size_t longest_name = 28;
-constexpr std::size_t line_width = 80; // "tau = ..."; with its declaration 100 columns hold it in C
-constexpr std::size_t inline_width = 60; // of a step that is written out inside another one
+// "tau = ..."; 100 columns then suffice in C, including the declaration.
+constexpr std::size_t line_width = 80;
+constexpr std::size_t inline_width = 60; // width of a step that is written inside another one
 
 } // namespace
 
@@ -32,7 +33,7 @@ std::string Names::give(const std::string& wish) {
   std::string name;
   for (const char c : wish.substr(0, longest_name))
     name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  // Names of the templates start with ft.
+  // The names in the templates start with ft.
   if (name.empty() || !std::isalpha(static_cast<unsigned char>(name[0])) ||
       lower_case(name).starts_with("ft"))
     name.insert(0, "c_");
@@ -44,7 +45,7 @@ std::string Names::give(const std::string& wish) {
 
 namespace {
 
-// How tightly a text holds together: what stands inside something tighter needs parentheses.
+// Binding strength of a text: inside a stronger operation it needs parentheses.
 enum class Strength { negation, sum, product, power, call, atom };
 
 struct Text {
@@ -94,7 +95,7 @@ Text joined(const std::vector<Text>& a, const char* sign, Strength left, Strengt
   return {a[0].at_least(left) + sign + a[1].at_least(right), whole};
 }
 
-// In Fortran with the parentheses that its compilers keep to.
+// Writes an operation; in Fortran with the parentheses that its compilers respect.
 Text spelled(Op op, const std::vector<Text>& a, Language language) {
   using enum Strength;
   const bool fortran = language == Language::fortran;
@@ -116,7 +117,7 @@ Text spelled(Op op, const std::vector<Text>& a, Language language) {
   }
 }
 
-// Operations that are not defined everywhere, or may overflow.
+// True for operations that are not defined everywhere, or may overflow.
 bool is_delicate(Op op) {
   return op == Op::divide || op == Op::power || op == Op::exp || op == Op::log || op == Op::sqrt ||
          op == Op::acos;
@@ -148,7 +149,7 @@ private:
     }
   }
 
-  // Numbers and named constants alone.
+  // True if an expression contains only numbers and named constants.
   bool is_fixed(const Expr& e) {
     if (e.op() == Op::constant) return true;
     if (e.op() == Op::symbol) return spelling_.numbers.count(e.name()) > 0;
@@ -165,7 +166,7 @@ private:
       return {found == spelling_.symbols.end() ? e.name() : found->second};
     }
     const double value = e.value();
-    if (!std::isfinite(value)) // of a/0 or 1e308*a*10, by a
+    if (!std::isfinite(value)) // from a/0 or 1e308*a*10, by a
       throw InputError({"formula", 0, 0}, "a derivative is a number that is not finite",
                        "look for a division by 0 and for numbers near 1e308");
     const std::string text =
@@ -173,7 +174,7 @@ private:
     return {std::signbit(value) ? "(" + text + ")" : text};
   }
 
-  // Under the step's own name where none is given.
+  // Assigns to the name `given`, or to the step's own name if that is empty.
   Text assign(const Expr& e, const std::string& text, const std::string& given) {
     const std::string name = given.empty() ? step_name(e) : given;
     out.names.push_back(name);
@@ -187,7 +188,7 @@ private:
                                                       : fmt::format("t{}", ++unnamed_));
   }
 
-  // What is left of a line behind a name.
+  // Returns the room left on a line after a name.
   std::size_t room_behind(std::size_t name) const {
     return line_width - std::min(line_width, spelling_.owner.size() + name + 3);
   }
@@ -197,7 +198,7 @@ private:
     return uses_.at(e.id()) > 1 || (found != spelling_.steps.end() && found->second.own_line);
   }
 
-  // On a line of its own.
+  // Writes an expression on its own line.
   Text line(const Expr& e) {
     const auto found = spelling_.steps.find(e.id());
     const std::size_t name = found == spelling_.steps.end() ? 4 : found->second.name.size();
@@ -207,13 +208,13 @@ private:
   Text operand(const Expr& e, Op of) {
     if (e.operands().empty()) return leaf(e);
     if (const auto found = done_.find(e.id()); found != done_.end()) return found->second;
-    // Fortran compilers work out what holds no state, and refuse what is not defined, even in a
-    // branch that is never taken: not where it is spread over statements.
+    // Fortran compilers evaluate expressions without states, and reject undefined results even in a
+    // branch that is never taken. They do not if the expression is spread over several statements.
     const bool apart = is_delicate(of) && is_fixed(e);
     return own_line(e) || apart ? line(e) : written(e, inline_width);
   }
 
-  // Operands that make it too wide get lines of their own, the longest first.
+  // Writes an expression. If it is too wide, operands get their own lines, the longest first.
   Text written(const Expr& e, std::size_t width) {
     std::vector<Text> a;
     for (const Expr& one : e.operands())

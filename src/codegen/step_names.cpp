@@ -1,4 +1,4 @@
-// Rules for names: one function per kind of step.
+// Rules for names, one function per kind of step.
 #include "codegen/step_names.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ namespace {
 const char* const pressure = "sigma_n_MPa";
 const char* const flow_stress = "sigma_f_MPa";
 
-// 2 of e2_x0, a parameter of the second traced effect; 0 of others.
+// Returns 2 for e2_x0, a parameter of the second traced effect; 0 for other names.
 int effect_of(const std::string& parameter) {
   const std::size_t end = parameter.find_first_not_of("0123456789", 1);
   const bool found =
@@ -72,13 +72,13 @@ public:
     for_each_part(formula, [this](const Expr& e) { name_step(e); });
   }
 
-  // Innermost first, so that none asks for more than its operands.
+  // Visits the innermost first, so that each call needs only its operands.
   void find_symbols(const Expr& formula) {
     inside_out(formula, [this](const Expr& e) { holds(e); });
   }
 
-  // The whole of what holds parameters of one effect and nothing of the law: its factor, or what
-  // it adds.
+  // Names the largest subformulas with parameters of one effect and nothing of the law: the
+  // effect's factor or summand.
   void name_effects(const Expr& e) {
     const Holds& held = holds(e);
     if (held.effects.empty() || !visited_.insert(e.id()).second) return;
@@ -152,13 +152,13 @@ private:
       give(e, short_name(a[0].operands()[0].name()) + "_held", false);
     if (!holds(a[0]).value || holds(a[1]).value || !holds(a[1]).states.count(flow_stress)) return;
     if (a[0].op() != Op::multiply) give(a[0], "tau_free", false);
-    // m k; the shear limit k alone has its own name.
+    // The limit m k gets a name; the shear limit k alone has its own.
     if (a[1].op() != Op::multiply || is_number(a[1].operands()[0])) return;
     give(a[1], "limit", true);
     give(e, "tau_limited", false);
   }
 
-  // How a symbol, or k, is called inside another name.
+  // Returns the name of a symbol, or of k, inside another name.
   std::string plain(const Expr& e) const {
     if (is_symbol(e, "value")) return value_name(table_);
     if (e.op() == Op::symbol) return short_name(e.name());
@@ -167,7 +167,7 @@ private:
     return k ? "k" : "";
   }
 
-  // 50*(F - 1), times what fades it, is what an effect adds: its factor is F.
+  // An effect adds 50*(F - 1), times a fading factor: its factor is F.
   void name_effect(Expr e, int effect) {
     while (e.op() == Op::multiply || e.op() == Op::subtract) {
       const auto& a = e.operands();

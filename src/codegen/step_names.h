@@ -1,7 +1,7 @@
-// What the steps of a law's formula are called in generated code. By their structure, since a table
-// read from disk knows its formula and no law: the logarithm of a state is ln_v_rel, a number times
-// the flow stress is k, what tau_R is held under is limit, the factor of the first traced effect is
-// e1_humidity_pct. Names change no operation and no order.
+// Names of the steps of a law's formula in generated code. They follow from the formula's
+// structure, because a table read from disk has a formula and no law: the logarithm of a state is
+// ln_v_rel, a number times the flow stress is k, the upper bound of tau_R is limit, the factor of
+// the first traced effect is e1_humidity_pct. Names change no operation and no order.
 #pragma once
 
 #include <string>
@@ -12,13 +12,14 @@
 
 namespace frictab::codegen {
 
-// The state without its unit: sigma_n of sigma_n_MPa.
+// Returns the state without its unit: sigma_n of sigma_n_MPa.
 std::string short_name(const std::string& state);
 
-// Of tables of a coefficient mu, of others the law's stress before any limit: tau_law.
+// Name of the tabulated value: mu for tables of a coefficient, otherwise tau_law, the law's stress
+// before any limit.
 std::string value_name(const table::Table& table);
 
-// By nodes of these formulas, which are stored once (expr::shared).
+// Names nodes of these formulas, which are stored once (expr::shared).
 StepNames step_names(const std::vector<Wanted>& formulas, const table::Table& table);
 
 } // namespace frictab::codegen

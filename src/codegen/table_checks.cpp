@@ -1,4 +1,4 @@
-// Refuses tables that no routine can be made of.
+// Rejects tables from which no routine can be made.
 #include "codegen/table_checks.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Sentences about a table, from its axes and its record.
+// Writes sentences about a table from its axes and its record.
 #include "codegen/table_text.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// When values leave the source, and what is said of the file they are in.
+// Decides when values leave the source, and describes their file.
 #include "codegen/values_file.h"
 
 #include <bit>
@@ -79,7 +79,7 @@ void check_request(const ExportRequest& request) {
 void check_request_size(const table::Table& table, const std::vector<const Exporter*>& targets,
                         const std::map<std::string, std::string>& options) {
   for (const Exporter* target : targets) {
-    if (!target->is_routine()) continue; // a table of its own
+    if (!target->is_routine()) continue; // a solver's own table
     const ExportRequest request{.table = table, .options = options};
     if (target->offers(values_key))
       check_size(request);

@@ -1,4 +1,4 @@
-// Names that generated code has already, and the statements of formulas.
+// Lists the names that generated code already uses, and writes the statements of formulas.
 #include "codegen/variables.h"
 
 #include "codegen/step_names.h"
@@ -10,7 +10,7 @@ using table::Table;
 
 namespace {
 
-// In small letters. Names that start with ft are no variable's (Names).
+// Returns names in small letters. Names that start with ft never belong to variables (Names).
 const std::set<std::string>& names_of_templates() {
   static const std::set<std::string> names = {
       // variables of the templates
@@ -57,7 +57,7 @@ Variables::Variables(const Table& table, const expr::Expr& formula, Language lan
     spelling_.symbols[name] = names_.give(name);
     spelling_.numbers.insert(name);
   }
-  const std::string value = value_name(table); // coulomb has a parameter of that name
+  const std::string value = value_name(table); // coulomb has a parameter with that name
   spelling_.symbols["value"] = names_.give(value + (used.count(value) ? "_law" : ""));
   for (const std::string& state : table.inputs()) {
     const auto known = given.find(state);

@@ -1,5 +1,5 @@
-// The variables of one generated function: states, named constants, what is tabulated, and the
-// steps of its formulas, each under a name that nothing else in the function has.
+// The variables of one generated function: states, named constants, the tabulated value, and the
+// steps of its formulas, each with a name that is unique in the function.
 #pragma once
 
 #include <map>
@@ -15,27 +15,27 @@ namespace frictab::codegen {
 
 class Variables {
 public:
-  // Of the table's states, and of the constants in `formula`. `given` are states that have names
-  // already. `taken`: names beside those that templates and languages use.
+  // Names the table's states and the constants in `formula`. `given` are states that already have
+  // names. `taken`: further names in use, in addition to those of templates and languages.
   Variables(const table::Table& table, const expr::Expr& formula, Language language,
             const std::map<std::string, std::string>& given = {},
             const std::set<std::string>& taken = {});
 
-  // How a state, a constant of the formula or "value" is called.
+  // Returns the name of a state, a constant of the formula or "value".
   const std::string& name(const std::string& symbol) const { return spelling_.symbols.at(symbol); }
-  // The constants of the formula, sorted.
+  // Constants of the formula, sorted.
   const std::set<std::string>& constants() const { return spelling_.numbers; }
-  // Another name for a symbol, as it stands.
+  // Sets the name of a symbol, unchanged.
   void set(const std::string& symbol, const std::string& name) { spelling_.symbols[symbol] = name; }
-  // A further name.
+  // Returns a further unique name.
   std::string give(const std::string& wish) { return names_.give(wish); }
-  // "dmu_dsigma_n", a further name.
+  // Returns a further unique name such as "dmu_dsigma_n".
   std::string slope(const std::string& of, const std::string& by);
-  // States of the table that a formula uses, in their order.
+  // Returns the states of the table that a formula uses, in their order.
   std::vector<std::string> states_of(const expr::Expr& formula) const;
 
-  // The first formula is the function's own, as it is in the table (or a part of it); others are
-  // its derivatives. `owner` as in Spelling.
+  // Writes statements for formulas. The first is the function's own, as in the table (or a part of
+  // it); the others are its derivatives. `owner` as in Spelling.
   Statements statements(std::vector<Wanted> wanted, std::string_view owner = "");
 
 private:
@@ -44,7 +44,7 @@ private:
   Names names_;
 };
 
-// Those of the loops over a network's layer, in the function that has them.
+// Names of the loops over a network's layer, for the function that has them.
 std::set<std::string> names_of_a_layer(std::size_t features);
 
 } // namespace frictab::codegen

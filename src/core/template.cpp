@@ -19,7 +19,7 @@ namespace {
 
 using Kind = TemplateNode::Kind;
 
-// A loop variable and its item; no item where the list is empty and only syntax can be checked.
+// A loop variable and its item; without item the list is empty and only syntax can be checked.
 struct Scope {
   std::string variable; // empty: the values as a whole
   const TemplateValues* values;
@@ -42,8 +42,8 @@ std::vector<std::string> names_of(const TemplateValues& values) {
   return names;
 }
 
-// Walks every branch: names that are unknown or of another kind where it is taken, values that no
-// branch names.
+// Walks every branch and finds unknown names, names of another kind in branches that are taken, and
+// values that no branch names.
 class Checker {
 public:
   Checker(std::string_view file, FaultList& faults) : file_(file), faults_(faults) {}
@@ -126,15 +126,16 @@ private:
   std::string file_;
   FaultList& faults_;
   std::vector<Scope> scopes_;
-  bool taken_ = true; // what is walked will be written
+  bool taken_ = true; // the branch being walked will be written
   std::set<std::pair<const TemplateValues*, std::string>> used_;
-  // A list may be walked by several loops: what none of them used is reported at the end.
+  // Values in list items that no loop used; reported at the end, because several loops may walk one
+  // list.
   std::vector<std::pair<const TemplateValues*, Place>> items_;
   std::set<const TemplateValues*> seen_;
   std::set<std::tuple<std::size_t, std::size_t, std::string>> reported_;
 };
 
-// The tree and the values fit: every look-up succeeds.
+// Writes the tree with values that were checked before, so that every look-up succeeds.
 class Writer {
 public:
   std::string out;
@@ -215,7 +216,7 @@ std::string_view embedded_template(std::string_view path) {
 }
 
 std::vector<std::string_view> embedded_paths(std::string_view folder) {
-  std::vector<std::string_view> paths; // as the build sorted them
+  std::vector<std::string_view> paths; // sorted by the build
   for (unsigned i = 0; i < embedded_count; ++i)
     if (embedded_files[i].first.starts_with(folder)) paths.push_back(embedded_files[i].first);
   return paths;

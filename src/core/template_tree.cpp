@@ -1,4 +1,4 @@
-// Reads a template into a tree: directives on lines of their own, inserts inside lines.
+// Parses a template into a tree: directives on their own lines, inserts inside lines.
 #include "core/template_tree.h"
 
 #include <cctype>
@@ -38,7 +38,7 @@ private:
   struct Open {
     std::vector<TemplateNode>* into;
     Place place;
-    bool choice; // an @if that has had no @else yet
+    bool choice; // an @if without @else so far
   };
 
   Place at(std::size_t column) const { return {file_, line_, column + 1}; }
@@ -111,7 +111,8 @@ private:
       open_.pop_back();
   }
 
-  // "@{name}\n"
+  // True for "@{name}
+  // ".
   static bool is_whole_insert(std::string_view line) {
     return line.substr(0, 2) == "@{" && line.find('}') + 2 == line.size() && line.back() == '\n';
   }
@@ -144,7 +145,7 @@ private:
     add_text(plain);
   }
 
-  // Returns where the line goes on.
+  // Returns the position where the line continues.
   std::size_t take_insert(std::string_view line, std::size_t at_column, std::string& plain,
                           bool blank) {
     const std::size_t close = line.find('}', at_column);

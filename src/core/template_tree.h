@@ -1,4 +1,4 @@
-// A template read into a tree: what the renderer walks.
+// Parses a template into a tree, which the renderer walks.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace frictab {
 
-// name or item.name, with its place for messages.
+// A name or item.name, with its place for messages.
 struct TemplateName {
   std::string scope; // loop variable, or empty
   std::string name;
@@ -19,15 +19,17 @@ struct TemplateName {
 
 struct TemplateNode {
   enum class Kind { text, insert, loop, choice } kind = Kind::text;
-  std::string text;                    // of a text; the blanks before an insert that starts a line
-  bool whole_line = false;             // an insert that is all of its line
-  TemplateName name;                   // of an insert; the list of a loop; the flag of a choice
-  std::string variable;                // of a loop
-  std::vector<TemplateNode> body;      // of a loop; the choice where the flag is set
-  std::vector<TemplateNode> otherwise; // the choice where it is not
+  // Text of a text node; for an insert at the start of a line, the blanks before it.
+  std::string text;
+  bool whole_line = false;             // an insert that fills its line
+  TemplateName name;                   // name of an insert, list of a loop, or flag of a choice
+  std::string variable;                // variable of a loop
+  std::vector<TemplateNode> body;      // body of a loop; branch of a choice if the flag is set
+  std::vector<TemplateNode> otherwise; // branch of a choice if it is not
 };
 
-// Adds every fault of syntax to `faults`; what was understood is returned nevertheless.
+// Parses a template; adds every fault of syntax to `faults` and returns the parts that were
+// understood.
 std::vector<TemplateNode> parse_template(std::string_view text, std::string_view file,
                                          FaultList& faults);
 
