@@ -9,7 +9,7 @@ using namespace codegen;
 
 namespace {
 
-// Property lines, eight values each.
+// Writes property lines, eight values each.
 std::string property_deck(const std::vector<std::string>& values) {
   std::string deck;
   for (std::size_t i = 0; i < values.size(); ++i)

@@ -8,18 +8,18 @@
 
 namespace frictab::abaqus {
 
-// "*Surface Interaction, name=FRICTAB", "*Friction, <user>, depvar=<depvar>, properties=<n>" and
-// its data lines, 8 values each, those of `inputs` before `further`. `user` as the keyword has it:
-// "user", "user=friction"; DEPVAR and PROPERTIES are left out where they are 0.
+// Returns "*Surface Interaction, name=FRICTAB", "*Friction, <user>, depvar=<depvar>,
+// properties=<n>" and its data lines, 8 values each, those of `inputs` before `further`. `user` as
+// in the keyword: "user", "user=friction". DEPVAR and PROPERTIES are left out if they are 0.
 std::string friction_lines(const std::string& user, std::size_t depvar,
                            const std::vector<codegen::SolverInput>& inputs,
                            const codegen::FurtherProperties& further = {});
 
-// Which lines give the field variables that the law takes, as comments and keywords; empty where it
-// takes none.
+// Returns the lines that define the field variables of the law, as comments and keywords; empty if
+// the law takes none.
 std::string field_lines(const std::vector<codegen::SolverInput>& inputs);
 
-// What stands behind friction_lines for contact pairs of Abaqus/Standard.
+// Returns the lines after friction_lines for contact pairs of Abaqus/Standard.
 std::string standard_lines(const std::vector<codegen::SolverInput>& inputs);
 
 } // namespace frictab::abaqus

@@ -1,4 +1,4 @@
-// Statements, heads and build variants of the targets for Abaqus/Explicit.
+// Writes statements, heads and build variants of the targets for Abaqus/Explicit.
 #include "explicit.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ using namespace codegen;
 
 namespace {
 
-// Mean of the secondary surface and, where there is one with values, of the main surface.
+// Returns the mean of the secondary surface and, if it has values, the main surface.
 std::string both(const ForceNames& names, const std::string& secondary, const std::string& main) {
   return "@{x} = " + secondary + "\nif (" + names.main + " .ge. 1) then\n  comp = " + main +
          "\n  @{x} = 0.5D0*(@{x} + comp)\nend if";

@@ -1,6 +1,6 @@
-// What the targets for Abaqus/Explicit share: the statements between an argument list and its
-// solver, state variables, how a source is compiled. VFRIC and VFRICTION differ by their argument
-// lists alone (ForceRoutine).
+// Shared parts of the targets for Abaqus/Explicit: the statements between an argument list and its
+// solver, state variables, compilation. VFRIC and VFRICTION differ only in their argument lists
+// (ForceRoutine).
 #pragma once
 
 #include <string>
@@ -12,25 +12,26 @@
 
 namespace frictab::abaqus {
 
-// A routine reads its states in three places: properties and constants once per call ("once"),
-// temperatures and fields at each point k ("point"), the rest in double precision (ftpnt).
+// Rows for properties and constants. A routine reads its states in three places: properties and
+// constants once per call ("once"), temperatures and fields at each point k ("point"), the rest in
+// double precision (ftpnt).
 codegen::GivenState explicit_property();
 codegen::GivenState explicit_constant();
 
-// What an argument list of the force routines names in its own way.
+// Names in the argument list of one of the force routines.
 struct ForceNames {
-  std::string pressure, speed;               // for people
-  std::string area;                          // for people
+  std::string pressure, speed;               // in words
+  std::string area;                          // in words
   std::string state_name;                    // "STATEV"
   std::string temperature, temperature_main; // "tempSec(k)", "tempMain(min(k,numDefTfv))"
   std::string fields, field, field_main;     // "nPred", "preDefSec(k,@{field})", "preDefMain(...)"
-  std::string main; // "numDefTfv", how many values of the main surface there are
+  std::string main; // "numDefTfv", the number of values of the main surface
 };
 codegen::SolverGives force_gives(const ForceNames& names);
 
-// One history and one force per contact point.
+// The parts of a routine with one history and one force per contact point.
 struct ForceRoutine {
-  codegen::TargetDescription about; // without options: ForceTarget knows them
+  codegen::TargetDescription about; // without options, which ForceTarget adds
   std::string entry;                // "vfric"
   codegen::SolverGives gives;
   std::string points;                 // "nContact"
@@ -42,11 +43,11 @@ struct ForceRoutine {
   std::string state_name, state_by;   // "STATEV", "surface node"
   std::string arguments_note;         // for the recipe
   std::string user;                   // "user=friction"
-  std::string deck_tail;              // the keyword lines behind those of the interaction
-  codegen::LawSelector selector;      // what tells several laws apart
+  std::string deck_tail;              // the keyword lines after those of the interaction
+  codegen::LawSelector selector;      // distinguishes several laws
 };
 
-// The target of such a routine; its templates are abaqus/<entry>/frictab_<entry>.f and driver.f.
+// Target of such a routine; its templates are abaqus/<entry>/frictab_<entry>.f and driver.f.
 class ForceTarget : public codegen::RoutineTarget {
 protected:
   explicit ForceTarget(const ForceRoutine& routine);
@@ -69,31 +70,30 @@ private:
   ForceRoutine routine_;
 };
 
-// What `explain` says about both alike: unknown states, state variables, precision, sides that
-// refuse.
+// Notes of `explain` for both: unknown states, state variables, precision, sides that refuse.
 std::string force_notes(const std::string& state_name, const std::string& state_by);
 
-// The state variables that both force routines keep for every law, by number from 1: slip, work per
-// area, peak pressure, increments outside the range, and what the solver's precision rounds off the
-// first two. Behind them those of codegen/histories.h, then what is rounded off these; last the
-// frictional shear stress and its share of the pressure, to be looked at.
+// State variables that both force routines keep for every law, by number from 1: slip, work per
+// area, peak pressure, increments outside the range, and the parts of the first two lost to
+// rounding in the solver's precision. Those of codegen/histories.h follow, then the parts of these
+// lost to rounding; last, for output, the frictional shear stress and its share of the pressure.
 inline constexpr unsigned explicit_states = 6, shown_states = 2;
 std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 
-// For the file's head: comments from the second line on. `remarks` follow the properties.
+// Returns the file's head: comments from the second line on. `remarks` follow the properties.
 std::string explicit_head(const codegen::Exporter& exporter, const codegen::ExportRequest& request,
                           const std::vector<codegen::SolverInput>& inputs,
                           const std::vector<std::string>& remarks);
 
-// "double" and "single", with stand-ins for the solver's include and its error routine.
+// Returns "double" and "single", with stand-ins for the solver's include and its error routine.
 std::vector<codegen::BuildVariant> explicit_variants(const codegen::ExportRequest& request,
                                                      const std::vector<std::string>& files);
 
-// Blocks of contact points as the solver's.
+// Returns a driver with the solver's block size of contact points.
 codegen::Driver explicit_driver(const codegen::SolverGives& gives,
                                 codegen::fortran::Coefficient result);
 
-// compile and compile_note, of sources that go into one user file.
+// Adds compile and compile_note, for sources in one user file.
 void add_compile(nlohmann::ordered_json& recipe, const std::vector<std::string>& files);
 
 } // namespace frictab::abaqus

@@ -1,4 +1,4 @@
-// VFRIC and VFRICTION: source and recipe from what they differ by.
+// Writes source and recipe of VFRIC and VFRICTION from their differences.
 #include "explicit.h"
 
 #include <algorithm>
@@ -88,7 +88,7 @@ std::vector<std::string> remarks(const ForceRoutine& routine, const ExportReques
   return lines;
 }
 
-// What both parts declare.
+// Adds the sizes that both parts declare.
 void add_sizes(TemplateValues& values, const std::vector<SolverInput>& inputs) {
   values.text["n_hist"] = std::to_string(3 + history_count(inputs));
   values.text["n_add"] = std::to_string(4 + history_count(inputs) + shown_states);
@@ -96,7 +96,7 @@ void add_sizes(TemplateValues& values, const std::vector<SolverInput>& inputs) {
   values.text["add_mu"] = std::to_string(4 + history_count(inputs) + 2);
 }
 
-// Texts and lists of the further histories.
+// Adds texts and lists of the further histories.
 void add_past(TemplateValues& values, const ExportRequest& request,
               const std::vector<SolverInput>& inputs) {
   fortran::add_histories(values, inputs, request.units, false);
@@ -115,7 +115,7 @@ void add_past(TemplateValues& values, const ExportRequest& request,
   values.text["before_rest"] = std::to_string(explicit_states + states.size());
 }
 
-// The statements behind the declarations of the arguments.
+// Writes the statements after the declarations of the arguments.
 std::string body(const ForceRoutine& routine, const ExportRequest& request,
                  const std::vector<SolverInput>& inputs, std::size_t n_x) {
   TemplateValues values;
@@ -139,7 +139,7 @@ std::string body(const ForceRoutine& routine, const ExportRequest& request,
   return fortran::without_last_break(render_template("abaqus/explicit_force.f", values));
 }
 
-// ftpnt and the state variables.
+// Writes ftpnt and the state variables.
 std::string point(const ForceRoutine& routine, const ExportRequest& request,
                   const std::vector<SolverInput>& inputs, std::size_t n_x) {
   const SolverUnit stress = solver_unit("MPa", request.units);

@@ -1,4 +1,4 @@
-// What both routines of Abaqus/Standard are filled with.
+// Fills in the parts that both routines of Abaqus/Standard share.
 #include "standard.h"
 
 #include <algorithm>

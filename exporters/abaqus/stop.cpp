@@ -45,7 +45,7 @@ LawSelector interaction(Solver solver, const std::string& argument, const std::s
 }
 
 LawSelector of_general_contact(LawSelector by) {
-  // Without names the assignment is for all surfaces: that would be the last law's.
+  // An assignment without names holds for all surfaces, so only the last law would remain.
   by.deck.insert(by.deck.begin(), {" , , FRICTAB", " <surface>, <surface>, @"});
   return by;
 }

@@ -84,7 +84,8 @@ TemplateValues axis_values(const table::TableAxis& axis, std::size_t index, long
 void add_axes(TemplateValues& values, const Table& table, const std::vector<InputArgument>& inputs,
               const Variables& variables) {
   std::size_t used = 0;
-  for (const InputArgument& input : inputs) // NaN on an axis comes out of the interpolation
+  // Interpolation already returns NaN for NaN on an axis.
+  for (const InputArgument& input : inputs)
     if (input.used) values.lists["used"][used++].flags["formula_only"] = !input.axis;
   Lines axes;
   long stride = static_cast<long>(table.nodes());

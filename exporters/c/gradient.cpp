@@ -1,4 +1,4 @@
-// tau_R with its derivatives by every argument, in C.
+// Writes tau_R with its derivatives by every argument, in C.
 #include <algorithm>
 #include <map>
 
@@ -19,12 +19,12 @@ using table::Table;
 
 namespace {
 
-// The states by which the value inside the formula may change.
+// True for states that may change the value inside the formula.
 bool behind_value(const Table& table, const InputArgument& input) {
   return input.axis || (table.extension && expr::symbols(*table.extension).count(input.name));
 }
 
-// Slopes of the value by its states, by the states' names.
+// Slopes of the value by its states, by name of the state.
 using Slopes = std::map<std::string, std::string>;
 
 Slopes add_states(TemplateValues& values, const Table& table,
@@ -74,7 +74,7 @@ void add_axis_slopes(TemplateValues& values, const Table& table, const Variables
   values.lists["axes"] = axes;
 }
 
-// " * 1000.0": from MPa per canonical unit to the solver's stress per its unit.
+// Returns " * 1000.0", from MPa per canonical unit to the solver's stress per its unit.
 std::string conversion(const SolverUnit& stress, const SolverUnit& unit) {
   const double factor = stress.over / stress.times * unit.times / unit.over;
   return factor == 1 ? "" : " * " + c_number(factor);
@@ -85,7 +85,7 @@ void add_formula(TemplateValues& values, const ExportRequest& request,
                  const Slopes& slopes) {
   const Table& table = request.table;
   const SolverUnit stress = solver_unit("MPa", request.units);
-  // Of a value that no state changes nobody asks the slope.
+  // The slope is needed only if some state changes the value.
   const bool changes = std::any_of(inputs.begin(), inputs.end(), [&](const InputArgument& input) {
     return behind_value(table, input);
   });
@@ -103,7 +103,7 @@ void add_formula(TemplateValues& values, const ExportRequest& request,
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const bool direct = !wanted[2 + i].formula.is_constant(0);
     const bool through = by_value && behind_value(table, inputs[i]);
-    if (!direct && !through) continue; // 0
+    if (!direct && !through) continue; // the derivative is 0
     std::string sum = direct ? code.results[2 + i] : "";
     if (through)
       sum +=
@@ -141,7 +141,7 @@ std::string gradient_functions(const ExportRequest& request,
   values.text["extending"] = join(extending, " ||\n");
   values.text["piece_gradient"] = has_piece ? piece_gradient(table, inputs) : "";
   values.text["piece_call"] = has_piece ? piece_gradient_call(table, inputs, variables) : "";
-  values.offered = {"names"}; // of the head of frictab_tau_R, which stands alone there
+  values.offered = {"names"}; // used by the head of frictab_tau_R, which is not part of this text
   return without_last_break(render_template("c/frictab_gradient.c", values));
 }
 

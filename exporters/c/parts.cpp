@@ -1,4 +1,4 @@
-// Pieces of the C sources that table and direct form share.
+// Writes the parts of the C sources that table and direct form share.
 #include "parts.h"
 
 #include <cmath>
@@ -204,7 +204,7 @@ std::vector<std::string> extending_sides(const Table& table, const Variables& va
 
 namespace {
 
-// Axes and inputs that are held, by the numbers of their bits.
+// Lists the ends of axes and clamped inputs, by the numbers of their bits.
 Lines range_ends(const Table& table, const std::vector<InputArgument>& inputs) {
   Lines ends;
   for (const table::AxisEnds& end : table::all_ends(table)) {

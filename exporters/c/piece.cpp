@@ -1,4 +1,4 @@
-// The law's own formula in C, with its derivatives where asked for.
+// Writes the law's own formula in C, with its derivatives if requested.
 #include <fmt/format.h>
 
 #include "codegen/entry_arguments.h"
@@ -26,7 +26,7 @@ std::string numbers(const std::vector<double>& values) {
   return number_lines(texts, 98, "    ");
 }
 
-// Axes where the formula is held at an end.
+// Lists the axes at whose ends the formula is clamped.
 Lines held_axes(const Table& table, Variables& variables) {
   Lines held;
   for (const table::AxisEnds& axis : table::axis_ends(table)) {
@@ -63,7 +63,7 @@ void add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer,
   values.text["outputs"] = std::to_string(l.outputs);
 }
 
-// The arrays, which the function with derivatives shares.
+// Adds the arrays, which the function with derivatives shares.
 void add_layer_data(TemplateValues& values, const std::optional<UnitLayer>& layer) {
   const UnitLayer none;
   const UnitLayer& l = layer ? *layer : none;
@@ -75,12 +75,13 @@ void add_layer_data(TemplateValues& values, const std::optional<UnitLayer>& laye
   values.text["offset"] = numbers(l.offset);
 }
 
-// What the result changes by the weighted sum of feature f's units.
+// Symbol for the derivative of the result by the weighted sum of feature f's units.
 std::string layer_slope(std::size_t f) {
   return fmt::format("layer slope {}", f);
 }
 
-// By each state: what the formula behind the layer says, and through the layer's features.
+// Returns the derivative by a state: of the formula after the layer, and through the layer's
+// features.
 Expr slope_by(const LayeredFormula& formula, const std::string& state) {
   Expr slope = derivative(formula.rest, state);
   for (std::size_t f = 0; formula.layer && f < formula.layer->features.size(); ++f) {
@@ -90,7 +91,7 @@ Expr slope_by(const LayeredFormula& formula, const std::string& state) {
   return slope;
 }
 
-// The law's own formula on the way to its function.
+// Working data for the function of the law's own formula.
 struct Law {
   Variables variables;
   LayeredFormula formula;
@@ -123,8 +124,8 @@ std::vector<std::string> from_to(const Statements& code, std::size_t from, std::
           code.lines.begin() + static_cast<std::ptrdiff_t>(to)};
 }
 
-// Lines in front of the layer's sums, and from there to those of the first `count` formulas behind
-// the features.
+// Adds the lines before the layer's sums, and from there to the last of the first `count` formulas
+// after the features.
 void add_lines(TemplateValues& values, const LayeredFormula& formula, const Statements& code,
                std::size_t count) {
   const std::size_t features = formula.layer ? formula.layer->features.size() : 0;
@@ -150,7 +151,8 @@ std::string piece(const Table& table, const std::vector<InputArgument>& inputs) 
 
 namespace {
 
-// An axis that is held at an end does not change the formula there.
+// Sets the slope to 0 beyond an end at which the axis is clamped, where the formula does not
+// change.
 std::string unless_held(const Table& table, const std::string& state, const std::string& x,
                         const std::string& slope) {
   std::string text = slope;
@@ -164,7 +166,7 @@ std::string unless_held(const Table& table, const std::string& state, const std:
   return text;
 }
 
-// Value and adjoints of the layer's outputs, then, behind the layer's sums, the slopes.
+// Adds value and adjoints of the layer's outputs, then, after the layer's sums, the slopes.
 void add_slopes(TemplateValues& values, const Table& table,
                 const std::vector<InputArgument>& inputs, Law& law) {
   const LayeredFormula& formula = law.formula;

@@ -25,7 +25,7 @@ using table::Table;
 
 namespace {
 
-// A list of arguments over several lines; the template sets them in.
+// Returns a list of arguments over several lines; the template indents them.
 std::string continued(const std::vector<std::string>& pieces) {
   std::string text = number_lines(pieces, 84, "");
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 3)
@@ -40,7 +40,7 @@ std::string canonical(const InputArgument& input, const std::string& element = "
   return argument;
 }
 
-// From MPa per canonical unit to the solver's stress per its unit.
+// Returns the factor from MPa per canonical unit to the solver's stress per its unit.
 std::string slope_factor(const SolverUnit& stress, const SolverUnit& unit) {
   const double factor = stress.over / stress.times * unit.times / unit.over;
   return factor == 1 ? "" : "*" + fortran_number(factor);
@@ -127,7 +127,7 @@ std::string source(const ExportRequest& request, const std::vector<InputArgument
   return render_template("fortran/frictab_tau_R.f90", values);
 }
 
-// Arithmetic in rows, which gcc 12 vectorises fully at -O3 only, as in C.
+// Arithmetic over rows, which gcc 12 vectorises fully only at -O3, as in C.
 std::string optimisation(const Table& table) {
   return table.is_direct() ? "-O3" : "-O2";
 }

@@ -1,5 +1,5 @@
-// Target `abaqus_fric`: Abaqus/Standard, whole shear interaction. What it is called, how it is
-// compiled and how the input deck refers to it; the source text is filled in source.cpp.
+// Target `abaqus_fric`: Abaqus/Standard, whole shear interaction. Its names, compilation and input
+// deck; the source text is filled in source.cpp.
 #include "codegen/exporter.h"
 
 #include <fmt/format.h>

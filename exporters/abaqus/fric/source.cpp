@@ -66,14 +66,14 @@ FurtherProperties critical_slip(const ExportRequest& request,
 
 std::string fric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   TemplateValues values;
-  // Without DROT, CHRLNGTH and the like being numbers, TAU is NaN: ftqnan is always there.
+  // TAU is NaN if DROT, CHRLNGTH and the like are not numbers, so ftqnan is always needed.
   const FurtherProperties critical = critical_slip(request, inputs);
   abaqus::add_routine(values, *find_exporter("abaqus_fric"), request, inputs, gives(request), true,
                       {.further_properties = critical});
   values.text["critical"] = std::to_string(critical.front().number);
   values.text["arguments"] =
       fortran::without_last_break(render_template("abaqus/fric/arguments.f", {}));
-  // A millionth of a millimetre, where the deck and the solver give no length.
+  // Least slip: a millionth of a millimetre, if neither the deck nor the solver gives a length.
   values.text["least_slip"] = fortran_number(solver_unit("mm", request.units).from_canonical(1e-6));
   abaqus::add_states(values, state_count(inputs));
   values.text["reads"] = fortran::reads(inputs, gives(request));

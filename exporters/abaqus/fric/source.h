@@ -8,14 +8,15 @@
 
 namespace frictab::abaqus::fric {
 
-// What FRIC's arguments hold.
+// States in FRIC's arguments.
 const codegen::SolverGives& gives(const codegen::ExportRequest&);
 
-// Values that are kept for every law, and for one with these inputs; without what protects them.
+// Number of values kept for every law, and for a law with these inputs, excluding those that
+// protect them against iterations.
 inline constexpr std::size_t history = 7;
 std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 
-// The property behind those of the states.
+// The property after those of the states.
 codegen::FurtherProperties critical_slip(const codegen::ExportRequest& request,
                                          const std::vector<codegen::SolverInput>& inputs);
 

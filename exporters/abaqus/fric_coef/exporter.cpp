@@ -1,5 +1,5 @@
-// Target `abaqus_fric_coef`: Abaqus/Standard, the coefficient alone. What it is called, how it is
-// compiled and how the input deck refers to it; the source text is filled in source.cpp.
+// Target `abaqus_fric_coef`: Abaqus/Standard, the coefficient alone. Its names, compilation and
+// input deck; the source text is filled in source.cpp.
 #include "codegen/exporter.h"
 
 #include <fmt/format.h>
@@ -122,7 +122,7 @@ private:
     return {abaqus::standard_variant(request, file)};
   }
 
-  // State variables are those of one point.
+  // State variables belong to one point, so a law with histories gets one point per call.
   Driver driver(const ExportRequest& request, const Inputs& inputs) const override {
     const bool kept = takes(inputs, "friction_work") || takes(inputs, "peak_sigma_n") ||
                       uses(inputs, Source::history);

@@ -8,22 +8,21 @@
 
 namespace frictab::abaqus::fric_coef {
 
-// Whether the request wants the argument list of 2024, else that of 2020.
+// True if the request wants the argument list of 2024, false for that of 2020.
 bool is_2024(const codegen::ExportRequest& request);
 
-// What that argument list holds.
+// States in that argument list.
 const codegen::SolverGives& gives(const codegen::ExportRequest& request);
 
-// Values that are kept for every law, and for one with these inputs; without what protects them.
-// Only with the list of 2024.
+// Number of values kept for every law, and for a law with these inputs, excluding those that
+// protect them against iterations. Only with the list of 2024.
 inline constexpr std::size_t history = 5;
 std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 
-// The head of the entry: argument list and its declarations.
+// Head of the entry: argument list and its declarations.
 std::string arguments(const codegen::ExportRequest& request);
 
-// Throws InputError where the coefficient shall be kept by an argument list without state
-// variables.
+// Throws InputError if the coefficient has to be kept and the argument list has no state variables.
 std::string coef_source(const codegen::ExportRequest& request,
                         const std::vector<codegen::SolverInput>& inputs);
 

@@ -17,7 +17,8 @@ using namespace codegen;
 namespace {
 
 constexpr const char* file_name = "frictab_friction.inp";
-constexpr std::size_t first_field = 3; // cells behind the coefficient: rate, pressure, temperature
+// Cells after the coefficient: rate, pressure, temperature.
+constexpr std::size_t first_field = 3;
 
 std::size_t cell_of(const NativeColumn& column) {
   if (column.field > 0) return first_field + column.field - 1;
@@ -25,7 +26,7 @@ std::size_t cell_of(const NativeColumn& column) {
   return column.state == "sigma_n_MPa" ? 1 : 0;
 }
 
-// Fields of *FRICTION count from 1 without a gap.
+// Counts the fields of *FRICTION, which are numbered from 1 without a gap.
 std::size_t field_count(const std::vector<NativeColumn>& columns) {
   std::size_t count = 0, last = 0;
   for (const NativeColumn& column : columns) {
@@ -58,7 +59,7 @@ std::string data_lines(const NativeTable& table, std::size_t fields) {
   return out;
 }
 
-// "*FRICTION, TAUMAX=350" -> the limit.
+// Reads the limit from "*FRICTION, TAUMAX=350".
 void read_keyword(std::string_view line, NativeValues& values) {
   const auto cells = split_cells(line, ',');
   if (cells[0] != "*FRICTION") throw std::runtime_error("no *FRICTION line");
@@ -107,7 +108,7 @@ private:
                              .text = "column 4, average temperature of both surfaces"}},
                  .field = {.text = "field variable @{field}"}};
     out.limits = true;
-    out.most_fields = 4; // further ones go on another line
+    out.most_fields = 4; // further fields need another line
     out.interpolation = "linear between the lines, the slip rate varies fastest (recalled); TAUMAX "
                         "limits the stress";
     return out;

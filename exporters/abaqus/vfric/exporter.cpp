@@ -1,5 +1,5 @@
-// Target `abaqus_vfric`: Abaqus/Explicit, contact pairs. What VFRIC's arguments hold and how the
-// input deck refers to it; the statements are those of every force routine (exporters/abaqus).
+// Target `abaqus_vfric`: Abaqus/Explicit, contact pairs. States in VFRIC's arguments, and the input
+// deck; the statements are those of every force routine (exporters/abaqus).
 #include "codegen/exporter.h"
 
 #include "abaqus/explicit.h"

@@ -1,6 +1,5 @@
-// Target `abaqus_vfriction`: Abaqus/Explicit, general contact. What VFRICTION's arguments hold and
-// how the input deck refers to it; the statements are those of every force routine
-// (exporters/abaqus).
+// Target `abaqus_vfriction`: Abaqus/Explicit, general contact. States in VFRICTION's arguments, and
+// the input deck; the statements are those of every force routine (exporters/abaqus).
 #include "codegen/exporter.h"
 
 #include "abaqus/explicit.h"

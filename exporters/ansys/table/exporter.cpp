@@ -23,13 +23,13 @@ std::string field_name(const NativeColumn& column) {
   return column.text.substr(0, column.text.find(',')); // "SLRV, sliding velocity"
 }
 
-// A field is said again where its value changes, the slowest first.
+// Writes the commands. A field is repeated only where its value changes, the slowest first.
 std::string commands(const NativeTable& table) {
   std::string out;
   std::vector<double> before;
   for (std::size_t i = 0; i < table.values.value.size(); ++i) {
     const std::vector<double> place = place_of(table.values, i);
-    bool slower = false; // one that varies more slowly has just changed
+    bool slower = false; // a field that varies more slowly has just changed
     for (std::size_t c = place.size(); c-- > 0;) {
       if (std::isnan(place[c])) continue;
       slower = slower || before.empty() || place[c] != before[c];

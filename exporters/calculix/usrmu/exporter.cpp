@@ -1,5 +1,5 @@
-// Target `calculix_usrmu`: CalculiX CrunchiX. Its friction knows one number; a script puts calls of
-// this routine into its open source instead.
+// Target `calculix_usrmu`: CalculiX CrunchiX. Its friction is a single number; a script replaces it
+// by calls of this routine in CalculiX's open source.
 #include "codegen/exporter.h"
 
 #include <fmt/format.h>

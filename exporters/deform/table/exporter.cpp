@@ -23,7 +23,8 @@ const std::vector<ExportOption> options = {
      "what DEFORM multiplies: coulomb = mu, by pressure (FricType 2); shear = m, by the shear "
      "yield stress (FricType 1)"}};
 
-// The routine of the same name knows a third word.
+// True for shear friction. Rejects the third value of the option, which only the routine's target
+// has.
 bool is_shear(const ExportRequest& request) {
   const std::string& said = find_exporter("deform_table")->option(request, friction_option);
   if (said != "shear" && said != "coulomb")

@@ -1,5 +1,5 @@
-// Target `deform_usrbcc`: DEFORM-2D. What it is called, how it is compiled and how a database
-// refers to it; the source text is filled in source.cpp.
+// Target `deform_usrbcc`: DEFORM-2D. Its names, compilation and reference in a database; the source
+// text is filled in source.cpp.
 #include "codegen/exporter.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ using fortran::Coefficient;
 constexpr const char* main_file = "frictab_usrbcc.f";
 constexpr const char* update_file = "frictab_usrupd.f";
 
-// As FRCFAC counts the types of friction.
+// Returns the number of a type of friction in FRCFAC.
 const char* friction_type(Coefficient kind) {
   switch (kind) {
   case Coefficient::shear:
@@ -82,7 +82,7 @@ json build_steps(const std::vector<SolverInput>& inputs) {
   return steps;
 }
 
-// USRBCC is called for heat as well, and for edges that touch nothing.
+// Skips calls of USRBCC for heat, and for edges without contact.
 const char* const guard = "      if (imode .ne. 1) return\n"
                           "      if (itype .ne. 2) return\n"
                           "      if (ndie .eq. 0) return\n";

@@ -36,7 +36,7 @@ const char* result_name(Coefficient kind) {
   return "frictional shear stress tau_R";
 }
 
-// Histories behind the first three.
+// Adds the histories after the first three.
 void add_further(TemplateValues& values, const ExportRequest& request,
                  const std::vector<SolverInput>& inputs) {
   fortran::add_histories(values, inputs, request.units, false);
@@ -45,7 +45,7 @@ void add_further(TemplateValues& values, const ExportRequest& request,
       numbered(history_states(inputs, request.units), first_three + 1, "USRNOD({})"));
 }
 
-// What FTUPD takes for the temperature, as the job says; by default the node's own.
+// Returns the temperature for FTUPD as the job defines it; by default the node's own.
 std::string node_temperature(const std::vector<SolverInput>& inputs) {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (inputs[i].argument.name != "T_contact_C") continue;

@@ -15,7 +15,7 @@ using namespace codegen;
 namespace {
 
 constexpr const char* file_name = "frictab_friction.k";
-constexpr int table_id = 90000; // curves count on from it
+constexpr int table_id = 90000; // curves have the numbers that follow
 constexpr std::size_t width = 20;
 
 Lines curves(const NativeTable& table) {
@@ -119,7 +119,8 @@ private:
     std::size_t at = 2;
     for (; at < lines.size() && lines[at][0] != '*'; ++at)
       speeds.push_back(card(lines[at], 0));
-    for (const double speed : speeds) { // the curves follow in the order of the table's values
+    // The curves are in the order of the table's values.
+    for (const double speed : speeds) {
       if (at >= lines.size() || lines[at] != "*DEFINE_CURVE")
         throw std::runtime_error("fewer curves than values of the table");
       if (++at >= lines.size() || !(number_of(lines[at]) > table_id))

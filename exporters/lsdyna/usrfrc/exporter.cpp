@@ -1,5 +1,5 @@
-// Target `lsdyna_usrfrc`: LS-DYNA, SMP. What it is called, how it is compiled and how the keyword
-// file refers to it; the source text is filled in source.cpp.
+// Target `lsdyna_usrfrc`: LS-DYNA, SMP. Its names, compilation and keyword file; the source text is
+// filled in source.cpp.
 #include "codegen/exporter.h"
 
 #include <fmt/format.h>
@@ -72,7 +72,7 @@ BuildVariant variant(const ExportRequest& request, const std::string& name, doub
                      const std::vector<std::string>& flags) {
   BuildVariant out =
       fortran::fortran_variant(request, name, eps, {"frictab_usrfrc.f"}, flags, true);
-  out.command.push_back("@{dir}/cstop.f"); // for the bundle's own ftquit
+  out.command.push_back("@{dir}/cstop.f"); // called by the bundle's own ftquit
   out.extra["cstop.f"] = "C     Stand-in for the solver's routine.\n"
                          "      subroutine cstop(text)\n"
                          "      character*(*) text\n"

@@ -8,15 +8,15 @@
 
 namespace frictab::lsdyna::usrfrc {
 
-// What USRFRC's arguments hold.
+// States in USRFRC's arguments.
 const codegen::SolverGives& gives(const codegen::ExportRequest&);
-inline constexpr std::size_t before_histories = 6; // of UFHIST
+inline constexpr std::size_t before_histories = 6; // in UFHIST
 
-// Values of UFHIST per node that the routine keeps: 4, two for each of codegen/histories.h, and to
-// be looked at the frictional shear stress and its share of the pressure.
+// Number of values in UFHIST per node that the routine keeps: 6, two for each of
+// codegen/histories.h, and, for output, the frictional shear stress and its share of the pressure.
 std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 
-// ftquit of fortran::Core.
+// Returns ftquit of fortran::Core.
 std::string quit();
 
 std::string usrfrc_source(const codegen::ExportRequest& request,

@@ -1,5 +1,5 @@
-// Target `marc_ufric`: Marc and Simufact Forming. What it is called, how it is compiled and how a
-// model refers to it; the source text is filled in source.cpp.
+// Target `marc_ufric`: Marc and Simufact Forming. Its names, compilation and reference in a model;
+// the source text is filled in source.cpp.
 #include "codegen/exporter.h"
 
 #include <nlohmann/json.hpp>
@@ -87,7 +87,7 @@ public:
              .number = true,
              .alone = "1"}) {}
 
-  // Nothing in UFRIC's arguments tells the model's dimension.
+  // Warns without this option, because UFRIC's arguments do not contain the model's dimension.
   std::string caution(const ExportRequest& request) const override {
     return request.options.count("marc_dimension")
                ? ""
@@ -122,7 +122,7 @@ private:
   std::vector<BuildVariant> builds(const ExportRequest& request) const override {
     BuildVariant out = fortran::fortran_variant(request, "double", 0x1p-53, {"frictab_ufric.f"});
     if (!fortran::ends(request)) return {out};
-    out.command.push_back("@{dir}/quit.f"); // for the bundle's own ftquit
+    out.command.push_back("@{dir}/quit.f"); // called by the bundle's own ftquit
     out.extra["quit.f"] = "C     Stand-in for the solver's routine.\n"
                           "      subroutine quit(number)\n"
                           "      integer number\n"

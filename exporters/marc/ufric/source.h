@@ -9,7 +9,7 @@
 
 namespace frictab::marc::ufric {
 
-// What the job's [export.options] say.
+// Choices in the job's [export.options].
 struct Choices {
   codegen::fortran::Coefficient coefficient; // coulomb | shear
   bool by_force;                             // FN is a force
@@ -17,14 +17,14 @@ struct Choices {
 };
 Choices choices(const codegen::ExportRequest& request);
 
-// What UFRIC's arguments hold.
+// States in UFRIC's arguments.
 const codegen::SolverGives& gives(const codegen::ExportRequest& request);
 
-// The head of the entry: argument list and its declarations; and ftquit.
+// Head of the entry: argument list and its declarations; and ftquit.
 std::string arguments(const codegen::ExportRequest& request);
 std::string quit();
 
-// Throws InputError where FN is a force and the coefficient depends on the pressure.
+// Throws InputError if FN is a force and the coefficient depends on the pressure.
 std::string ufric_source(const codegen::ExportRequest& request,
                          const std::vector<codegen::SolverInput>& inputs);
 

@@ -59,7 +59,7 @@ std::string recipe(const Exporter& self, const ExportRequest& request,
   return io::json_text(out);
 }
 
-// All rows in one process: states and answers go through files.
+// Runs all rows in one process; states and answers go through files.
 void run_rows(const Built& built, const ExportRequest& request, std::size_t rows,
               std::span<const double* const> columns, std::span<double> tau) {
   const std::vector<std::string> needed = request.table.inputs();

@@ -1,5 +1,5 @@
 // Fills templates/qform/lua/frictab_qform.lua. Formulas are the statements of C: Lua has the same
-// operators, and the functions are defined at the head of the file.
+// operators, and the head of the file defines the functions.
 #include "source.h"
 
 #include <algorithm>
@@ -28,8 +28,10 @@ using table::Table;
 
 namespace {
 
-constexpr std::size_t most_locals = 120; // Lua has 200 of them in a function
-constexpr std::size_t chunk_size = 8192; // constants of a Lua 5.1 function are limited as well
+// Lua allows 200 of them in a function.
+constexpr std::size_t most_locals = 120;
+// A Lua 5.1 function also has a limited number of constants.
+constexpr std::size_t chunk_size = 8192;
 
 std::string number(double value) {
   const std::string text = c_number(value);
@@ -46,7 +48,7 @@ template <class Numbers> std::string block(const Numbers& numbers, std::size_t i
   return number_lines(texts, 98, std::string(indent, ' '));
 }
 
-// Of a function with this formula; constants stand in it as numbers.
+// Returns the variables of a function with this formula, in which constants are written as numbers.
 Variables variables_of(const Table& table, const expr::Expr& formula,
                        const std::set<std::string>& taken = {}) {
   Variables variables(table, formula, Language::c, {}, taken);
@@ -63,17 +65,17 @@ std::vector<std::string> names_of(const std::vector<std::string>& states,
   return names;
 }
 
-// Arguments, broken into lines that the template sets in.
+// Returns arguments broken into lines, which the template indents.
 std::string arguments(const std::vector<std::string>& names) {
   return number_lines(names, 76, "");
 }
 
-// Of the law's own formula; the template calls it by these.
+// Returns the arguments of the law's own formula, with which the template calls it.
 std::vector<std::string> piece_arguments(const Table& table, const Variables& variables) {
   return names_of(variables.states_of(*table.extension), variables);
 }
 
-// Statements as lines of Lua; many of them keep their results in a table, not in locals.
+// Statements as lines of Lua. If there are many, their results are kept in a table, not in locals.
 struct Code {
   std::vector<std::string> lines;
   std::vector<std::string> results;
@@ -109,7 +111,7 @@ std::vector<std::string> sides(const Table& table, const Variables& variables, O
   return tests;
 }
 
-// Where an axis is held at an end, its state is.
+// Clamps the state of an axis that is clamped at an end.
 std::vector<std::string> held_lines(const Table& table, const Variables& variables) {
   std::vector<std::string> lines;
   for (const AxisEnds& axis : axis_ends(table)) {
@@ -140,7 +142,8 @@ void add_layer(TemplateValues& values, const UnitLayer& l, const std::vector<std
   values.text["offset"] = block(l.offset, 2);
 }
 
-// ft_piece: the law's own formula. All statements, to see which functions they call.
+// Adds ft_piece, the law's own formula. Returns all statements, to find the functions that they
+// call.
 std::string add_piece(TemplateValues& values, const Table& table) {
   const LayeredFormula formula = split_layer(*table.extension);
   const UnitLayer none;
@@ -217,7 +220,7 @@ void add_axes(TemplateValues& values, const Table& table, const Variables& varia
   add_values(values, baked_values(table));
 }
 
-// What stands where nothing is interpolated; empty where something is.
+// Returns the value if nothing is interpolated; empty otherwise.
 std::string only_value(const Table& table, const Variables& variables) {
   if (table.is_direct())
     return fmt::format("ft_piece({})", arguments(piece_arguments(table, variables)));
@@ -242,7 +245,7 @@ void add_interpolation(TemplateValues& values, const Table& table, const Variabl
   if (interpolates) add_axes(values, table, variables);
 }
 
-// What the solver gives under the argument's name, or what stands for it.
+// Returns the source of an argument: the solver's value, or its replacement.
 std::string source_text(const SolverInput& input) {
   const InputArgument& argument = input.argument;
   if (input.source != Source::constant && input.source != Source::property)

@@ -8,7 +8,7 @@
 
 namespace frictab::qform::lua {
 
-// What the wrapper is called with (names recalled), and the rest as QForm parameters.
+// States in the arguments of the wrapper (names recalled), and the rest as QForm parameters.
 const codegen::SolverGives& gives();
 
 std::string lua_source(const codegen::ExportRequest& request,
