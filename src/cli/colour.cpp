@@ -17,7 +17,7 @@ std::string painted(std::string_view text, std::string_view colour) {
   return std::string(colour) + std::string(text) + std::string(plain);
 }
 
-// Results, which are at the end of their line.
+// Results at the end of their line.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> results = {
     {{"OVER TOLERANCE BY PROOF", red},
      {"OVER TOLERANCE", red},

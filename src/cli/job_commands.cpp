@@ -106,7 +106,7 @@ int run_stage_command(const std::string& file, const CommonOptions& common,
   if (common.verbose && run.data)
     for (const std::string& line : run.data->training.notes)
       note(common, line);
-  // One stage has little to say; all of them together have a page.
+  // A single stage prints all its findings; a whole run is brief, because it has a page.
   const run::Detail detail = common.verbose     ? run::Detail::verbose
                              : command == "run" ? run::Detail::brief
                                                 : run::Detail::full;

@@ -1,4 +1,4 @@
-// frictab status JOB: what is there, what is stale, what the next command is.
+// frictab status JOB: results that exist, those that are stale, and the next command.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -22,7 +22,7 @@ struct StageStatus {
   std::string name, state, why; // done | stale | missing
 };
 
-// The first law that table.model names and no table is of.
+// Returns the first law that table.model names and that has no table.
 std::string law_without_table(const job::Job& job) {
   std::vector<std::string> tables;
   std::error_code none; // no directory: no tables
@@ -30,7 +30,7 @@ std::string law_without_table(const job::Job& job) {
     tables.push_back(file.path().stem().string());
   for (const std::string& law : job.table.model)
     if (std::none_of(tables.begin(), tables.end(), [&](const std::string& table) {
-          return table == law || table.starts_with(law + "_q"); // of a quantile
+          return table == law || table.starts_with(law + "_q"); // table of a quantile
         }))
       return law;
   return "";
@@ -66,7 +66,8 @@ std::vector<StageStatus> status_of(const job::Job& job) {
   return out;
 }
 
-// Several stages to be run are a run. Tracing that was never asked for is no gap.
+// Returns the command that makes everything current: the stage, or `run` if several stages are
+// missing or stale. A missing optional stage (trace) does not count.
 std::string next_command(const std::vector<StageStatus>& all, const job::Job& job) {
   std::vector<std::string> open;
   for (const StageStatus& one : all)

@@ -1,4 +1,4 @@
-// "frictab trace JOB": what the calibrated law lacks.
+// frictab trace JOB: effects that the calibrated law lacks.
 #include <memory>
 
 #include <CLI/CLI.hpp>

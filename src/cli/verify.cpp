@@ -37,7 +37,7 @@ struct Options {
 data::Dataset load_rows(const Options& options, const CommonOptions& common) {
   data::DataOptions mapping;
   if (!options.job.empty()) mapping = job::read_job(options.job, common.set).data;
-  mapping.base = ""; // the file is relative to where the command runs
+  mapping.base = ""; // the file is relative to the current directory
   return data::load_dataset({options.data}, mapping);
 }
 
@@ -50,7 +50,8 @@ void write_junit(const Options& options, const verify::Verification& verificatio
   out.commit();
 }
 
-// What the command says, else what the table was made to; a table from elsewhere says neither.
+// Returns the tolerance of the command line, otherwise that of the table; computes one for a table
+// made elsewhere, which may have none.
 table::Tolerance tolerance_of(const Options& options, const models::AssembledLaw& law,
                               const table::Table& table, const data::Dataset* rows) {
   if (options.max_drift_MPa) return {*options.max_drift_MPa, ""};

@@ -1,4 +1,4 @@
-// Campaigns through the stages of a job, each in a directory of its own.
+// Runs campaigns through the stages of a job, each in its own directory.
 #include "study/run_study.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Of a twin's data, which its seed gives again: they are not kept.
+// Folder of a twin's data, which are not kept because its seed reproduces them.
 constexpr const char* twin_folder = "twin";
 
 std::vector<std::string> write_part(const twin::TwinPart& part, const std::string& name,
@@ -50,7 +50,7 @@ void write_twin(const Study& study, const TwinSeed& which, const fs::path& folde
   job.data.validation = write_part(twin.validation, "validation.csv", folder);
 }
 
-// Laws are compared before laws with effects join them.
+// Compares the laws before the laws with effects are added.
 CampaignResult run_campaign(job::Job job, LastStage last) {
   run::Run run(std::move(job));
   run_stage(run, "calibrate");
@@ -67,9 +67,9 @@ CampaignResult run_campaign(job::Job job, LastStage last) {
   return result;
 }
 
-// The first campaign of each key of this shard. Keys are dealt out in their own order, which has
-// nothing to do with that of the study: as many to each shard (to within one), and none that gets
-// all large campaigns because every n-th is large.
+// Returns the first campaign of each key of this shard. Keys are dealt out in their own order,
+// which is independent of the study's: every shard gets as many (to within one), and none gets all
+// large campaigns because every n-th is large.
 std::vector<std::size_t> campaigns_of(const Shard& shard, const std::vector<std::uint64_t>& keys) {
   std::map<std::uint64_t, std::size_t> first;
   for (std::size_t i = 0; i < keys.size(); ++i)
@@ -91,7 +91,7 @@ public:
     std::vector<std::size_t> now, last;
     for (const std::size_t i : campaigns_of(options_.shard, plan_.keys))
       (found_.begun.count(plan_.keys[i]) > 0 ? last : now).push_back(i);
-    // What ended another process may end this one: the others first.
+    // Campaigns that ended another process may end this one, so they come last.
     now.insert(now.end(), last.begin(), last.end());
     const Progress progress("campaigns", now.size());
     for (const std::size_t i : now) {
@@ -164,7 +164,8 @@ private:
     clear_killed(key);
   }
 
-  // What killed processes left of this campaign. One that still computes it has nothing to give.
+  // Removes working directories that killed processes left for this campaign. A process that still
+  // computes it loses its files, but its result exists already.
   void clear_killed(std::uint64_t key) const {
     if (found_.begun.count(key) == 0) return;
     std::error_code ignored;
