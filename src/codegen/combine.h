@@ -29,8 +29,8 @@ struct LawSelector {
   std::string guard = {};      // first statements: return from calls without friction
   std::string letters = "fgh"; // stems: f1 to f9, g1 ...; f0 of the entry's own units
   std::string user_file = {};  // entries that may share the user file
-  // For the lines of the input deck: the text that stands for the name ("FRICTAB"), and its
-  // replacement if there are several laws, with @ for the name.
+  // Replacements in the lines of the input deck if there are several laws: a text with the name
+  // ("FRICTAB"), and the text that replaces it, with @ for the law's name.
   std::vector<std::pair<std::string, std::string>> deck = {};
 };
 

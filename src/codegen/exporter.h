@@ -28,8 +28,8 @@ struct ExportRequest {
   std::map<std::string, std::string> inputs = {};
   // [export.options] of the job; Exporter::option.
   std::map<std::string, std::string> options = {};
-  // For one of several laws of a user file (codegen/combine.h): the name by which the entry knows
-  // this law, and the stem of its program units. Empty: the only law.
+  // Name by which the entry of a user file with several laws (codegen/combine.h) knows this law,
+  // and the stem of its program units. Empty: the only law.
   std::string law_name = {};
   std::string law_stem = {};
 
@@ -45,8 +45,8 @@ struct ExportOption {
   std::string name;
   std::vector<std::string> allowed; // the first is the default
   std::string meaning;
-  // For options of free text: returns the fault of a text, "must be a name"; empty: none. Null:
-  // only the `allowed` values.
+  // Returns the fault of a free text, "must be a name"; empty: none. Null: the option takes only
+  // the `allowed` values.
   std::string (*fault)(const std::string& text) = nullptr;
 };
 

@@ -43,7 +43,6 @@
 
 namespace frictab::codegen {
 
-// One state variable.
 struct HistoryState {
   std::string name;    // name of the state computed from it: "energy"
   std::string unit;    // in the solver's system

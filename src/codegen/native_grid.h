@@ -35,7 +35,7 @@ struct NativeValues {
   double at(std::span<const double> x) const;
 };
 
-// One column.
+// A column of the solver's table.
 struct NativeAxis {
   std::string state; // canonical name
   SolverUnit unit;

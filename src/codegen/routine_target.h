@@ -41,7 +41,7 @@ private:
   // Adds the part of recipe.json between its head and the table.
   virtual void add_recipe(nlohmann::ordered_json& out, const ExportRequest& request,
                           const Inputs& inputs) const = 0;
-  // Without the driver.
+  // Build variants without the driver.
   virtual std::vector<BuildVariant> builds(const ExportRequest& request) const = 0;
   virtual Driver driver(const ExportRequest& request, const Inputs& inputs) const = 0;
   // Throws InputError for inputs that the routine cannot take.

@@ -184,7 +184,7 @@ private:
   SolverInput& input_;
   const SolverGives& gives_;
   const table::TableAxis* axis_; // null if the state is not an axis
-  // By the area of contact; may be smoothed.
+  // The state grows by the area of contact; it may be smoothed.
   bool grows_, smooths_;
   FaultList& faults_;
   const GivenState* given_ = nullptr;

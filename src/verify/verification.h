@@ -38,7 +38,7 @@ struct DriftRecord {
   std::string subject; // "table", "c/c99", "abaqus_vfric/double", ...
   bool ran = true;     // false: could not be run here; `why_not` has the reason
   std::string why_not;
-  // Over the validation rows inside the table's range, or where the law's formula goes on.
+  // Drift on the validation rows inside the table's range, or where the law's formula goes on.
   table::Drift rows;
   std::size_t n_rows = 0;                    // number of validation rows
   std::size_t n_outside = 0;                 // rows outside the table's range
@@ -54,7 +54,7 @@ struct DriftRecord {
   std::size_t n_rows_not_representable = 0, n_points_not_representable = 0;
   double unit_roundoff = 0;    // sources: of their real type (2^-24 in single precision)
   double max_vs_table_MPa = 0; // sources: largest difference from the table itself
-  // Only if the law takes sigma_n_MPa and the table answers below its range.
+  // Present only if the law takes sigma_n_MPa and the table answers below its range.
   std::optional<BelowRange> below = {};
   bool passed = false;
   std::optional<double> proven_MPa = {}; // tables: no state in the range drifts further
