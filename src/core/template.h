@@ -1,5 +1,5 @@
 // The strict template renderer. @{name} inserts text; @for item in list ... @end and @if flag ...
-// @else ... @end are on lines of their own (leading blanks allowed), which are removed. "@@" is one
+// @else ... @end have lines of their own (leading blanks allowed), which are removed. "@@" is one
 // @.
 #pragma once
 

@@ -111,8 +111,7 @@ private:
       open_.pop_back();
   }
 
-  // True for "@{name}
-  // ".
+  // True for "@{name}\n".
   static bool is_whole_insert(std::string_view line) {
     return line.substr(0, 2) == "@{" && line.find('}') + 2 == line.size() && line.back() == '\n';
   }
