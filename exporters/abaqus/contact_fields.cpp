@@ -20,14 +20,14 @@ const char* const source_of_signature =
     "verified: argument list and sizes in the v2024 reference, and in the public routine and deck "
     "of RWTH WZL that ran in production (*Field, user, number=4; FV in *Element Output). Recalled, "
     "check against your release: kField of fields that are not updated all at once; whether "
-    "VUFIELD is called before or behind the friction routine of an increment";
+    "VUFIELD is called before or after the friction routine of an increment";
 
 } // namespace
 
 ExportOption contact_fields_option() {
   return {fields_key,
           {"none", "vufield", "vufield_windows"},
-          "contour plots: a VUFIELD beside the routine gives the coefficient, the frictional shear "
+          "contour plots: a VUFIELD next to the routine gives the coefficient, the frictional shear "
           "stress and the increments outside the range at the nodes as field variables 1 to 3"};
 }
 

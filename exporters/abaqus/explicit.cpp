@@ -58,7 +58,7 @@ void add_compile(nlohmann::ordered_json& recipe, const std::vector<std::string>&
                        fmt::format("abaqus job=<job> user={}", user),
                        fortran::fixed_form_check(join(files, " "))};
   recipe["compile_note"] =
-      fmt::format("the last line only checks the {}, beside a vaba_param.inc of your own",
+      fmt::format("the last line only checks the {}, with a vaba_param.inc of your own",
                   files.size() == 1 ? "source" : "sources");
 }
 

@@ -38,7 +38,7 @@ LawSelector interaction(Solver solver, const std::string& argument, const std::s
   by.alone = "FRICTAB";
   by.deck = {{"FRICTAB", "@"}};
   by.letters = letters;
-  by.user_file = fmt::format("the combined sources of {} may stand in one user file, one behind "
+  by.user_file = fmt::format("the combined sources of {} may stand in one user file, one after "
                              "the other",
                              names(solver).combining);
   return by;

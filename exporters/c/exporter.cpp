@@ -182,7 +182,7 @@ std::string recipe(const Exporter& self, const ExportRequest& request,
 }
 
 const char* const notes =
-    "One .c and one .h file, no allocation, no input or output (but for the values of a large "
+    "One .c and one .h file, no allocation, no input or output (except for the values of a large "
     "table, see the option), safe from any thread. "
     "Arguments the law does not use are ignored. Compile with -ffp-contract=off and without "
     "-ffast-math: otherwise the bits that were verified are not the bits that run.";

@@ -20,7 +20,7 @@ using table::Table;
 namespace {
 
 // True for states that may change the value inside the formula.
-bool behind_value(const Table& table, const InputArgument& input) {
+bool acts_through_value(const Table& table, const InputArgument& input) {
   return input.axis || (table.extension && expr::symbols(*table.extension).count(input.name));
 }
 
@@ -31,15 +31,15 @@ Slopes add_states(TemplateValues& values, const Table& table,
                   const std::vector<InputArgument>& inputs, Variables& variables) {
   Slopes slopes;
   std::size_t used = 0, of_piece = 0;
-  values.lists["behind"];
+  values.lists["through_value"];
   values.lists["of_piece"];
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (!inputs[i].used) continue;
     values.lists["used"][used++].text["place"] = std::to_string(i);
-    if (!behind_value(table, inputs[i])) continue;
+    if (!acts_through_value(table, inputs[i])) continue;
     const std::string& slope = slopes[inputs[i].name] =
         variables.slope(variables.name("value"), inputs[i].name);
-    values.lists["behind"].push_back(item(slope));
+    values.lists["through_value"].push_back(item(slope));
     if (!table.extension || !expr::symbols(*table.extension).count(inputs[i].name)) continue;
     values.lists["of_piece"].push_back(item(slope));
     values.lists["of_piece"].back().text["place"] = std::to_string(of_piece++);
@@ -87,7 +87,7 @@ void add_formula(TemplateValues& values, const ExportRequest& request,
   const SolverUnit stress = solver_unit("MPa", request.units);
   // The slope is needed only if some state changes the value.
   const bool changes = std::any_of(inputs.begin(), inputs.end(), [&](const InputArgument& input) {
-    return behind_value(table, input);
+    return acts_through_value(table, input);
   });
   const std::string tau = "tau_R";
   std::vector<Wanted> wanted{{table.combine, tau},
@@ -102,7 +102,7 @@ void add_formula(TemplateValues& values, const ExportRequest& request,
   values.lists["slopes"];
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const bool direct = !wanted[2 + i].formula.is_constant(0);
-    const bool through = by_value && behind_value(table, inputs[i]);
+    const bool through = by_value && acts_through_value(table, inputs[i]);
     if (!direct && !through) continue; // the derivative is 0
     std::string sum = direct ? code.results[2 + i] : "";
     if (through)

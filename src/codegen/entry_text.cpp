@@ -63,10 +63,10 @@ std::vector<std::string> entry_notes(const ExportRequest& request) {
     add_wrapped(comment_text("Outside the range the " + what +
                              " value at the nearest edge is used, while " +
                              unchanged_states(table) +
-                             " enter the formula above unchanged; frictab_outside tells which axes "
+                             " enter the formula above unchanged; frictab_outside shows which axes "
                              "are concerned."));
   } else {
-    text.push_back("Outside the range (frictab_outside tells which axes are concerned):");
+    text.push_back("Outside the range (frictab_outside shows which axes are concerned):");
     for (const std::string& side : sides)
       text.push_back("  " + comment_text(side));
     add_wrapped(

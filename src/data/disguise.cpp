@@ -565,7 +565,7 @@ private:
   static std::string text_of(const std::string& name, double sign, const std::string& factor,
                              double sign_of_factor, double share) {
     return fmt::format(
-        "tau_R_MPa goes as {}{}{}{} beside the states ({:.1g} % or less of what they leave is "
+        "tau_R_MPa goes as {}{}{}{} in addition to the states ({:.1g} % or less of what they leave is "
         "left)",
         sign > 0 ? "" : "1/", name,
         factor.empty()       ? ""

@@ -114,9 +114,13 @@ void trace_laws(Run& run) {
   workspace.save_checkpoint();
 }
 
-void load_traces(Run& run, std::string_view) {
+void load_traces(Run& run, std::string_view wanted_by) {
   run.workspace.check_as_written("trace", "trace.json");
-  run.traces = run.workspace.earlier().traces();
+  const std::string why = run.workspace.record().stale("trace", run.data_fingerprint());
+  if (why.empty())
+    run.traces = run.workspace.earlier().traces();
+  else
+    run.notes.push_back(fmt::format("trace.json is not in the {}: {}", wanted_by, why));
 }
 
 } // namespace frictab::run

@@ -26,7 +26,7 @@ double frictab_tau_R_gradient(
 @end
   const double @{constant.name} = @{constant.value};
 @end
-@for state in behind
+@for state in through_value
   double @{state.text} = 0.0;
 @end
 @if interpolates

@@ -114,7 +114,7 @@ private:
     out["compile"] = {"abaqus job=<job> user=frictab_fric_coef.f",
                       fortran::fixed_form_check("frictab_fric_coef.f")};
     out["compile_note"] =
-        "the last line only checks the source, beside an aba_param.inc of your own";
+        "the last line only checks the source, with an aba_param.inc of your own";
     out["input_deck"] = input_deck(request, inputs);
   }
 

@@ -63,13 +63,13 @@ std::vector<std::string> release_lines(bool release_2024) {
     return {"ARGUMENT LIST OF RELEASE 2024.",
             "Verified: the list of the 2024 reference and of 3DEXPERIENCE, where fCoefDeriv is "
             "(nBlock,20,2) and slipData (nBlock,6). Up to about 2020 it was another one of as many "
-            "arguments, which no compiler tells apart; which release changed it is not known. "
+            "arguments, which no compiler distinguishes; which release changed it is not known. "
             "Look into the manual of yours: a page that names slipRate instead of slipData needs "
             "[export.options] abaqus_release = \"2020\"."};
   return {"ARGUMENT LIST OF RELEASE 2020.",
           "Verified: the list of releases up to about 2020, where fCoefDeriv is (nBlock,3) and "
           "slipRate (nBlock). That of 2024 is another one of as many arguments, which no compiler "
-          "tells apart; which release changed it is not known. Look into the manual of yours: a "
+          "distinguishes; which release changed it is not known. Look into the manual of yours: a "
           "page that names slipData instead of slipRate needs [export.options] abaqus_release = "
           "\"2024\"."};
 }

@@ -22,7 +22,7 @@ const char* const source_of_signature =
 std::string notes() {
   return "For GENERAL contact with *FRICTION, USER=FRICTION; contact pairs need abaqus_vfric. "
          "Pressure is fNormal/areaCont of the contact point, speed |dSlipFric|/rData(3) (0 where "
-         "rData(3) = 0). A contact point is one node or edge of the secondary surface beside one "
+         "rData(3) = 0). A contact point is one node or edge of the secondary surface next to one "
          "main surface: a node in a corner is two points, each with a history of its own. Points "
          "of edges carry 4 columns of states: each is advanced alike, the law takes their mean. "
          "Surface names are blank in general contact: different laws need different interactions. "

@@ -46,7 +46,7 @@ std::string commands(const NativeTable& table) {
 
 const char* const source_of_signature =
     "verified: TB,FRIC,,,,ISO with TBFIELD over TEMP, NPRES, SLDI (total sliding distance, "
-    "absolute), SLRV and UF01 to UF09, ascending, a field that is said stays active (command "
+    "absolute), SLRV and UF01 to UF09, ascending, a field that is named stays active (command "
     "reference). recalled, check against your release: linear between, constant beyond the "
     "ends; TAUMAX is real constant 9 of the contact elements";
 

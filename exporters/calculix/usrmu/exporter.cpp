@@ -69,7 +69,7 @@ const char* const source_of_signature =
     "frictionheating.f)";
 
 const char* const notes =
-    "*FRICTION of CalculiX knows one number. frictab_hook.sh, beside the routine, puts nine lines "
+    "*FRICTION of CalculiX knows one number. frictab_hook.sh, next to the routine, puts nine lines "
     "into the source of 2.20 that ask USRMU instead: mu = tau_R/p, below 0.001 MPa that of 0.001 "
     "MPa; the law's shear limit holds as mu falls with pressure. *FRICTION has to be in the deck "
     "with any number above 0. Increments need the time they take (speed = slip/time). The "

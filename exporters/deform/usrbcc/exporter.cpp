@@ -74,7 +74,7 @@ json build_steps(const std::vector<SolverInput>& inputs) {
                 "replace subroutine USRBCC in usr_bcc.f by frictab_usrbcc.f; USRBCC2 stays"};
   if (takes_history(inputs))
     steps.push_back(
-        fmt::format("add frictab_usrupd.f to usr_upd.f and CALL FTUPD in USRUPD, behind the loop "
+        fmt::format("add frictab_usrupd.f to usr_upd.f and CALL FTUPD in USRUPD, after the loop "
                     "that copies USRN1 to USRN2; at least {} user variables per node",
                     state_count(inputs)));
   steps.push_back("build with the Fortran compiler of the release (Intel or Absoft) and name the "

@@ -57,7 +57,7 @@ double number_of(std::string_view line) {
 const char* const source_of_signature =
     "verified: FS=2 with FD the number of a table over relative velocity and pressure, together "
     "with the thickness offset option; in such tables a curve over pressure per velocity (fields "
-    "of the keywords). recalled, check against your release: the curves stand directly behind "
+    "of the keywords). recalled, check against your release: the curves stand directly after "
     "*DEFINE_TABLE in the order of its values, linear between, constant beyond the ends";
 
 const std::string notes =

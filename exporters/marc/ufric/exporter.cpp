@@ -59,7 +59,7 @@ const char* const notes =
     "coefficient depends on the pressure (every one with a shear limit, if mu is asked for), "
     "because UFRIC gives no area to divide by. mu below 0.001 MPa is that of 0.001 MPa: at 0 it "
     "would be 0/0. Marc keeps no history for this routine, so sliding distance, surface expansion "
-    "and whatever else is not among its arguments are constants: [export.inputs] says "
+    "and all else that is not among its arguments are constants: [export.inputs] says "
     "constant:VALUE, else the middle of the range the table was made for. They lie in COMMON "
     "/FTCONS/ and can be read and changed at one place. Temperatures have to be degC. Beyond a "
     "side with outside = error the routine writes state and value to the standard output and ends "

@@ -107,7 +107,7 @@ const char* const notes =
     "parameter of the subroutine with the typical value as default, or the constant that "
     "[export.inputs] gives. Strains and positions of QForm's Lua are current, other fields those "
     "of the step before. Beyond a side with outside = error the answer is NaN. "
-    "frictab_outside tells whether a state lies outside the range.";
+    "frictab_outside shows whether a state lies outside the range.";
 
 class QFormLua final : public Exporter {
 public:
