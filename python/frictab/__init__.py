@@ -12,6 +12,6 @@ from .formula import Formula
 from .table import Axis, Table
 from .table import open_table as open
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 __all__ = ["Axis", "Calibration", "Formula", "FrictabError", "Model", "OutsideWarning", "Table",
            "open", "read_calibration", "read_model"]
