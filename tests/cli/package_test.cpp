@@ -67,7 +67,7 @@ TEST(SlowPackage, InstalledOrUnpackedIsAWholeProgramThatNamesItsLibraries) {
   for (const char* library : {"libhdf5", "libfmt9", "libnlopt", "libudunits2", "libc6"})
     EXPECT_THAT(depends, HasSubstr(library));
   EXPECT_THAT(run_command({"dpkg-deb", "-f", package, "Package", "Version"}).out,
-              ContainsRegex("Package: frictab\nVersion: 0\\.1\\.0"));
+              ContainsRegex("Package: frictab\nVersion: 0\\.2\\.0"));
   EXPECT_EQ(run_command({"dpkg-deb", "-f", package, "Maintainer"}).out, "The frictab authors\n");
 }
 

@@ -22,7 +22,7 @@ using testing::MatchesRegex;
 std::string version() {
   const CommandResult told = run_frictab({"--version"});
   EXPECT_TRUE(
-      std::regex_match(told.out, std::regex("frictab 0\\.1\\.0(\\+g[0-9a-f]{7,40}(\\.dirty)?)?\n")))
+      std::regex_match(told.out, std::regex("frictab 0\\.2\\.0(\\+g[0-9a-f]{7,40}(\\.dirty)?)?\n")))
       << told.out;
   return told.out.substr(8, told.out.size() - 9);
 }
