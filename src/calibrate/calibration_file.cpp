@@ -248,7 +248,6 @@ Law law_with_name_of_its_own(const Json& fit, const std::string& file) {
   law.title = fit.at("title");
   law.formula = fit.at("formula");
   law.base = base;
-  law.starts = nullptr;
   law.levels = j.at("levels").get<std::map<std::string, std::vector<std::string>>>();
   law.parameters = parse_parameters(fit.at("parameters"), j.at("bounds"));
   return law;
@@ -266,7 +265,8 @@ std::shared_ptr<const Law> parse_made_law(const Json& j, Law law, const std::str
 
 // Parameters of a registered law mean what its formula said when they were calibrated.
 int revision_of(const Law& law, const models::Conventions& conventions) {
-  return law.revision ? law.revision(conventions) : 0;
+  const std::string convention = models::shear_yield_name(conventions.shear_yield);
+  return static_cast<int>(std::count(law.revisions.begin(), law.revisions.end(), convention));
 }
 
 void check_revision(const ModelFit& fit, const Json& j, const std::string& file) {

@@ -10,6 +10,7 @@
 #include "calibrate/fit_weights.h"
 #include "calibrate/median.h"
 #include "calibrate/normal_equations.h"
+#include "calibrate/orowan_optimum.h"
 #include "core/random.h"
 #include "data/recordings.h"
 
@@ -19,6 +20,7 @@ namespace {
 
 constexpr std::size_t few_rows = 256;     // enough to distinguish minima
 constexpr std::size_t coarse_rows = 2800; // enough to come within a standard error of the optimum
+constexpr std::size_t orowan_breaks = 12; // places of the kink from which other losses start
 
 std::vector<double> default_start(const FitProblem& problem) {
   std::vector<double> start;
@@ -159,13 +161,23 @@ LawProblem::LawProblem(const models::Law& law, const models::Conventions& conven
   levels_.push_back(std::move(all));
 }
 
+// Orowan's loss has several minima, and the least of the squares is known exactly.
 LawProblem::Starts LawProblem::law_starts() const {
-  if (!law_.starts) return {};
-  models::TrainingRows rows{{"tau_R_MPa", data_.values("tau_R_MPa")}};
-  if (!weights_.empty()) rows[models::row_weights] = weights_;
-  for (std::size_t i = 0; i < columns_.names().size(); ++i)
-    rows[columns_.names()[i]] = columns_[i];
-  return law_.starts(conventions_, rows);
+  if (law_.name != "orowan" || !law_.base.empty()) return {};
+  const auto column = [&](const char* name) {
+    const auto& names = columns_.names();
+    return columns_[static_cast<std::size_t>(
+        std::find(names.begin(), names.end(), std::string(name)) - names.begin())];
+  };
+  const std::span<const double> sigma_f = column("sigma_f_MPa");
+  std::vector<double> k(sigma_f.begin(), sigma_f.end());
+  for (double& x : k)
+    x *= conventions_.k_over_sigma_f;
+  Starts starts;
+  for (const auto& [mu, m] : orowan_optimum(
+           {column("sigma_n_MPa"), k, data_.values("tau_R_MPa"), weights_}, orowan_breaks))
+    starts.push_back({mu, m});
+  return starts;
 }
 
 // Adds a level of evenly spaced rows, so that every experiment is represented in proportion.

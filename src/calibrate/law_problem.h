@@ -52,7 +52,8 @@ private:
   std::vector<FitResult> search(const Level& level, const Starts& offered,
                                 LossFunction& loss) const;
 
-  Starts law_starts() const; // the start values of the law
+  // Start values by an algorithm for this law; empty if there is none and the law is searched.
+  Starts law_starts() const;
 
   const models::Law& law_;
   models::Conventions conventions_;

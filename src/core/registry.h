@@ -1,10 +1,12 @@
-// Registry of self-describing things (laws, effects, targets). A file adds one with a file-scope
-// `const Registered<T> registered{make};`; it links because the library is a CMake OBJECT library.
+// Registry of self-describing things (laws, effects, targets). A file adds one, or a table of them,
+// with a file-scope `const Registered<T> registered{make};`; it links because the library is a
+// CMake OBJECT library.
 #pragma once
 
 #include <algorithm>
 #include <memory>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace frictab {
@@ -33,20 +35,35 @@ public:
     items_.insert(std::upper_bound(items_.begin(), items_.end(), item, later), std::move(item));
   }
 
-  const std::vector<T>& all() const { return items_; }
+  // Tables take time to read: they are made once, when somebody first asks for an item.
+  void add_table(std::vector<T> (*make)()) { tables_.push_back(make); }
 
-  const T* find(std::string_view name) const {
-    for (const T& item : items_)
+  const std::vector<T>& all() {
+    static const bool complete = (add_tables(), true); // T has one registry
+    (void)complete;
+    return items_;
+  }
+
+  const T* find(std::string_view name) {
+    for (const T& item : all())
       if (registered_item(item).name == name) return &item;
     return nullptr;
   }
 
 private:
+  void add_tables() {
+    for (const auto make : tables_)
+      for (T& item : make())
+        add(std::move(item));
+  }
+
   std::vector<T> items_;
+  std::vector<std::vector<T> (*)()> tables_;
 };
 
 template <class T> struct Registered {
   explicit Registered(T (*make)()) { Registry<T>::instance().add(make()); }
+  explicit Registered(std::vector<T> (*make)()) { Registry<T>::instance().add_table(make); }
 };
 
 } // namespace frictab

@@ -18,6 +18,23 @@ namespace {
 
 constexpr std::array<const char*, 4> acts_on_names = {"mu", "m", "tau", "mu+m"}; // as ActsOn
 
+// Evenly spaced inside the 5 % .. 95 % part of a column's range: for thresholds, humps and steps.
+double position_to_try(const Spread& spread, std::size_t i, std::size_t count) {
+  return spread.minimum +
+         (spread.maximum - spread.minimum) *
+             (0.05 + 0.9 * (static_cast<double>(i) + 0.5) / static_cast<double>(count));
+}
+
+std::vector<double> values_to_try(const Shape& shape, const Spread& spread) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < shape.positions; ++i)
+    values.push_back(position_to_try(spread, i, shape.positions));
+  for (const double share : shape.tried_shares)
+    values.push_back(share * shape.tried_measure(spread));
+  if (values.empty()) values.push_back(shape.start(spread));
+  return values;
+}
+
 } // namespace
 
 const char* acts_on_name(ActsOn acts_on) {
@@ -100,7 +117,7 @@ std::string unit_of(const models::Parameter& parameter, const PlacedEffect& effe
 }
 
 Expr formula_of(const PlacedEffect& effect) {
-  return effect.form->build ? effect.form->build(effect) : effect.form->factor();
+  return effect.form->build ? effect.form->build(effect) : *effect.form->factor;
 }
 
 std::vector<std::string> input_symbols(const EffectForm& form) {
@@ -116,12 +133,20 @@ std::vector<double> start_values(const EffectForm& form, const std::vector<Sprea
   return values;
 }
 
-std::vector<double> positions_to_try(const Spread& spread, int count) {
-  std::vector<double> positions;
-  for (int i = 0; i < count; ++i)
-    positions.push_back(spread.minimum +
-                        (spread.maximum - spread.minimum) * (0.05 + 0.9 * (i + 0.5) / count));
-  return positions;
+std::vector<std::vector<double>> shapes_to_try(const EffectForm& form,
+                                               const std::vector<Spread>& spreads) {
+  if (form.grid) return form.grid(spreads.front());
+  std::vector<std::vector<double>> all(1);
+  for (const Shape& shape : form.shapes) {
+    std::vector<std::vector<double>> longer;
+    for (const std::vector<double>& values : all)
+      for (const double value : values_to_try(shape, spreads.at(shape.input))) {
+        longer.push_back(values);
+        longer.back().push_back(value);
+      }
+    all = std::move(longer);
+  }
+  return all;
 }
 
 const std::vector<EffectForm>& all_effects() {

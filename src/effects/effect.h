@@ -29,11 +29,20 @@ struct Spread {
 // Of the finite values; the default Spread where there are none.
 Spread spread_of(std::span<const double> values);
 
-// How one shape parameter (a parameter behind the amplitude) is started from the data.
+// How one shape parameter (a parameter behind the amplitude) is found from the spread of its input.
+using Measure = double (*)(const Spread&);
 struct Shape {
-  double (*start)(const Spread&) = nullptr;
-  bool fitted = true;    // false: a reference point or scale, set once from the data and kept
-  std::size_t input = 0; // from the spread of x (0), x2 (1) or x3 (2)
+  Measure measure = nullptr;
+  double share = 1;   // of the measure: where a fit starts
+  bool fitted = true; // false: a reference point or scale, set once from the data and kept
+  // What a search over columns tries, instead of the start alone: near enough to each other that
+  // one of them finds what a fit would.
+  std::size_t positions = 0;             // so many places within the range
+  Measure tried_measure = nullptr;       // or
+  std::vector<double> tried_shares = {}; // of it
+  std::size_t input = 0;                 // whose spread it is: x (0), x2 (1) or x3 (2)
+
+  double start(const Spread& spread) const { return share * measure(spread); }
 };
 
 struct EffectForm;
@@ -70,9 +79,10 @@ struct PlacedEffect {
   double stiffness = 0; // of a penalised fit: weight of the form's roughness; 0: none
 };
 
-// One file per form in src/effects/. The factor is a formula of "x" (and "x2", "x3" for forms of
-// several quantities) and of the parameters; the amplitude scales the whole effect: 0 is neutral,
-// bit for bit. A form may have several amplitudes: it is linear in them, all 0 is neutral.
+// Closed forms are rows of src/effects/forms.cpp, others have a file each. The factor is a formula
+// of "x" (and "x2", "x3" for forms of several quantities) and of the parameters; the amplitude
+// scales the whole effect: 0 is neutral, bit for bit. A form may have several amplitudes: it is
+// linear in them, all 0 is neutral.
 struct EffectForm {
   std::string name;
   int order = 0;
@@ -83,7 +93,7 @@ struct EffectForm {
   std::vector<Shape> shapes; // one per parameter behind the amplitude
   std::size_t columns = 1;
   bool categorical = false;         // the first input is a text column: numbers of its levels
-  expr::Expr (*factor)() = nullptr; // nullptr where `build` stands for it
+  std::optional<expr::Expr> factor; // absent where `build` stands for it
   // Forms whose parameters depend on levels or knots: all of them are amplitudes, `parameters`
   // above holds one that stands for them.
   std::vector<models::Parameter> (*parameters_of)(const PlacedEffect&) = nullptr;
@@ -96,10 +106,9 @@ struct EffectForm {
   std::vector<double> (*penalty)(const PlacedEffect&) = nullptr;
   // For people, with numbers; nullptr: the formula and its parameters.
   std::string (*text)(const PlacedEffect&) = nullptr;
-  // Shape parameters (behind the amplitude) that a search over columns with these spreads should
-  // try: near enough to each other that one of them finds what a fit would; nullptr: the start
-  // values alone.
-  std::vector<std::vector<double>> (*grid)(const std::vector<Spread>&) = nullptr;
+  // What a search tries where shape parameters depend on each other; nullptr: all that `shapes`
+  // say.
+  std::vector<std::vector<double>> (*grid)(const Spread&) = nullptr;
 };
 
 // Gives every input the knots that its form asks for; `values` of one column each.
@@ -126,9 +135,9 @@ std::vector<std::string> input_symbols(const EffectForm& form);
 // Start values of all parameters but the amplitude, which is 0; one spread per column.
 std::vector<double> start_values(const EffectForm& form, const std::vector<Spread>& spreads);
 
-// Evenly spaced inside the 5 % .. 95 % part of a column's range: where a grid tries thresholds,
-// humps and steps.
-std::vector<double> positions_to_try(const Spread& spread, int count);
+// Values of the shape parameters that a search over columns with these spreads should try.
+std::vector<std::vector<double>> shapes_to_try(const EffectForm& form,
+                                               const std::vector<Spread>& spreads);
 
 // In listing order.
 const std::vector<EffectForm>& all_effects();

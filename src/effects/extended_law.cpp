@@ -227,7 +227,6 @@ Law extended_law(const Law& law, const models::Conventions& conventions,
   extended.name = name;
   extended.title = law.title + ", with effects found in the data";
   extended.calibrated = models::Calibrated::fit;
-  extended.starts = nullptr;
   extended.base = law.base.empty() ? law.name : law.base;
   for (std::size_t p = 0; p < extended.parameters.size(); ++p)
     extended.parameters[p].start = start[p];

@@ -179,11 +179,12 @@ std::vector<std::string> targets_or_all();
 data::DropRule& drop_rule(Job& job, const std::string& name); // adds it where absent
 // "2.columns...": the second rule; adds it where absent
 data::FileRule& file_rule(Job& job, const std::string& name);
-// "my_law...": adds it where absent
+// "my_law": adds it where absent
 models::LawText& law_text(Job& job, const std::string& name);
 models::ParameterText& parameter_text(Job& job, const std::string& name); // "my_law.mu"
 std::vector<KeyRule> data_keys();
-std::vector<KeyRule> law_keys(); // keys of [models.NAME]
+std::vector<KeyRule> law_keys();          // keys of [models.NAME]
+std::vector<KeyRule> registry_law_keys(); // further keys of laws of the registry
 std::vector<KeyRule> stage_keys();
 
 } // namespace frictab::job::schema

@@ -99,7 +99,8 @@ template <SourceOf source> std::vector<KeyRule> column_keys(const std::string& s
       named<std::string>(
           section + ".*.formula",
           [](Job & job, const std::string& name) -> auto& { return source(job, name).formula; },
-          "computed from other columns, by their names (_ for signs other than letters and digits): "
+          "computed from other columns, by their names (_ for signs other than letters and "
+          "digits): "
           "quantities in their canonical units, others as the file gives them; pi is known, "
           "`unit` is that of the result",
           "a column of the file", "\"rpm*radius_mm*2*pi/60\""),

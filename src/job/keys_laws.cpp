@@ -1,4 +1,4 @@
-// The keys of [models.NAME]: a law of the user's own (models/law_text.h).
+// The keys of a law that is a text (models/law_text.h): [models.NAME], or one of the registry.
 #include <algorithm>
 
 #include "job/key_builder.h"
@@ -7,9 +7,9 @@ namespace frictab::job::schema {
 
 namespace {
 
-// Returns "my_law" for "my_law.mu".
-std::string first_name(const std::string& name) {
-  return name.substr(0, name.find('.'));
+// Returns "my_law" for "my_law.mu"; a law of the program may have a dot in its name.
+std::string law_name(const std::string& name) {
+  return name.substr(0, name.rfind('.'));
 }
 std::string last_name(const std::string& name) {
   return name.substr(name.rfind('.') + 1);
@@ -23,20 +23,39 @@ std::vector<std::string> interpolations_of_a_table() {
   return {"linear"};
 }
 
+std::vector<std::string> ways_without_a_fit() {
+  return {"fixed", "mean"};
+}
+
+std::vector<std::string> conventions_of_k() {
+  std::vector<std::string> names;
+  for (const models::ShearYield convention : models::shear_yields)
+    names.push_back(models::shear_yield_name(convention));
+  return names;
+}
+
+// A key of a law, by a member of its text; of the program's texts, which need no explanation.
+template <auto member> auto registry_key(const char* key) {
+  using T = std::remove_cvref_t<decltype(models::LawText{}.*member)>;
+  return named<T>(
+      std::string("models.*.") + key,
+      [](Job & job, const std::string& name) -> auto& { return law_text(job, name).*member; }, "",
+      "", "");
+}
+
 } // namespace
 
 models::LawText& law_text(Job& job, const std::string& name) {
   auto& texts = job.models.texts;
-  const auto found = std::find_if(texts.begin(), texts.end(), [&](const models::LawText& text) {
-    return text.name == first_name(name);
-  });
+  const auto found = std::find_if(texts.begin(), texts.end(),
+                                  [&](const models::LawText& text) { return text.name == name; });
   if (found != texts.end()) return *found;
-  texts.emplace_back().name = first_name(name);
+  texts.emplace_back().name = name;
   return texts.back();
 }
 
 models::ParameterText& parameter_text(Job& job, const std::string& name) {
-  auto& parameters = law_text(job, name).parameters;
+  auto& parameters = law_text(job, law_name(name)).parameters;
   const auto found =
       std::find_if(parameters.begin(), parameters.end(),
                    [&](const models::ParameterText& p) { return p.name == last_name(name); });
@@ -48,7 +67,7 @@ models::ParameterText& parameter_text(Job& job, const std::string& name) {
 std::vector<KeyRule> law_keys() {
   KeyRule where = named<std::string>(
       "models.*.where.*", [](Job & job, const std::string& name) -> auto& {
-        auto& parts = law_text(job, name).where;
+        auto& parts = law_text(job, law_name(name)).where;
         const auto found = std::find_if(parts.begin(), parts.end(), [&](const auto& part) {
           return part.first == last_name(name);
         });
@@ -139,6 +158,23 @@ std::vector<KeyRule> law_keys() {
             return parameter_text(job, name).meaning;
           },
           "what it is, for people", "nothing", "\"friction factor\""),
+  };
+}
+
+std::vector<KeyRule> registry_law_keys() {
+  using models::LawText;
+  return {
+      registry_key<&LawText::order>("order"),
+      registry_key<&LawText::people>("people"),
+      registry_key<&LawText::calibrated>("calibrated") | Allowed{"", ways_without_a_fit},
+      registry_key<&LawText::log_value>("log_value"),
+      registry_key<&LawText::nodes_at_kinks>("nodes_at_kinks"),
+      registry_key<&LawText::revisions>("revisions") | Allowed{"", conventions_of_k},
+      named<std::string>(
+          "models.*.parameters.*.settled_by", [](Job & job, const std::string& name) -> auto& {
+            return parameter_text(job, name).settled_by;
+          },
+          "", "", ""),
   };
 }
 

@@ -206,7 +206,8 @@ std::vector<KeyRule> model_keys() {
       key<std::optional<double>>(
           "calibration.condition_on_mm",
           [](Job & job) -> auto& { return job.calibration.condition_on_mm; },
-          "conditional use, apart from the ranking: each experiment gets one gain, from its own first "
+          "conditional use, apart from the ranking: each experiment gets one gain, from its own "
+          "first "
           "so many mm of sliding, and is judged on the rest; uses part of every test, so it is "
           "reported apart and never ranked",
           "unconditional laws only", "1.0") |

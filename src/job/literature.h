@@ -1,6 +1,7 @@
-// Laws of the literature that come with the program as texts: templates/laws/*.toml, each table a
-// law in the form of a job's [models.NAME]. A job gets one by naming it (models.use). By default
-// only the registry is calibrated, because the best of many candidates looks too good by chance.
+// Laws that come with the program as texts: templates/laws/*.toml, each table a law in the form of
+// a job's [models.NAME]. Those with an `order` belong to the registry (models::all_laws) and are
+// calibrated by default. The others are laws of the literature, which a job gets by naming them
+// (models.use), because the best of many candidates looks too good by chance.
 #pragma once
 
 #include <string>
@@ -9,7 +10,8 @@
 
 namespace frictab::job {
 
-// Returns the laws in order of their names; they follow those of the registry.
+// Returns the laws of the literature in the order of their texts; they follow those of the
+// registry.
 const models::Laws& literature();
 
 // Returns the law as lines of a job, to be changed there: [models.NAME] and its keys. Empty where

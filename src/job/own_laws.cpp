@@ -108,8 +108,8 @@ void make_laws(JobReader& reader) {
     if (std::count(names.begin(), names.end(), text.name) > 1)
       reader.fault(text.place, fmt::format("law '{}' stands in more than one place", text.name),
                    "in this job and a file of models.files, or in two of these");
-    if (!check_name(reader, text)) continue;
-    if (!check_table_keys(reader, text)) continue;
+    if (!reader.of_program && !(check_name(reader, text) && check_table_keys(reader, text)))
+      continue;
     if (!text.table.empty()) {
       add_table(reader, text, faults);
       continue;

@@ -147,7 +147,7 @@ void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path
                      fmt::format("{} must be a table, not {}", path_below, describe(entry)),
                      by_name ? "write " + entry.key + " = { ... }" : "write [" + path_below + "]");
       }
-    } else if (const KeyRule* rule = find_key(rule_below)) {
+    } else if (const KeyRule* rule = find_key(rule_below, reader.of_program)) {
       read_value(reader, *rule, path_below, name_below, entry);
     } else {
       unknown_key(reader, rule_path, path, entry);

@@ -17,6 +17,7 @@ struct JobReader {
   std::map<std::string, Place> places; // place of every key's value, by full path
   bool data_is_no_table = false;       // missing keys of [data] are not reported then
   std::vector<std::string> own_laws;   // names of [models.NAME] and of tables in law files
+  bool of_program = false; // texts of the program's own laws: with the registry's keys too
 
   void fault(Place place, std::string what, std::string hint = "") {
     faults.push_back({std::move(place), std::move(what), std::move(hint)});
@@ -32,7 +33,8 @@ void read_value(JobReader& reader, const KeyRule& rule, const std::string& path,
 // Reads the tables of a file of laws as keys of [models.NAME].
 void read_laws(JobReader& reader, const TomlNode& file);
 
-// Makes laws of the job's own formulas, once their keys are read.
+// Makes laws of the formulas that were read. Texts of the program itself are not checked for what
+// their authors know: names that are taken, keys of tables.
 void make_laws(JobReader& reader);
 
 // Checks across keys: contradictions and missing keys.

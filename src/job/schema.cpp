@@ -173,11 +173,15 @@ const std::vector<SectionRule>& section_rules() {
   return rules;
 }
 
-const KeyRule* find_key(const std::string& path) {
-  const auto& rules = key_rules();
-  const auto found = std::find_if(rules.begin(), rules.end(),
-                                  [&](const KeyRule& rule) { return rule.path == path; });
-  return found == rules.end() ? nullptr : &*found;
+const KeyRule* find_key(const std::string& path, bool of_program) {
+  static const std::vector<KeyRule> registry_keys = schema::registry_law_keys();
+  const auto is_it = [&](const KeyRule& rule) { return rule.path == path; };
+  for (const auto* rules : {&key_rules(), of_program ? &registry_keys : nullptr})
+    if (rules)
+      if (const auto found = std::find_if(rules->begin(), rules->end(), is_it);
+          found != rules->end())
+        return &*found;
+  return nullptr;
 }
 
 const SectionRule* find_section(const std::string& path) {

@@ -87,7 +87,8 @@ inline std::string last_part(const std::string& path) {
 
 const std::vector<KeyRule>& key_rules();
 const std::vector<SectionRule>& section_rules();
-const KeyRule* find_key(const std::string& path);
+// `of_program`: or a key that texts of the program's own laws have as well.
+const KeyRule* find_key(const std::string& path, bool of_program = false);
 const SectionRule* find_section(const std::string& path);
 
 // Describes the values of this key: "a whole number >= 0".

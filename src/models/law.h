@@ -5,7 +5,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,11 +34,6 @@ struct Parameter {
   double upper;
   std::string settled_by = {}; // what experiments would settle it: "experiments at several speeds"
 };
-
-// Columns by canonical name, with tau_R_MPa.
-using TrainingRows = std::map<std::string, std::span<const double>>;
-// Among them, where rows do not count alike in the fit: what each counts.
-inline constexpr const char* row_weights = "row_weights";
 
 // tau_R = combine(value, state, parameters), value = value(state, parameters).
 // `value` is the smooth piece that is tabulated; kinks belong into `combine`, which is evaluated
@@ -82,12 +76,9 @@ struct Law {
   // Inputs that are text columns: the levels that their numbers 0, 1, ... stand for.
   std::map<std::string, std::vector<std::string>> levels;
   std::function<Formula(const Conventions&)> build;
-  // Starts of its own, computed from the rows, for a law whose loss has several minima; instead of
-  // a search over the bounds. The first is the least-squares optimum.
-  std::vector<std::vector<double>> (*starts)(const Conventions&, const TrainingRows&) = nullptr;
-  // Counts how often the same parameters came to mean another stress; none: never. A file of a
-  // registered law holds parameters and not the formula, and must be of the same count.
-  int (*revision)(const Conventions&) = nullptr;
+  // Conventions of k by which the same parameters came to mean another stress, once per time. A
+  // file of a registered law holds parameters and not the formula, and must be of the same count.
+  std::vector<std::string> revisions;
   std::map<std::string, Place> places = {}; // of a user's law: where its columns are first named
 };
 

@@ -27,6 +27,7 @@ using expr::Op;
 namespace {
 
 constexpr const char* shear_yield_symbol = "k_MPa";
+constexpr const char* flow_stress_symbol = "sigma_f_over_k"; // of the registry's texts
 constexpr std::size_t longest_name = 40;
 
 // ---- the two parts ----
@@ -241,7 +242,7 @@ public:
   Law read() {
     const std::size_t before = faults_.size();
     law_.name = text_.name;
-    law_.order = 90; // behind those of the registry, in the order in which they are written
+    law_.order = text_.order ? static_cast<int>(*text_.order) : order_of_user_laws;
     law_.title = text_.title.empty() ? "law of the user" : text_.title;
     law_.reference = text_.reference.empty() ? "the job file" : text_.reference;
     check_names();
@@ -291,7 +292,9 @@ private:
   void read_parameters() {
     const bool any_fitted = std::any_of(text_.parameters.begin(), text_.parameters.end(),
                                         [](const ParameterText& p) { return !p.value; });
-    law_.calibrated = any_fitted ? Calibrated::fit : Calibrated::fixed;
+    law_.calibrated = !any_fitted || text_.calibrated == "fixed" ? Calibrated::fixed
+                      : text_.calibrated == "mean"               ? Calibrated::mean
+                                                                 : Calibrated::fit;
     for (const ParameterText& p : text_.parameters) {
       if (p.value && (p.start || p.range))
         faults_.add(p.place,
@@ -331,7 +334,7 @@ private:
   void add_parameter(const ParameterText& p, double start, double lower, double upper) {
     law_.parameters.push_back({p.name, p.unit.empty() ? "1" : p.unit,
                                p.meaning.empty() ? "parameter of " + text_.name : p.meaning, start,
-                               lower, upper});
+                               lower, upper, p.settled_by});
   }
 
   // Text to formula; what is not understood is told with its place in the job.
@@ -353,14 +356,8 @@ private:
   }
 
   void read_parts() {
-    for (const auto& [name, formula] : text_.where) {
-      const Expr part = substitute(parse(formula), named_);
-      if (expr::symbols(part).count("value"))
-        faults_.add(formula.place,
-                    fmt::format("part '{}' of law {} uses `value`", name, text_.name),
-                    "`value` is the piece, and stands in `combine`");
-      named_.emplace(name, part);
-    }
+    for (const auto& [name, formula] : text_.where)
+      named_.emplace(name, substitute(parse(formula), named_));
     for (const auto& [name, number] : constants_)
       named_.emplace(name, number);
     named_.emplace("pi", std::numbers::pi);
@@ -449,6 +446,7 @@ private:
                     "leave it out, or use it in the formula");
     for (const std::string& name : used) {
       if (parameters.count(name) || name == shear_yield_symbol) continue;
+      if (text_.order && name == flow_stress_symbol) continue;
       const data::Quantity* quantity = data::find_quantity(name);
       if (name == "value")
         faults_.add(place_of(name), fmt::format("law {} uses `value` outside combine", text_.name),
@@ -510,14 +508,19 @@ private:
   }
 
   void finish(const Formula& whole) {
-    law_.formula = people_text();
-    law_.log_value = is_product(whole.value) && is_positive(whole.value, law_.parameters);
-    law_.kinks = kinks_of(whole.value);
-    law_.build = [whole](const Conventions& conventions) {
-      const std::map<std::string, Expr> k = {{shear_yield_symbol, shear_yield_stress(conventions)}};
+    law_.formula = text_.people.empty() ? people_text() : text_.people;
+    law_.log_value =
+        text_.log_value || (is_product(whole.value) && is_positive(whole.value, law_.parameters));
+    if (text_.nodes_at_kinks) law_.kinks = kinks_of(whole.value);
+    for (const std::string& axis : text_.log_axes)
+      law_.log_axes[axis] = true;
+    law_.revisions = text_.revisions;
+    law_.build = [whole, of_registry = text_.order.has_value()](const Conventions& conventions) {
+      std::map<std::string, Expr> k = {{shear_yield_symbol, shear_yield_stress(conventions)}};
+      if (of_registry) k.emplace(flow_stress_symbol, flow_stress_ratio(conventions.shear_yield));
       return Formula{substitute(whole.value, k), substitute(whole.combine, k)};
     };
-    check_numbers();
+    if (!text_.order) check_numbers(); // every law of the registry is tested
   }
 
   // As it was written.

@@ -1,5 +1,6 @@
-// A friction law as a user writes it: of a job file's [models.my_law], or a file of laws. What is
-// read here is a Law like those of the registry: calibrated, proven, tabulated, exported.
+// A friction law as a text: of a job file's [models.my_law], a file of laws, or templates/laws,
+// which has those of the registry too. Whoever wrote it, it is calibrated, proven, tabulated,
+// exported.
 //
 // From one formula of tau_R follow the two parts that a Law has (law.h). Kinks - min, max, where -
 // are looked for from the outside in, as long as what holds them is a stress or a coefficient:
@@ -9,6 +10,7 @@
 // coefficient.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,6 +28,7 @@ struct ParameterText {
   std::optional<double> start;                    // absent: the middle of the range
   std::optional<std::pair<double, double>> range; // of the search
   std::optional<double> value;                    // a constant: neither start nor range
+  std::string settled_by;                         // as Parameter has it; registry alone
   Place place;
 };
 
@@ -44,9 +47,20 @@ struct LawText {
   std::vector<ParameterText> parameters;
   std::string table;         // instead of all formulas: the file of a table (models/law_table.h)
   std::string interpolation; // between its nodes
-  std::vector<std::string> log_axes; // straight in ln x
+  std::vector<std::string> log_axes; // straight in ln x; of a formula: registry alone
   Place place;
+
+  // Of the registry's texts alone.
+  std::optional<std::uint64_t> order; // in listings; absent: behind the registry, as written
+  std::string people;                 // the formula as people write it; empty: as above
+  std::string calibrated;             // "fixed" or "mean"; empty: fitted
+  bool log_value = false;             // whatever the formula looks like
+  bool nodes_at_kinks = true;         // false: max() and min() bound what no table reaches
+  std::vector<std::string> revisions; // as Law has them
 };
+
+// The place in listings of a law without an order.
+constexpr int order_of_user_laws = 90;
 
 // In formulas stand parameters, named parts, states by their canonical names, k_MPa (the shear
 // yield stress by the job's convention), pi, and columns that the data record, by their names

@@ -282,16 +282,11 @@ std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidate
     if (form.parameters_of || !form_fits(form, cause, candidates)) continue;
     if (form.name == "threshold2" && !both_move(cause, candidates)) continue;
     PlacedEffect effect = start_effect(form, cause, candidates, effects::ActsOn::mu, 1);
-    std::vector<std::vector<double>> grid;
-    if (form.grid) {
-      std::vector<effects::Spread> spreads;
-      for (const CandidateColumn* column : columns_of(form, cause, candidates))
-        spreads.push_back(column->spread);
-      grid = form.grid(spreads);
-    } else
-      grid.emplace_back(effect.parameters.begin() + 1, effect.parameters.end());
+    std::vector<effects::Spread> spreads;
+    for (const CandidateColumn* column : columns_of(form, cause, candidates))
+      spreads.push_back(column->spread);
     GridOfForm along(candidates.by_symbol);
-    for (const auto& values : grid) {
+    for (const auto& values : effects::shapes_to_try(form, spreads)) {
       std::copy(values.begin(), values.end(), effect.parameters.begin() + 1);
       if (too_narrow(effect, x.gap)) continue;
       shapes.push_back({effect, along.direction(effect)});

@@ -20,7 +20,7 @@ const effects::EffectForm& planted_form() {
     effects::EffectForm all;
     all.name = "planted";
     all.formula = "x";
-    all.factor = [] { return Expr::symbol("x"); };
+    all.factor = Expr::symbol("x");
     return all;
   }();
   return form;

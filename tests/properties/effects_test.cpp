@@ -72,7 +72,7 @@ TEST_P(EffectForms, DescribesItself) {
   EXPECT_EQ(form.parameters[0].start, 0) << "the amplitude comes first, 0 is neutral";
   EXPECT_EQ(form.shapes.size() + 1, form.parameters.size());
   const bool depends = form.parameters_of;
-  EXPECT_EQ(depends, form.factor == nullptr);
+  EXPECT_EQ(depends, !form.factor.has_value());
   EXPECT_EQ(depends, form.build != nullptr);
   EXPECT_EQ(depends, form.text != nullptr);
   EXPECT_EQ(depends, form.pattern != nullptr);
@@ -109,9 +109,8 @@ TEST_P(EffectForms, StartsInsideItsBounds) {
 
 TEST_P(EffectForms, TriesShapesThatItsBoundsAllow) {
   const EffectForm& form = *GetParam();
-  if (!form.grid) return;
   for (const Spread& spread : {spreads[0], spreads[1], spreads[5]})
-    for (const auto& shapes : form.grid({spread, spreads[1], spreads[0]})) {
+    for (const auto& shapes : effects::shapes_to_try(form, {spread, spreads[1], spreads[0]})) {
       ASSERT_EQ(shapes.size(), form.shapes.size());
       for (std::size_t i = 0; i < shapes.size(); ++i) {
         EXPECT_GE(shapes[i], form.parameters[i + 1].lower) << form.parameters[i + 1].name;

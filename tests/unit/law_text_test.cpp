@@ -142,6 +142,26 @@ TEST(LawText, FaultsStandWhereTheyAreInTheFormula) {
   EXPECT_THAT(fault_of_formula("mu*sigma_n_MPa*ln(-psi)"), HasSubstr("gives no number at sigma_n"));
 }
 
+TEST(LawText, APartMayUseThePieceWhereCombineDoes) {
+  const std::string rest = "parameters = { mu = { range = [0, 1] } }\n"
+                           "where = { load = \"value*sigma_n_MPa\" }\n";
+  EXPECT_EQ(fault_of("[models.mine]\npiece = \"mu\"\ncombine = \"load/(1 + load)\"\n" + rest),
+            "no fault");
+  EXPECT_THAT(fault_of("[models.mine]\nformula = \"mu*load\"\n" + rest),
+              HasSubstr("job.toml:6:20: error: law mine uses `value` outside combine"));
+}
+
+TEST(LawText, KeysOfTheRegistryAreUnknownInAJob) {
+  for (const char* key : {"order = 1", "people = \"mu p\"", "calibrated = \"mean\"",
+                          "log_value = true", "nodes_at_kinks = false", "revisions = \"mises\""})
+    EXPECT_THAT(fault_of(std::string("[models.mine]\n") + key +
+                         "\nformula = \"mu*sigma_n_MPa\"\n"
+                         "parameters = { mu = { range = [0, 1] } }\n"),
+                HasSubstr("job.toml:4:1: error: unknown key"))
+        << key;
+  EXPECT_THAT(fault_of_formula("mu*sigma_f_over_k*sigma_n_MPa"), "no fault"); // a column's name
+}
+
 TEST(LawText, NamesThatMeanSomethingElseAreRefused) {
   const auto with = [](const std::string& name) {
     return fault_of("[models.mine]\nformula = \"" + name + "*sigma_n_MPa\"\nparameters = { " +

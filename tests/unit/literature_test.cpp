@@ -1,6 +1,7 @@
 // Laws of the literature: their published numbers, their limits, their parameters found again.
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -219,6 +220,29 @@ std::string faults_of(const std::string& rest) {
     return error.what();
   }
   return "";
+}
+
+// Texts of the program are not checked for names as those of a job are.
+TEST(Literature, NamesOfAllLawsAreTheirOwnAndMeanNothingElse) {
+  std::set<std::string> names;
+  for (const Law* law : job::literature().all()) {
+    EXPECT_TRUE(names.insert(law->name).second) << law->name;
+    const models::ModelName read = models::read_model_name(law->name, job::literature());
+    EXPECT_TRUE(read.base == law && !read.traced && !read.quantile) << law->name;
+    EXPECT_EQ(models::checked_model_name(law->name, "a file"), law->name);
+    EXPECT_EQ(models::traced_name(law->name).find("_traced"), law->name.size()) << law->name;
+    for (const char* other : {"best", "recommended", "all"})
+      EXPECT_NE(law->name, other);
+  }
+}
+
+TEST(Literature, LawsWithAnOrderAreOfTheRegistryAndHaveNoTextForAJob) {
+  for (const std::string& name : models::law_names())
+    EXPECT_EQ(job::literature_text(name), "") << name;
+  for (const auto& law : job::literature().own()) {
+    EXPECT_FALSE(models::find_law(law->name)) << law->name;
+    EXPECT_NE(job::literature_text(law->name), "") << law->name;
+  }
 }
 
 TEST(Literature, LaterStagesCannotNameALawThatIsNotCalibrated) {

@@ -4,19 +4,19 @@
 
 #include <gtest/gtest.h>
 
+#include "calibrate/orowan_optimum.h"
 #include "core/random.h"
-#include "models/orowan_optimum.h"
 
 namespace frictab::orowan_test {
 
-using models::orowan_optimum;
-using models::OrowanPoint;
+using calibrate::orowan_optimum;
+using calibrate::OrowanPoint;
 
 namespace {
 
 struct Rows {
   std::vector<double> sigma_n, k, tau;
-  models::OrowanRows view() const { return {sigma_n, k, tau}; }
+  calibrate::OrowanRows view() const { return {sigma_n, k, tau}; }
   double squares(double mu, double m) const {
     double sum = 0;
     for (std::size_t i = 0; i < tau.size(); ++i)

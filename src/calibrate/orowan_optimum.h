@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace frictab::models {
+namespace frictab::calibrate {
 
 // Rows of a campaign: contact normal stress, shear yield stress, measured shear stress in MPa.
 struct OrowanRows {
@@ -25,4 +25,4 @@ struct OrowanPoint {
 // points at `breaks` evenly spaced places of the kink m/mu, as starts for other losses.
 std::vector<OrowanPoint> orowan_optimum(const OrowanRows& rows, std::size_t breaks);
 
-} // namespace frictab::models
+} // namespace frictab::calibrate

@@ -1,12 +1,12 @@
 // The wedges of Orowan's sum of squares, one after the other.
-#include "models/orowan_optimum.h"
+#include "calibrate/orowan_optimum.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
-namespace frictab::models {
+namespace frictab::calibrate {
 
 namespace {
 
@@ -107,4 +107,4 @@ std::vector<OrowanPoint> orowan_optimum(const OrowanRows& rows, std::size_t brea
   return points;
 }
 
-} // namespace frictab::models
+} // namespace frictab::calibrate
