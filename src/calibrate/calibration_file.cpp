@@ -1,52 +1,95 @@
 // Calibrations and models to JSON and back.
 #include "calibrate/calibration_file.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "calibrate/judgement_json.h"
 #include "calibrate/recommended.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "core/version.h"
-#include "io/json.h"
+#include "io/json_fields.h"
 #include "models/assembled_law.h"
 
 namespace frictab::calibrate {
 
+using io::Fields;
 using models::Law;
+
+static void describe(Fields& f, NetworkRecord& r) {
+  f.only_written("architecture",
+                 fmt::format("{} inputs, {} tanh units, 1 output, exp; ensemble of {}",
+                             r.inputs.size(), r.hidden, r.members));
+  f("inputs", r.inputs);
+  f("hidden", r.hidden);
+  f("members", r.members);
+  f("dropped", r.dropped);
+  f("weights_per_member", r.weights);
+  f("bins", r.bins);
+  f("folds_of_experiments", r.folds);
+  f("repeats", r.repeats);
+  f.known("decays", r.decays);
+  f.known("cv_rmse_MPa", r.cv_rmse_MPa);
+  f.known("decay", r.decay);
+  f.known("noise_of_a_bin_MPa", r.noise_MPa);
+  f.known("scatter_between_experiments", r.gain);
+  f.known("spread_of_members_MPa", r.spread_MPa);
+  f("nets_trained", r.nets);
+  f("iterations", r.iterations);
+}
+
+static void describe(Fields& f, PolynomialNoise& n) {
+  f.known("between_experiments", n.gain);
+  f.known("slope_over_stroke", n.slope);
+  f.known("slow", n.slow);
+  f.known("slow_length_in_strokes", n.length);
+  f.known("of_a_bin", n.white);
+}
+
+static void describe(Fields& f, PolynomialTerm& term) {
+  f("term", term.text);
+  f.known("coefficient", term.coefficient);
+  f("std_error", term.std_error);
+}
+
+static void describe(Fields& f, PolynomialRecord& r) {
+  f("inputs", r.inputs);
+  f("coordinates", r.coordinates);
+  f("order", r.order);
+  f.known("cv_mae_MPa_by_order", r.cv_mae_MPa);
+  f.known("shares_of_orders", r.shares);
+  f("bins", r.bins);
+  f("experiments", r.experiments);
+  f("scatter_of_ln_mu", r.noise);
+  f.known("spread_of_coefficients_by_order", r.spread);
+  f("terms", r.terms);
+}
+
+static void describe(Fields& f, BandCheck& band) {
+  f("factor_5", band.low);
+  f("factor_95", band.high);
+  f("validation_experiments_inside", band.inside);
+  f("validation_experiments", band.experiments);
+}
+
+// As the file has it: "levanov: needs sigma_f_MPa".
+static void describe(Fields& f, LeftOut& left) {
+  std::string text = left.text();
+  describe(f, text);
+  if (!f.reads()) return;
+  const std::string between = ": needs ";
+  const std::size_t at = text.find(between);
+  if (at == text.npos)
+    throw InputError({f.file(), 0, 0}, "left_out has '" + text + "', not \"LAW: needs COLUMNS\"",
+                     "calibrate again");
+  left = {text.substr(0, at), text.substr(at + between.size())};
+}
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* model_schema = "frictab/model/1";
 constexpr const char* calibration_schema = "frictab/calibration/1";
-
-const char* loss_name(Loss loss) {
-  switch (loss) {
-  case Loss::l2:
-    return "L2";
-  case Loss::l1:
-    return "L1";
-  case Loss::huber:
-    break;
-  }
-  return "huber";
-}
-
-Loss parse_loss(const std::string& name) {
-  if (name == "L1") return Loss::l1;
-  return name == "huber" ? Loss::huber : Loss::l2;
-}
-
-const char* deliver_name(Deliver deliver) {
-  return deliver == Deliver::all ? "all" : "training";
-}
 
 int whole_seconds_above(double seconds) {
   for (const int bound : {10, 60, 600, 3600})
@@ -54,486 +97,300 @@ int whole_seconds_above(double seconds) {
   return static_cast<int>(std::ceil(seconds));
 }
 
-Json conventions_json(const models::Conventions& c) {
-  return {{"shear_yield", models::shear_yield_name(c.shear_yield)},
-          {"k_over_sigma_f", c.k_over_sigma_f},
-          {"shear_limit", c.shear_limit}};
+void describe_conventions(Fields& f, models::Conventions& c) {
+  std::string shear_yield = models::shear_yield_name(c.shear_yield);
+  f("shear_yield", shear_yield);
+  f.known("k_over_sigma_f", c.k_over_sigma_f);
+  f("shear_limit", c.shear_limit);
+  if (!f.reads()) return;
+  const auto known = models::find_shear_yield(shear_yield);
+  if (!known)
+    throw InputError({f.file(), 0, 0}, "unknown shear_yield '" + shear_yield + "'",
+                     "one of mises, tresca, flow_stress");
+  c.shear_yield = *known;
 }
 
-Json parameters_json(const ModelFit& fit) {
-  Json list = Json::array();
-  for (std::size_t p = 0; p < fit.model.parameters.size(); ++p) {
-    const models::Parameter& info = fit.model.law->parameters[p];
-    list.push_back({{"name", info.name},
-                    {"value", fit.model.parameters[p]},
-                    {"std_error", fit.std_error[p]},
-                    {"unit", info.unit},
-                    {"meaning", info.meaning}});
-  }
-  return list;
+// Text that reads back to the same bits.
+void describe_formula(Fields& f, Law& law, const models::Conventions& conventions) {
+  models::Formula formula;
+  if (!f.reads()) formula = law.build(conventions);
+  std::string value = f.reads() ? "" : expr::to_text(formula.value);
+  std::string combine = f.reads() ? "" : expr::to_text(formula.combine);
+  f("value", value);
+  f("combine", combine);
+  if (!f.reads()) return;
+  formula = {expr::parse_expr(value, f.file()), expr::parse_expr(combine, f.file())};
+  law.build = [formula](const models::Conventions&) { return formula; };
 }
 
-Json network_json(const NetworkRecord& r) {
-  return {{"architecture", fmt::format("{} inputs, {} tanh units, 1 output, exp; ensemble of {}",
-                                       r.inputs.size(), r.hidden, r.members)},
-          {"inputs", r.inputs},
-          {"hidden", r.hidden},
-          {"members", r.members},
-          {"dropped", r.dropped},
-          {"weights_per_member", r.weights},
-          {"bins", r.bins},
-          {"folds_of_experiments", r.folds},
-          {"repeats", r.repeats},
-          {"decays", r.decays},
-          {"cv_rmse_MPa", r.cv_rmse_MPa},
-          {"decay", r.decay},
-          {"noise_of_a_bin_MPa", r.noise_MPa},
-          {"scatter_between_experiments", r.gain},
-          {"spread_of_members_MPa", r.spread_MPa},
-          {"nets_trained", r.nets},
-          {"iterations", r.iterations}};
+void describe_table(Fields& f, Law& law) {
+  using models::PieceQuantity, models::quantity_name, models::Calibrated;
+  f.one_of("quantity", law.quantity,
+           {{quantity_name(PieceQuantity::mu), PieceQuantity::mu},
+            {quantity_name(PieceQuantity::tau_R), PieceQuantity::tau_R}});
+  f("log_value", law.log_value);
+  f.known("kinks", law.kinks);
+  f("reference", law.reference);
+  bool calibrated = law.calibrated != Calibrated::fixed;
+  f("calibrated", calibrated);
+  if (f.reads()) law.calibrated = calibrated ? Calibrated::fit : Calibrated::fixed;
 }
 
-NetworkRecord parse_network(const Json& j) {
-  NetworkRecord r;
-  r.inputs = j.at("inputs").get<std::vector<std::string>>();
-  r.hidden = io::count_of(j.at("hidden"));
-  r.members = io::count_of(j.at("members"));
-  r.dropped = io::count_of(j.at("dropped"));
-  r.weights = io::count_of(j.at("weights_per_member"));
-  r.bins = io::count_of(j.at("bins"));
-  r.folds = io::count_of(j.at("folds_of_experiments"));
-  r.repeats = io::count_of(j.at("repeats"));
-  r.decays = j.at("decays").get<std::vector<double>>();
-  r.cv_rmse_MPa = j.at("cv_rmse_MPa").get<std::vector<double>>();
-  r.decay = j.at("decay");
-  r.noise_MPa = j.at("noise_of_a_bin_MPa");
-  r.gain = j.at("scatter_between_experiments");
-  r.spread_MPa = j.at("spread_of_members_MPa");
-  r.nets = io::count_of(j.at("nets_trained"));
-  r.iterations = io::count_of(j.at("iterations"));
-  return r;
-}
-
-Json polynomial_json(const PolynomialRecord& r) {
-  Json terms = Json::array();
-  for (const PolynomialTerm& term : r.terms)
-    terms.push_back(
-        {{"term", term.text}, {"coefficient", term.coefficient}, {"std_error", term.std_error}});
-  const PolynomialNoise& n = r.noise;
-  return {{"inputs", r.inputs},
-          {"coordinates", r.coordinates},
-          {"order", r.order},
-          {"cv_mae_MPa_by_order", r.cv_mae_MPa},
-          {"shares_of_orders", r.shares},
-          {"bins", r.bins},
-          {"experiments", r.experiments},
-          {"scatter_of_ln_mu",
-           {{"between_experiments", n.gain},
-            {"slope_over_stroke", n.slope},
-            {"slow", n.slow},
-            {"slow_length_in_strokes", n.length},
-            {"of_a_bin", n.white}}},
-          {"spread_of_coefficients_by_order", r.spread},
-          {"terms", terms}};
-}
-
-PolynomialRecord parse_polynomial(const Json& j) {
-  PolynomialRecord r;
-  r.inputs = j.at("inputs").get<std::vector<std::string>>();
-  r.coordinates = j.at("coordinates").get<std::vector<std::string>>();
-  r.order = static_cast<unsigned>(io::count_of(j.at("order")));
-  r.cv_mae_MPa = j.at("cv_mae_MPa_by_order").get<std::vector<double>>();
-  r.shares = j.at("shares_of_orders").get<std::vector<double>>();
-  r.bins = io::count_of(j.at("bins"));
-  r.experiments = io::count_of(j.at("experiments"));
-  const Json& n = j.at("scatter_of_ln_mu");
-  r.noise = {n.at("between_experiments"), n.at("slope_over_stroke"), n.at("slow"),
-             n.at("slow_length_in_strokes"), n.at("of_a_bin")};
-  r.spread = j.at("spread_of_coefficients_by_order").get<std::vector<double>>();
-  for (const Json& term : j.at("terms"))
-    r.terms.push_back(
-        {term.at("term"), term.at("coefficient"), number_or_nan(term.at("std_error"))});
-  return r;
-}
-
-// How the search for parameters was bounded: what a law with a name of its own has to say.
-Json bounds_json(const Law& law) {
-  Json list = Json::array();
-  for (const models::Parameter& p : law.parameters)
-    list.push_back({{"start", p.start}, {"lower", p.lower}, {"upper", p.upper}});
-  return list;
-}
-
-// The formula of a law that no registry knows: text that reads back to the same bits.
-Json made_law_json(const Law& law, const models::Conventions& conventions) {
-  const models::Formula formula = law.build(conventions);
-  Json j = {{"value", expr::to_text(formula.value)},
-            {"combine", expr::to_text(formula.combine)},
-            {"log_axes", law.log_axes}};
-  if (models::find_law(law.name)) {
-    if (!law.kinks.empty()) j["kinks"] = law.kinks;
-    return j;
-  }
-  j["base"] = law.base;
-  j["quantity"] = models::quantity_name(law.quantity);
-  j["log_value"] = law.log_value;
-  j["kinks"] = law.kinks;
-  j["reference"] = law.reference;
-  j["calibrated"] = law.calibrated != models::Calibrated::fixed;
-  j["levels"] = law.levels;
-  j["bounds"] = bounds_json(law);
-  return j;
-}
-
-// Texts of what the law computes, in the names of its inputs and parameters, for whoever reads the
-// file without frictab. `law` has the piece already where it is there.
-Json expressions_json(const models::Model& model) {
-  const models::AssembledLaw law(model);
-  Json j;
-  if (models::is_registered(*model.law)) j["value"] = expr::to_text(law.piece);
-  j["combine"] = expr::to_text(law.combine);
-  return j;
-}
-
-// Parameters as the file lists them.
-std::vector<models::Parameter> parse_parameters(const Json& list, const Json& bounds) {
-  std::vector<models::Parameter> parameters;
-  for (std::size_t p = 0; p < list.size(); ++p) {
-    const Json& one = list[p];
-    const Json& b = bounds.at(p);
-    parameters.push_back({one.at("name"), one.at("unit"), one.at("meaning"), b.at("start"),
-                          b.at("lower"), b.at("upper")});
-  }
-  return parameters;
-}
-
-// How its table is made.
-Law tabulated_as(const Json& j, const std::string& file) {
-  Law law;
-  const std::string quantity = j.at("quantity");
-  const auto known = {models::PieceQuantity::mu, models::PieceQuantity::tau_R};
-  const auto found = std::find_if(known.begin(), known.end(), [&](models::PieceQuantity q) {
-    return quantity == models::quantity_name(q);
+// A law whose formula is not the registry's; one with a name of its own says all.
+void describe_made_law(Fields& f, Law& law, const models::Conventions& conventions) {
+  describe_formula(f, law, conventions);
+  f.known("log_axes", law.log_axes);
+  const bool own_name = !models::find_law(law.name);
+  if (own_name) f("base", law.base);
+  if (own_name && f.has("quantity", true)) // not in files of 0.1
+    describe_table(f, law);
+  else if (f.has("kinks", !law.kinks.empty()))
+    f.known("kinks", law.kinks);
+  if (!own_name) return;
+  f.known("levels", law.levels);
+  f.each("bounds", law.parameters.size(), [&](Fields& bounds, std::size_t p) {
+    bounds.known("start", law.parameters[p].start);
+    bounds.known("lower", law.parameters[p].lower);
+    bounds.known("upper", law.parameters[p].upper);
   });
-  if (found == known.end())
-    throw InputError({file, 0, 0}, "the piece of a law is a '" + quantity + "'",
-                     "one of mu, tau_R");
-  law.quantity = *found;
-  law.log_value = j.at("log_value");
-  law.kinks = j.at("kinks").get<std::map<std::string, std::vector<double>>>();
-  law.reference = j.at("reference");
-  law.calibrated =
-      j.at("calibrated").get<bool>() ? models::Calibrated::fit : models::Calibrated::fixed;
-  return law;
 }
 
 // Files of 0.1 leave to the registered law that was extended what it says of its table.
-Law law_of_base(const Json& fit, const std::string& base, const std::string& file) {
+Law law_of_base(Fields& fit, const std::string& base) {
   if (!models::find_law(base))
-    throw InputError({file, 0, 0},
-                     fmt::format("law '{}' extends '{}', which is no friction law",
-                                 fit.at("name").get<std::string>(), base),
+    throw InputError({fit.file(), 0, 0},
+                     fmt::format("law '{}' extends '{}', which is not a friction law",
+                                 fit.json().at("name").get<std::string>(), base),
                      suggest(base, models::law_names()));
   Law law = *models::find_law(base);
   law.calibrated = models::Calibrated::fit;
   return law;
 }
 
-Law law_with_name_of_its_own(const Json& fit, const std::string& file) {
-  const Json& j = fit.at("law");
-  const std::string base = j.at("base");
-  Law law = j.contains("quantity") ? tabulated_as(j, file) : law_of_base(fit, base, file);
-  law.name = models::checked_model_name(fit.at("name"), file);
-  law.title = fit.at("title");
-  law.formula = fit.at("formula");
-  law.base = base;
-  law.levels = j.at("levels").get<std::map<std::string, std::vector<std::string>>>();
-  law.parameters = parse_parameters(fit.at("parameters"), j.at("bounds"));
+// What describe_made_law() reads is not in it yet.
+Law law_with_name_of_its_own(Fields& fit) {
+  const Fields::Json& made = fit.json().at("law");
+  Law law = made.contains("quantity") ? Law() : law_of_base(fit, made.at("base"));
+  fit("name", law.name);
+  models::checked_model_name(law.name, fit.file());
+  fit("title", law.title);
+  fit("formula", law.formula);
+  law.parameters.clear();
+  fit.list("parameters", law.parameters, [](Fields& f, models::Parameter& parameter) {
+    f("name", parameter.name);
+    f("unit", parameter.unit);
+    f("meaning", parameter.meaning);
+  });
   return law;
 }
 
-std::shared_ptr<const Law> parse_made_law(const Json& j, Law law, const std::string& file) {
-  const models::Formula formula{expr::parse_expr(j.at("value").get<std::string>(), file),
-                                expr::parse_expr(j.at("combine").get<std::string>(), file)};
-  law.build = [formula](const models::Conventions&) { return formula; };
-  law.log_axes = j.at("log_axes").get<std::map<std::string, bool>>();
-  if (j.contains("kinks"))
-    law.kinks = j.at("kinks").get<std::map<std::string, std::vector<double>>>();
+std::shared_ptr<const Law> read_law(Fields& fit) {
+  const std::string name = fit.json().at("name");
+  const Law* known = models::find_law(name);
+  const bool made = fit.json().contains("law");
+  if (known && !made) return models::held_law(*known);
+  if (!known && !(made && fit.json().at("law").contains("base")))
+    throw InputError({fit.file(), 0, 0}, "unknown friction law '" + name + "'",
+                     suggest(name, models::law_names()));
+  Law law = known ? *known : law_with_name_of_its_own(fit);
+  fit.within("law", [&](Fields& f) { describe_made_law(f, law, {}); });
   return models::unregistered_law(std::move(law));
 }
 
+// Counts from 1; 0 of a law that has its formula with it, or always had this one.
+int revision_of(const models::Model& model) {
+  if (!models::is_registered(*model.law)) return 0;
+  const std::string convention = models::shear_yield_name(model.conventions.shear_yield);
+  const std::vector<std::string>& revised = model.law->revisions;
+  return static_cast<int>(std::count(revised.begin(), revised.end(), convention));
+}
+
 // Parameters of a registered law mean what its formula said when they were calibrated.
-int revision_of(const Law& law, const models::Conventions& conventions) {
-  const std::string convention = models::shear_yield_name(conventions.shear_yield);
-  return static_cast<int>(std::count(law.revisions.begin(), law.revisions.end(), convention));
-}
-
-void check_revision(const ModelFit& fit, const Json& j, const std::string& file) {
-  const Law& law = *fit.model.law;
-  if (!models::is_registered(law)) return; // has its formula with it
-  if (j.value("revision", 0) == revision_of(law, fit.model.conventions)) return;
-  throw InputError({file, 0, 0},
-                   fmt::format("was made with another formula of {}: '{}', now '{}'", law.name,
-                               j.at("formula").get<std::string>(), law.formula),
-                   "calibrate again with this version");
-}
-
-std::shared_ptr<const Law> parse_law(const Json& fit, const std::string& file) {
-  const std::string name = fit.at("name");
-  const Law* known = models::find_law(name);
-  if (known && !fit.contains("law")) return models::held_law(*known);
-  if (!known && !(fit.contains("law") && fit.at("law").contains("base")))
-    throw InputError({file, 0, 0}, "unknown friction law '" + name + "'",
-                     suggest(name, models::law_names()));
-  return parse_made_law(fit.at("law"), known ? *known : law_with_name_of_its_own(fit, file), file);
-}
-
-Json band_json(const BandCheck& band) {
-  return {{"factor_5", band.low ? Json(*band.low) : Json()},
-          {"factor_95", band.high ? Json(*band.high) : Json()},
-          {"validation_experiments_inside", band.inside},
-          {"validation_experiments", band.experiments}};
-}
-
-BandCheck parse_band(const Json& j) {
-  const auto factor = [&](const char* name) {
-    return j.at(name).is_null() ? std::nullopt : std::optional(j.at(name).get<double>());
-  };
-  return {factor("factor_5"), factor("factor_95"),
-          io::count_of(j.at("validation_experiments_inside")),
-          io::count_of(j.at("validation_experiments"))};
-}
-
-Json fit_json(const ModelFit& fit);
-
-// The law fitted to all experiments. None is left that could judge it: what is called validation
-// of the others is cross-validation here.
-Json delivered_json(const ModelFit& fit) {
-  Json j = fit_json(fit);
-  j["cross_validation"] = j["validation"];
-  for (const char* key : {"validation", "by_experiment_left_out"})
-    j.erase(key);
-  return j;
-}
-
-Json fit_json(const ModelFit& fit) {
-  Json j = {{"name", fit.model.law->name},
-            {"title", fit.model.law->title},
-            {"formula", fit.model.law->formula},
-            {"inputs", models::inputs(*fit.model.law, fit.model.conventions)},
-            {"conventions", conventions_json(fit.model.conventions)},
-            {"parameters", parameters_json(fit)},
-            {"std_error_method", fit.std_error_method},
-            {"training", metrics_json(fit.training)},
-            {"validation", metrics_json(fit.validation)},
-            {"by_experiment_left_out", unseen_json(fit.unseen)},
-            {"wall_time_below_s", whole_seconds_above(fit.seconds)},
-            {"evaluations", fit.evaluations},
-            {"termination", fit.termination},
-            {"remarks", fit.remarks},
-            {"experiment_gains", fit.model.experiment_gains},
-            {"band", band_json(fit.band)}};
-  if (!fit.model.covariance.empty()) j["covariance"] = fit.model.covariance;
-  if (fit.determination.condition > 0) j["determination"] = determination_json(fit.determination);
-  for (const auto& [name, range] : fit.data_range)
-    j["data_range"][name] = {range.first, range.second};
-  if (fit.network) j["training_record"] = network_json(*fit.network);
-  if (const int revision = revision_of(*fit.model.law, fit.model.conventions);
-      revision > 0 && models::is_registered(*fit.model.law))
-    j["revision"] = revision;
-  if (fit.polynomial) j["polynomial"] = polynomial_json(*fit.polynomial);
-  if (!models::is_registered(*fit.model.law))
-    j["law"] = made_law_json(*fit.model.law, fit.model.conventions);
-  j["expressions"] = expressions_json(fit.model);
-  if (fit.reference) j["candidate"] = false;
-  if (fit.fitted_to_all) j["fitted_to"] = "all";
-  if (fit.on_all) j["delivered"] = delivered_json(*fit.on_all);
-  return j;
-}
-
-models::ShearYield parse_shear_yield(const std::string& name, const std::string& file) {
-  if (const auto convention = models::find_shear_yield(name)) return *convention;
-  throw InputError({file, 0, 0}, "unknown shear_yield '" + name + "'",
-                   "one of mises, tresca, flow_stress");
-}
-
-std::map<std::string, std::pair<double, double>> parse_data_range(const Json& fit) {
-  std::map<std::string, std::pair<double, double>> out;
-  if (!fit.contains("data_range")) return out; // files of 0.1.0
-  const Json& ranges = fit.at("data_range");
-  for (const auto& [name, range] : ranges.items())
-    out[name] = {range.at(0).get<double>(), range.at(1).get<double>()};
-  return out;
-}
-
-ModelFit parse_fit(const Json& j, const std::string& file) {
-  ModelFit fit;
-  fit.model.law = parse_law(j, file);
-  fit.model.experiment_gains = j.at("experiment_gains").get<std::vector<double>>();
-  fit.data_range = parse_data_range(j);
-  if (j.contains("covariance")) // not in files of 0.2
-    for (const Json& one : j.at("covariance"))
-      fit.model.covariance.push_back(number_or_nan(one));
-  fit.fitted_to_all = j.value("fitted_to", "training") == "all"; // none: files of 0.1.0
-  if (j.contains("training_record")) fit.network = parse_network(j.at("training_record"));
-  if (j.contains("polynomial")) fit.polynomial = parse_polynomial(j.at("polynomial"));
-  const Json& c = j.at("conventions");
-  fit.model.conventions = {parse_shear_yield(c.at("shear_yield"), file), c.at("k_over_sigma_f"),
-                           c.at("shear_limit")};
-  check_revision(fit, j, file);
-  const Json& list = j.at("parameters");
-  for (std::size_t p = 0; p < fit.model.law->parameters.size(); ++p) {
-    const models::Parameter& info = fit.model.law->parameters[p];
-    if (p >= list.size() || list[p].at("name") != info.name)
+void check_parameters(const models::Model& model, const Fields::Json& fit,
+                      const std::string& file) {
+  const Law& law = *model.law;
+  const char* const mends = "calibrate again with this version";
+  if (models::is_registered(law) && fit.value("revision", 0) != revision_of(model))
+    throw InputError({file, 0, 0},
+                     fmt::format("was made with another formula of {}: '{}', now '{}'", law.name,
+                                 fit.at("formula").get<std::string>(), law.formula),
+                     mends);
+  const Fields::Json& list = fit.at("parameters");
+  for (std::size_t p = 0; p < law.parameters.size(); ++p)
+    if (p >= list.size() || list[p].at("name") != law.parameters[p].name)
       throw InputError(
           {file, 0, 0},
-          fmt::format("law '{}' lacks its parameter '{}'", fit.model.law->name, info.name),
-          "calibrate again with this version");
-    fit.model.parameters.push_back(list[p].at("value").get<double>());
-    fit.std_error.push_back(number_or_nan(list[p].at("std_error")));
+          fmt::format("law '{}' lacks its parameter '{}'", law.name, law.parameters[p].name),
+          mends);
+}
+
+void describe_parameters(Fields& f, ModelFit& fit) {
+  const Law& law = *fit.model.law;
+  if (f.reads()) {
+    check_parameters(fit.model, f.json(), f.file());
+    fit.model.parameters.resize(law.parameters.size());
+    fit.std_error.resize(law.parameters.size());
   }
-  return fit;
+  f.each("parameters", law.parameters.size(), [&](Fields& one, std::size_t p) {
+    one.only_written("name", law.parameters[p].name);
+    one.known("value", fit.model.parameters[p]);
+    one("std_error", fit.std_error[p]);
+    one.only_written("unit", law.parameters[p].unit);
+    one.only_written("meaning", law.parameters[p].meaning);
+  });
 }
 
-// What calibration.json says of a fit beside its model; `judged` names its errors.
-ModelFit parse_whole_fit(const Json& j, const char* judged, const std::string& file) {
-  ModelFit fit = parse_fit(j, file);
-  fit.std_error_method = j.at("std_error_method");
-  fit.termination = j.at("termination");
-  fit.evaluations = io::count_of(j.at("evaluations"));
-  fit.seconds = j.at("wall_time_below_s").get<double>() - 0.5; // is written the same again
-  fit.remarks = j.at("remarks").get<std::vector<std::string>>();
-  if (j.contains("determination")) fit.determination = parse_determination(j.at("determination"));
-  fit.training = parse_metrics(j.at("training"));
-  fit.validation = parse_metrics(j.at(judged));
-  fit.band = parse_band(j.at("band"));
-  return fit;
+// How long the fit took; half a second less than its bound is written the same again.
+void describe_seconds(Fields& f, double& seconds) {
+  f.only_written("wall_time_below_s", whole_seconds_above(seconds));
+  if (!f.reads()) return;
+  f.known("wall_time_below_s", seconds);
+  seconds -= 0.5;
 }
 
-std::shared_ptr<const ModelFit> parse_delivered(const Json& j, const std::string& law,
-                                                const std::string& file) {
-  ModelFit fit = parse_whole_fit(j, "cross_validation", file);
-  if (fit.model.law->name != law)
-    throw InputError({file, 0, 0},
-                     fmt::format("what is delivered of '{}' is a '{}'", law, fit.model.law->name),
+// Texts of what the law computes, in the names of its inputs and parameters, for whoever reads the
+// file without frictab. `law` has the piece already where it is there.
+void write_expressions(Fields& f, const models::Model& model) {
+  const models::AssembledLaw law(model);
+  f.within("expressions", [&](Fields& texts) {
+    if (models::is_registered(*model.law)) texts.only_written("value", expr::to_text(law.piece));
+    texts.only_written("combine", expr::to_text(law.combine));
+  });
+}
+
+void write_law(Fields& f, const models::Model& model) {
+  Law law = *model.law;
+  if (!models::is_registered(*model.law))
+    f.within("law", [&](Fields& made) { describe_made_law(made, law, model.conventions); });
+  write_expressions(f, model);
+}
+
+// What a file says of a fit: models/NAME.json; calibration.json; there of a law fitted to all
+// experiments. None is left that could judge the latter: what is called validation of the others is
+// cross-validation here.
+enum class Part { model, calibrated, delivered };
+
+void describe_fit(Fields& f, ModelFit& fit, Part part,
+                  const std::vector<std::string>& experiments = {});
+
+void describe_delivered(Fields& f, ModelFit& fit) {
+  if (!f.has("delivered", fit.on_all != nullptr)) return;
+  ModelFit on_all = f.reads() ? ModelFit() : *fit.on_all;
+  f.within("delivered", [&](Fields& one) { describe_fit(one, on_all, Part::delivered); });
+  if (!f.reads()) return;
+  if (on_all.model.law->name != fit.model.law->name)
+    throw InputError({f.file(), 0, 0},
+                     fmt::format("what is delivered of '{}' is a '{}'", fit.model.law->name,
+                                 on_all.model.law->name),
                      "calibrate again");
-  return std::make_shared<const ModelFit>(std::move(fit));
+  fit.on_all = std::make_shared<const ModelFit>(std::move(on_all));
 }
 
-Json left_out_json(const std::vector<LeftOut>& left_out) {
-  Json list = Json::array();
-  for (const LeftOut& left : left_out)
-    list.push_back(left.text());
-  return list;
-}
-
-// As the file has it: "levanov: needs sigma_f_MPa".
-LeftOut parse_left_out(const std::string& text, const std::string& file) {
-  const std::string between = ": needs ";
-  const std::size_t at = text.find(between);
-  if (at == text.npos)
-    throw InputError({file, 0, 0}, "left_out has '" + text + "', not \"LAW: needs COLUMNS\"",
-                     "calibrate again");
-  return {text.substr(0, at), text.substr(at + between.size())};
+void describe_fit(Fields& f, ModelFit& fit, Part part,
+                  const std::vector<std::string>& experiments) {
+  models::Model& model = fit.model;
+  const bool whole = part != Part::model, calibrated = part == Part::calibrated;
+  if (f.reads()) model.law = read_law(f);
+  f.only_written("name", model.law->name);
+  f.only_written("title", model.law->title);
+  f.only_written("formula", model.law->formula);
+  if (!f.reads()) f.only_written("inputs", models::inputs(*model.law, model.conventions));
+  f.within("conventions", [&](Fields& c) { describe_conventions(c, model.conventions); });
+  describe_parameters(f, fit);
+  if (whole) {
+    f("std_error_method", fit.std_error_method);
+    f("training", fit.training);
+    if (calibrated) f("validation", fit.validation);
+    if (calibrated)
+      f.within("by_experiment_left_out",
+               [&](Fields& list) { describe_unseen(list, fit.unseen, experiments); });
+    describe_seconds(f, fit.seconds);
+    f("evaluations", fit.evaluations);
+    f("termination", fit.termination);
+    f("remarks", fit.remarks);
+  }
+  f.known("experiment_gains", model.experiment_gains);
+  if (whole) f("band", fit.band);
+  f.unless_default("covariance", model.covariance); // not in files of 0.2
+  if (whole && f.has("determination", fit.determination.condition > 0))
+    f("determination", fit.determination);
+  if (f.has("data_range", !fit.data_range.empty())) f.known("data_range", fit.data_range);
+  f.if_there("training_record", fit.network);
+  if (!f.reads() && revision_of(model) > 0) f.only_written("revision", revision_of(model));
+  f.if_there("polynomial", fit.polynomial);
+  if (!f.reads()) write_law(f, model);
+  bool candidate = !fit.reference;
+  if (f.has("candidate", fit.reference)) f("candidate", candidate); // none: files of 0.1
+  if (f.reads()) fit.reference = !candidate;
+  if (f.has("fitted_to", fit.fitted_to_all)) // none: files of 0.1.0
+    f.one_of("fitted_to", fit.fitted_to_all, {{"all", true}, {"training", false}}, {false});
+  if (calibrated) describe_delivered(f, fit);
+  if (part == Part::delivered) f("cross_validation", fit.validation);
 }
 
 } // namespace
 
-namespace {
-
-Json name_or_null(const std::string& law) {
-  return law.empty() ? Json() : Json(law);
+static void describe(Fields& f, Calibration& c) {
+  f("data_hash", c.data_hash);
+  f("synthetic_data", c.synthetic);
+  f.one_of("loss", c.loss, {{"L2", Loss::l2}, {"L1", Loss::l1}, {"huber", Loss::huber}},
+           {Loss::l2});
+  f("seed", c.seed);
+  describe_judged_by(f, "judged_by", c.judged_by);
+  if (f.has("deliver", true)) { // not in files of 0.1.0
+    f.one_of("deliver", c.deliver, {{"all", Deliver::all}, {"training", Deliver::training}},
+             {Deliver::training});
+    f("delivery_folds", c.delivery_folds);
+  }
+  if (f.has("recordings", true)) f("recordings", c.recordings);
+  f("validation_experiments", c.validation_experiments);
+  f.within("noise_floor", [&](Fields& floors) { describe_noise_floors(floors, c.noise_floors); });
+  f.list("models", c.fits, [&](Fields& one, ModelFit& fit) {
+    describe_fit(one, fit, Part::calibrated, c.validation_experiments);
+  });
+  if (f.has("influence", true)) f("influence", c.influence);
+  f("left_out", c.left_out);
+  f("comparisons", c.comparisons);
+  f("choice", c.choice);
+  if (!f.reads()) {
+    std::string best = c.fits.empty() ? "" : best_fit(c).model.law->name;
+    f.null_if_empty("best", best);
+    f.null_if_empty("recommended", c.recommended.law);
+  }
+  if (f.has("recommendation", true)) f("recommendation", c.recommended); // not in files of 0.1
+  f("conditional", c.conditional);
 }
-
-} // namespace
 
 std::string calibration_json(const Calibration& calibration) {
-  Json models = Json::array();
-  for (const ModelFit& fit : calibration.fits)
-    models.push_back(fit_json(fit));
-  const std::string best = calibration.fits.empty() ? "" : best_fit(calibration).model.law->name;
-  return io::json_text({{"schema", calibration_schema},
-                        {"tool_version", tool_version()},
-                        {"data_hash", calibration.data_hash},
-                        {"synthetic_data", calibration.synthetic},
-                        {"loss", loss_name(calibration.loss)},
-                        {"seed", calibration.seed},
-                        {"judged_by", judged_by_name(calibration.judged_by)},
-                        {"deliver", deliver_name(calibration.deliver)},
-                        {"delivery_folds", calibration.delivery_folds},
-                        {"recordings", calibration.recordings},
-                        {"validation_experiments", calibration.validation_experiments},
-                        {"noise_floor", noise_floors_json(calibration.noise_floors)},
-                        {"models", models},
-                        {"influence", influence_json(calibration.influence)},
-                        {"left_out", left_out_json(calibration.left_out)},
-                        {"comparisons", comparisons_json(calibration.comparisons)},
-                        {"choice", choice_json(calibration.choice)},
-                        {"best", name_or_null(best)},
-                        {"recommended", name_or_null(calibration.recommended.law)},
-                        {"recommendation", recommended_json(calibration.recommended)},
-                        {"conditional", conditional_json(calibration.conditional)}});
+  return io::record_text(calibration_schema,
+                         [&](Fields& f) { describe(f, io::to_write(calibration)); });
 }
 
 Calibration parse_calibration(std::string_view text, const std::string& file) {
-  const Json j = io::parse_json(text, file);
-  io::check_schema(j, calibration_schema, file, "calibrate again");
   Calibration calibration;
-  io::read_json(file, "calibrate again", [&] {
-    calibration.data_hash = j.at("data_hash");
-    calibration.synthetic = j.at("synthetic_data");
-    calibration.seed = io::count_of(j.at("seed"));
-    calibration.loss = parse_loss(j.at("loss").get<std::string>());
-    calibration.validation_experiments =
-        j.at("validation_experiments").get<std::vector<std::string>>();
-    for (const Json& one : j.at("left_out"))
-      calibration.left_out.push_back(parse_left_out(one.get<std::string>(), file));
-    calibration.noise_floors = parse_noise_floors(j.at("noise_floor"));
-    calibration.judged_by = parse_judged_by(j.at("judged_by"));
-    if (j.contains("deliver")) { // not in files of 0.1.0
-      calibration.deliver =
-          j.at("deliver").get<std::string>() == "all" ? Deliver::all : Deliver::training;
-      calibration.delivery_folds = io::count_of(j.at("delivery_folds"));
-    }
-    if (j.contains("influence")) calibration.influence = parse_influence(j.at("influence"));
-    if (j.contains("recordings")) calibration.recordings = io::count_of(j.at("recordings"));
-    calibration.choice = parse_choice(j.at("choice"));
-    if (j.contains("recommendation")) // not in files of 0.1
-      calibration.recommended = parse_recommended(j.at("recommendation"));
-    calibration.comparisons = parse_comparisons(j.at("comparisons"));
-    calibration.conditional = parse_conditional(j.at("conditional"));
-    for (const Json& one : j.at("models")) {
-      ModelFit fit = parse_whole_fit(one, "validation", file);
-      if (one.contains("delivered"))
-        fit.on_all = parse_delivered(one.at("delivered"), fit.model.law->name, file);
-      fit.reference = !one.value("candidate", true); // none: files of 0.1
-      fit.unseen =
-          parse_unseen(one.at("by_experiment_left_out"), calibration.validation_experiments);
-      calibration.fits.push_back(std::move(fit));
-    }
-  });
+  io::read_record(text, file, calibration_schema, "calibrate again",
+                  [&](Fields& f) { describe(f, calibration); });
   return calibration;
 }
 
 std::string model_json(const ModelFit& fit, const Calibration& calibration) {
-  Json j = {{"schema", model_schema},
-            {"tool_version", tool_version()},
-            {"data_hash", calibration.data_hash},
-            {"synthetic_data", calibration.synthetic}};
-  const Json body = fit_json(fit.delivered());
-  for (const char* key :
-       {"name", "title", "formula", "inputs", "conventions", "parameters", "experiment_gains",
-        "data_range", "law", "expressions", "revision", "fitted_to", "covariance"})
-    if (body.contains(key)) j[key] = body.at(key);
-  return io::json_text(j);
+  return io::record_text(model_schema, [&](Fields& f) {
+    f.only_written("data_hash", calibration.data_hash);
+    f.only_written("synthetic_data", calibration.synthetic);
+    Fields::Json body;
+    Fields fields(body);
+    describe_fit(fields, io::to_write(fit.delivered()), Part::model);
+    for (const char* key :
+         {"name", "title", "formula", "inputs", "conventions", "parameters", "experiment_gains",
+          "data_range", "law", "expressions", "revision", "fitted_to", "covariance"})
+      if (body.contains(key)) f.only_written(key, body.at(key));
+  });
 }
 
 ModelFit parse_model_fit(std::string_view text, const std::string& file) {
-  const Json j = io::parse_json(text, file);
-  io::check_schema(j, model_schema, file, "give models/NAME.json of a run");
   ModelFit fit;
-  io::read_json(file, "calibrate again", [&] { fit = parse_fit(j, file); });
+  io::read_record(text, file, model_schema, "give models/NAME.json of a run, or calibrate again",
+                  [&](Fields& f) { describe_fit(f, fit, Part::model); });
   return fit;
 }
 

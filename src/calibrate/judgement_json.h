@@ -1,47 +1,30 @@
-// Errors, comparisons, noise floors and conditional use as parts of calibration.json.
+// Errors, comparisons, noise floors and conditional use as parts of JSON files (io/json_fields.h).
 #pragma once
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "calibrate/judgement.h"
 
+namespace frictab::io {
+class Fields;
+}
+
 namespace frictab::calibrate {
 
-// NaN and infinities are null in JSON.
-double number_or_nan(const nlohmann::ordered_json& value);
+void describe(io::Fields& f, Interval& interval); // [low, high]
+void describe(io::Fields& f, Metrics& metrics);
+void describe(io::Fields& f, Determination& determination);
+void describe(io::Fields& f, Influence& influence);
+void describe(io::Fields& f, Choice& choice);           // null where nothing was drawn
+void describe(io::Fields& f, Recommended& recommended); // null where nothing judges the laws
+void describe(io::Fields& f, Comparisons& comparisons);
+void describe(io::Fields& f, Conditional& conditional); // null where it was not asked for
 
-nlohmann::ordered_json metrics_json(const Metrics& metrics);
-Metrics parse_metrics(const nlohmann::ordered_json& j);
-
-JudgedBy parse_judged_by(const std::string& name);
-
-// Arrays over the experiments; null where none was left out. The names stand elsewhere.
-nlohmann::ordered_json unseen_json(const std::vector<ExperimentError>& errors);
-std::vector<ExperimentError> parse_unseen(const nlohmann::ordered_json& j,
-                                          const std::vector<std::string>& experiments);
-
-nlohmann::ordered_json determination_json(const Determination& determination);
-Determination parse_determination(const nlohmann::ordered_json& j);
-nlohmann::ordered_json influence_json(const std::vector<Influence>& influence);
-std::vector<Influence> parse_influence(const nlohmann::ordered_json& j);
-
-// null where nothing was drawn.
-nlohmann::ordered_json choice_json(const Choice& choice);
-Choice parse_choice(const nlohmann::ordered_json& j);
-
-// null where nothing judges the laws.
-nlohmann::ordered_json recommended_json(const Recommended& recommended);
-Recommended parse_recommended(const nlohmann::ordered_json& j);
-
-nlohmann::ordered_json comparisons_json(const Comparisons& comparisons);
-Comparisons parse_comparisons(const nlohmann::ordered_json& j);
+void describe_judged_by(io::Fields& f, const char* key, JudgedBy& judged_by);
 
 // The first one, with the others as its `also`; null where there is none.
-nlohmann::ordered_json noise_floors_json(const std::vector<NoiseFloor>& floors);
-std::vector<NoiseFloor> parse_noise_floors(const nlohmann::ordered_json& j);
+void describe_noise_floors(io::Fields& f, std::vector<NoiseFloor>& floors);
 
-// null where it was not asked for.
-nlohmann::ordered_json conditional_json(const Conditional& conditional);
-Conditional parse_conditional(const nlohmann::ordered_json& j);
+// Arrays over the experiments; null where none was left out. The names stand elsewhere.
+void describe_unseen(io::Fields& f, std::vector<ExperimentError>& errors,
+                     const std::vector<std::string>& experiments);
 
 } // namespace frictab::calibrate

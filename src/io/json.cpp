@@ -41,13 +41,14 @@ std::uint64_t count_of(const nlohmann::ordered_json& value) {
   throw nlohmann::ordered_json::type_error::create(302, value.dump() + " is not a count", &value);
 }
 
-void read_json(const std::string& file, const std::string& mends,
-               const std::function<void()>& read) {
+void read_json(const std::string& file, const std::string& mends, const std::function<void()>& read,
+               const std::string& path) {
   try {
     read();
   } catch (const nlohmann::ordered_json::exception& error) {
     std::string what = error.what();
     what = what.substr(std::min(what.size(), what.find("] ") + 2));
+    if (!path.empty()) what = path + ": " + what;
     throw InputError({file, 0, 0}, "not as frictab writes it: " + what, mends);
   }
 }

@@ -22,9 +22,10 @@ nlohmann::ordered_json parse_json(std::string_view text, const std::string& file
 std::uint64_t count_of(const nlohmann::ordered_json& value);
 
 // Runs `read`, which takes values out of parsed JSON. A missing or mistyped key becomes an
-// InputError that names the file and, from `mends`, its remedy.
-void read_json(const std::string& file, const std::string& mends,
-               const std::function<void()>& read);
+// InputError that names the file, the `path` of keys that `read` had reached, and, from `mends`, the
+// remedy.
+void read_json(const std::string& file, const std::string& mends, const std::function<void()>& read,
+               const std::string& path = "");
 
 // Throws InputError if the file's kind or version differs from `schema`, "frictab/model/1".
 void check_schema(const nlohmann::ordered_json& json, const std::string& schema,

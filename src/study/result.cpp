@@ -2,20 +2,17 @@
 #include "study/result.h"
 
 #include <algorithm>
-
-#include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "calibrate/judgement_json.h"
 #include "core/no_value.h"
 #include "core/text.h"
-#include "core/version.h"
 #include "effects/effect.h"
-#include "io/json.h"
+#include "io/json_fields.h"
 
 namespace frictab::study {
 
-using Json = nlohmann::ordered_json;
-using calibrate::number_or_nan;
+using io::Fields;
 
 namespace {
 
@@ -81,100 +78,60 @@ void add_effects(CampaignResult& result, const std::vector<trace::Trace>& traces
                                 effect.gain_MPa});
 }
 
-namespace {
-
-Json law_json(const LawResult& law) {
-  Json json = {{"law", law.law},
-               {"fitted", law.fitted},
-               {"mae_MPa", law.mae_MPa},
-               {"mae_interval_MPa", {law.mae_interval.low, law.mae_interval.high}},
-               {"rmse_MPa", law.rmse_MPa},
-               {"bias_MPa", law.bias_MPa},
-               {"best_p_value", law.best_p_value},
-               {"parameters", Json::array()}};
-  if (law.band_low && law.band_high) json["band"] = {*law.band_low, *law.band_high};
-  for (const FittedParameter& p : law.parameters)
-    json["parameters"].push_back(
-        {{"name", p.name}, {"value", p.value}, {"std_error", p.std_error}, {"unit", p.unit}});
-  return json;
+static void describe(Fields& f, FittedParameter& p) {
+  f("name", p.name);
+  f("value", p.value);
+  f("std_error", p.std_error);
+  f("unit", p.unit);
 }
 
-LawResult parse_law(const Json& json) {
-  LawResult law;
-  law.law = json.at("law");
-  law.fitted = json.at("fitted");
-  law.mae_MPa = number_or_nan(json.at("mae_MPa"));
-  law.mae_interval = {number_or_nan(json.at("mae_interval_MPa").at(0)),
-                      number_or_nan(json.at("mae_interval_MPa").at(1))};
-  law.rmse_MPa = number_or_nan(json.at("rmse_MPa"));
-  law.bias_MPa = number_or_nan(json.at("bias_MPa"));
-  law.best_p_value = number_or_nan(json.at("best_p_value"));
-  if (json.contains("band")) {
-    law.band_low = json.at("band").at(0).get<double>();
-    law.band_high = json.at("band").at(1).get<double>();
-  }
-  for (const Json& p : json.at("parameters"))
-    law.parameters.push_back({p.at("name"), p.at("unit"), number_or_nan(p.at("value")),
-                              number_or_nan(p.at("std_error"))});
-  return law;
+static void describe(Fields& f, LawResult& law) {
+  f("law", law.law);
+  f("fitted", law.fitted);
+  f("mae_MPa", law.mae_MPa);
+  f("mae_interval_MPa", law.mae_interval);
+  f("rmse_MPa", law.rmse_MPa);
+  f("bias_MPa", law.bias_MPa);
+  f("best_p_value", law.best_p_value);
+  f("parameters", law.parameters);
+  if (!f.has("band", law.band_low && law.band_high)) return;
+  std::pair band(law.band_low.value_or(0), law.band_high.value_or(0));
+  f.known("band", band);
+  if (f.reads()) std::tie(law.band_low, law.band_high) = band;
 }
 
-Json effect_json(const EffectResult& effect) {
-  return {{"law", effect.law},         {"column", effect.column},   {"form", effect.form},
-          {"acts_on", effect.acts_on}, {"p_value", effect.p_value}, {"gain_MPa", effect.gain_MPa}};
+static void describe(Fields& f, EffectResult& effect) {
+  f("law", effect.law);
+  f("column", effect.column);
+  f("form", effect.form);
+  f("acts_on", effect.acts_on);
+  f("p_value", effect.p_value);
+  f("gain_MPa", effect.gain_MPa);
 }
 
-EffectResult parse_effect(const Json& json) {
-  return {json.at("law"),
-          json.at("column"),
-          json.at("form"),
-          json.at("acts_on"),
-          number_or_nan(json.at("p_value")),
-          number_or_nan(json.at("gain_MPa"))};
+static void describe(Fields& f, CampaignResult& result) {
+  f("data", result.data_hash);
+  f("synthetic_data", result.synthetic);
+  f("judged_by", result.judged_by);
+  f("experiments", result.experiments);
+  f("rows", result.rows);
+  f("laws", result.laws);
+  f("traced", result.traced);
+  f("effects", result.effects);
+  f("missed", result.missed);
 }
-
-void read_result(const Json& json, CampaignResult& result) {
-  result.data_hash = json.at("data");
-  result.judged_by = json.at("judged_by");
-  result.synthetic = json.at("synthetic_data");
-  result.experiments = io::count_of(json.at("experiments"));
-  result.rows = io::count_of(json.at("rows"));
-  for (const Json& law : json.at("laws"))
-    result.laws.push_back(parse_law(law));
-  result.traced = json.at("traced");
-  for (const Json& effect : json.at("effects"))
-    result.effects.push_back(parse_effect(effect));
-  result.missed = json.at("missed").get<std::vector<std::string>>();
-}
-
-} // namespace
 
 std::string result_json(const CampaignResult& result, const std::string& key) {
-  Json json = {{"schema", schema},
-               {"tool_version", tool_version()},
-               {"key", key},
-               {"data", result.data_hash},
-               {"synthetic_data", result.synthetic},
-               {"judged_by", result.judged_by},
-               {"experiments", result.experiments},
-               {"rows", result.rows},
-               {"laws", Json::array()},
-               {"traced", result.traced},
-               {"effects", Json::array()},
-               {"missed", result.missed}};
-  for (const LawResult& law : result.laws)
-    json["laws"].push_back(law_json(law));
-  for (const EffectResult& effect : result.effects)
-    json["effects"].push_back(effect_json(effect));
-  return io::json_text(json);
+  return io::record_text(schema, [&](Fields& f) {
+    f.only_written("key", key);
+    describe(f, io::to_write(result));
+  });
 }
 
 CampaignResult parse_result(std::string_view text, const std::string& file) {
-  const std::string mends = "remove its folder: `frictab study run` rebuilds it";
-  const Json json = io::parse_json(text, file);
-  io::check_schema(json, schema, file, mends);
   CampaignResult result;
-  io::read_json(file, mends, [&] { read_result(json, result); });
+  io::read_record(text, file, schema, "remove its folder: `frictab study run` makes it anew",
+                  [&](Fields& f) { describe(f, result); });
   return result;
 }
 

@@ -2,163 +2,63 @@
 #include "trace/trace_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
-
-#include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "calibrate/judgement_json.h"
 #include "core/error.h"
-#include "core/text.h"
-#include "core/version.h"
-#include "io/json.h"
+#include "core/no_value.h"
+#include "io/json_fields.h"
 
 namespace frictab::trace {
 
-using calibrate::number_or_nan;
+using io::Fields;
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* schema = "frictab/trace/1";
 
-// (JSON has no infinity: null.)
-double limit(const Json& value) {
-  return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
+void describe_family(Fields& f, bool& between) {
+  f.one_of("family", between, {{"between_tests", true}, {"within_tests", false}}, {false});
 }
 
-Json derived_json(const std::string& derived) {
-  return derived.empty() ? Json() : Json(derived);
+void describe_verdict(Fields& f, Verdict& verdict) {
+  f.one_of("verdict", verdict,
+           {{verdict_name(Verdict::effect_added), Verdict::effect_added},
+            {verdict_name(Verdict::nothing_missing), Verdict::nothing_missing},
+            {verdict_name(Verdict::nothing_found), Verdict::nothing_found},
+            {verdict_name(Verdict::unexplained_structure), Verdict::unexplained_structure}});
 }
 
-std::string parse_derived(const Json& j) {
-  return j.is_null() ? "" : j.get<std::string>();
+void describe_acts_on(Fields& f, effects::ActsOn& acts_on) {
+  std::string name = effects::acts_on_name(acts_on);
+  f("acts_on", name);
+  if (!f.reads()) return;
+  const auto known = effects::find_acts_on(name);
+  if (!known) throw InputError({f.file(), 0, 0}, "an effect acts on '" + name + "'", "trace again");
+  acts_on = *known;
 }
 
-const char* family_name(bool between) {
-  return between ? "between_tests" : "within_tests";
+void describe_form(Fields& f, effects::PlacedEffect& placed) {
+  std::string name = f.reads() ? "" : placed.form->name;
+  f("form", name);
+  if (f.reads()) placed.form = effects::find_effect(name);
+  if (!placed.form) f.fail("unknown effect form '" + name + "'");
 }
 
-Json parameters_json(const TracedEffect& effect) {
-  Json list = Json::array();
-  for (const TracedParameter& p : effect.parameters) {
-    list.push_back(
-        {{"name", p.name}, {"value", p.value}, {"std_error", p.std_error}, {"unit", p.unit}});
-    if (!p.why_none.empty()) list.back()["no_error_because"] = p.why_none;
-  }
-  return list;
-}
-
-Json alternatives_json(const TracedEffect& effect) {
-  Json list = Json::array();
-  for (const Alternative& a : effect.alternatives)
-    list.push_back({{"name", a.name},
-                    {"columns", a.columns},
-                    {"derived", derived_json(a.derived)},
-                    {"form", a.form},
-                    {"acts_on", effects::acts_on_name(a.acts_on)},
-                    {"cannot_be_told_apart", a.in_set},
-                    {"why_not", a.why_not}});
-  return list;
-}
-
-Json placed_json(const effects::PlacedEffect& p) {
-  Json inputs = Json::array();
-  for (const effects::EffectInput& input : p.inputs) {
-    Json one = {{"column", input.column}};
-    if (input.levels.empty())
-      one["held_between"] = {input.low, input.high};
-    else
-      one["levels"] = input.levels;
-    if (!input.knots.empty()) one["knots"] = input.knots;
-    inputs.push_back(one);
-  }
-  Json j = {{"inputs", inputs}, {"values", p.parameters}};
-  if (p.stiffness > 0) j["stiffness"] = p.stiffness;
-  if (p.acts_on == effects::ActsOn::tau) {
-    j["unit_MPa"] = p.tau_scale_MPa;
-    j["fades_below_MPa"] = p.pressure_MPa;
-  }
-  return j;
-}
-
-Json curve_json(const EffectCurve& c) {
-  return {{"x", c.x},          {"factor", c.factor},   {"low_95", c.low},
-          {"high_95", c.high}, {"point_x", c.point_x}, {"point_factor", c.point_factor}};
-}
-
-// null: there is nothing to settle, or nothing that would settle it.
-Json design_json(const Design& d) {
-  if (d.tests.empty()) return nullptr;
-  Json tests = Json::array();
-  for (const std::vector<std::string>& values : d.tests) {
-    Json test;
-    for (std::size_t c = 0; c < values.size(); ++c)
-      test[d.columns[c]] = values[c];
-    tests.push_back(test);
-  }
-  return {{"settles", d.settles},
-          {"columns", d.columns},
-          {"tests", tests},
-          {"all_else_as_in", d.like},
-          {"probability", d.probability},
-          {"tests_for_80_percent", d.tests_needed}};
-}
-
-Design parse_design(const Json& j) {
-  if (j.is_null()) return {};
-  Design d{j.at("columns").get<std::vector<std::string>>(),
-           {},
-           j.at("all_else_as_in"),
-           j.at("settles").get<std::vector<std::string>>(),
-           number_or_nan(j.at("probability")),
-           number_or_nan(j.at("tests_for_80_percent"))};
-  for (const Json& test : j.at("tests")) {
-    std::vector<std::string> values;
-    for (const std::string& column : d.columns)
-      values.push_back(test.at(column));
-    d.tests.push_back(std::move(values));
-  }
-  return d;
-}
-
-Json effect_json(const TracedEffect& e) {
-  return {{"columns", e.columns},
-          {"derived", derived_json(e.derived)},
-          {"form", e.placed.form->name},
-          {"formula", effects::formula_text(e.placed)},
-          {"acts_on", effects::acts_on_name(e.placed.acts_on)},
-          {"parameters", parameters_json(e)},
-          {"family", family_name(e.between)},
-          {"p_value", e.p_value},
-          {"gain_MPa", e.gain_MPa},
-          {"order_confounded", e.order_confounded},
-          {"discriminating_design", design_json(e.design)},
-          {"alternatives", alternatives_json(e)},
-          {"in_the_law", placed_json(e.placed)},
-          {"curve", curve_json(e.curve)}};
-}
-
-effects::EffectInput parse_input(const Json& j) {
-  effects::EffectInput input;
-  input.column = j.at("column");
-  if (j.contains("levels")) input.levels = j.at("levels").get<std::vector<std::string>>();
-  if (j.contains("knots")) input.knots = j.at("knots").get<std::vector<double>>();
-  if (j.contains("held_between")) {
-    input.low = j.at("held_between").at(0);
-    input.high = j.at("held_between").at(1);
-  }
-  return input;
-}
-
-effects::ActsOn parse_acts_on(const std::string& name) {
-  if (const auto acts_on = effects::find_acts_on(name)) return *acts_on;
-  throw InputError({"trace.json", 0, 0}, "an effect acts on '" + name + "'", "trace again");
+void describe_input(Fields& f, effects::EffectInput& input) {
+  f("column", input.column);
+  std::pair ends(input.low, input.high);
+  if (f.has("held_between", input.levels.empty())) f.known("held_between", ends);
+  if (f.reads()) std::tie(input.low, input.high) = ends;
+  f.unless_default("levels", input.levels);
+  if (f.has("knots", !input.knots.empty())) f.known("knots", input.knots);
 }
 
 // As many columns, knots, levels and parameters as the form asks for.
-void check_placed(const effects::PlacedEffect& p) {
+void check_placed(const effects::PlacedEffect& p, const std::string& file) {
   const auto ascend = [](const std::vector<double>& knots) {
     return !knots.empty() &&
            std::adjacent_find(knots.begin(), knots.end(), std::greater_equal<>()) == knots.end();
@@ -168,315 +68,239 @@ void check_placed(const effects::PlacedEffect& p) {
     fits = p.form->knots[i] == 0 || ascend(p.inputs[i].knots);
   fits = fits && (!p.form->categorical || !p.inputs[0].levels.empty());
   if (!fits || p.parameters.size() != effects::parameters_of(p).size())
-    throw InputError({"trace.json", 0, 0}, "an effect has not the parts of its form",
-                     "trace again");
+    throw InputError({file, 0, 0}, "an effect has not the parts of its form", "trace again");
 }
 
-effects::PlacedEffect parse_placed(const Json& j, const Json& effect) {
-  effects::PlacedEffect p;
-  p.form = effects::find_effect(effect.at("form").get<std::string>());
-  if (!p.form) throw InputError({"trace.json", 0, 0}, "unknown effect form", "trace again");
-  for (const Json& input : j.at("inputs"))
-    p.inputs.push_back(parse_input(input));
-  p.parameters = j.at("values").get<std::vector<double>>();
-  if (j.contains("stiffness")) p.stiffness = j.at("stiffness");
-  if (j.contains("unit_MPa")) p.tau_scale_MPa = j.at("unit_MPa");
-  if (j.contains("fades_below_MPa")) p.pressure_MPa = j.at("fades_below_MPa");
-  p.acts_on = parse_acts_on(effect.at("acts_on"));
-  check_placed(p);
-  return p;
+void describe_placed(Fields& f, effects::PlacedEffect& p) {
+  f.list("inputs", p.inputs, describe_input);
+  f.known("values", p.parameters);
+  const bool added = p.acts_on == effects::ActsOn::tau;
+  if (f.has("stiffness", p.stiffness > 0)) f.known("stiffness", p.stiffness);
+  if (f.has("unit_MPa", added)) f.known("unit_MPa", p.tau_scale_MPa);
+  if (f.has("fades_below_MPa", added)) f.known("fades_below_MPa", p.pressure_MPa);
+  if (f.reads()) check_placed(p, f.file());
 }
 
-std::vector<double> numbers(const Json& j) {
-  std::vector<double> values;
-  for (const Json& value : j)
-    values.push_back(number_or_nan(value));
-  return values;
+void describe_gain(Fields& f, calibrate::Difference& gain) {
+  f("validation_mae_MPa", gain.value_MPa);
+  f("interval_95", gain.interval);
+  f("p_value", gain.p_value);
 }
 
-TracedEffect parse_effect_json(const Json& j) {
-  TracedEffect e;
-  e.placed = parse_placed(j.at("in_the_law"), j);
-  e.columns = j.at("columns").get<std::vector<std::string>>();
-  e.derived = parse_derived(j.at("derived"));
-  for (const Json& p : j.at("parameters"))
-    e.parameters.push_back({p.at("name"), number_or_nan(p.at("value")),
-                            number_or_nan(p.at("std_error")), p.at("unit"),
-                            p.value("no_error_because", "")});
-  e.between = j.at("family") == family_name(true);
-  e.p_value = number_or_nan(j.at("p_value"));
-  e.gain_MPa = number_or_nan(j.at("gain_MPa"));
-  e.order_confounded = j.at("order_confounded");
-  e.design = parse_design(j.at("discriminating_design"));
-  for (const Json& a : j.at("alternatives"))
-    e.alternatives.push_back({a.at("name"), a.at("columns").get<std::vector<std::string>>(),
-                              parse_derived(a.at("derived")), a.at("form"),
-                              parse_acts_on(a.at("acts_on")), a.at("cannot_be_told_apart"),
-                              a.at("why_not")});
-  const Json& c = j.at("curve");
-  e.curve = {numbers(c.at("x")),       numbers(c.at("factor")),  numbers(c.at("low_95")),
-             numbers(c.at("high_95")), numbers(c.at("point_x")), numbers(c.at("point_factor"))};
-  return e;
+void describe_scatter(Fields& f, Trace& t) {
+  const bool old = f.reads() && f.json().contains("noise_floor"); // as versions to 0.1.0 wrote
+  f.within(old ? "noise_floor" : "scatter_by_noise_model", [&](Fields& floor) {
+    floor("mae_MPa", t.noise_floor.mae_MPa);
+    floor("rmse_MPa", t.noise_floor.rmse_MPa);
+    floor("method", t.noise_floor.method);
+  });
+  f.within("scatter_between_experiments", [&](Fields& between) {
+    between("share", t.scatter_between);
+    between("interval_95", t.scatter_interval);
+    between("at_least", t.scatter_at_least);
+    between("repeatability", t.repeatability);
+    between("repeatability_from", t.repeatability_from);
+  });
+  f("smallest_seen_between_halves", t.smallest_seen);
+  if (f.reads() && std::isnan(t.smallest_seen))
+    t.smallest_seen = std::numeric_limits<double>::infinity();
 }
 
-Json leads_json(const std::vector<Lead>& leads) {
-  Json list = Json::array();
-  for (const Lead& lead : leads)
-    list.push_back(
-        {{"name", lead.name},
-         {"columns", lead.columns},
-         {"derived", derived_json(lead.derived)},
-         {"form", lead.form},
-         {"family", family_name(lead.between)},
-         {"p_value", lead.p_value},
-         {"share", lead.share},
-         {"why_not_added", lead.why},
-         {"design", design_json(lead.design)},
-         {"significant", lead.significant},
-         {"searched_tests_mae_MPa", {{"without", lead.without_MPa}, {"with", lead.with_MPa}}}});
-  return list;
+} // namespace
+
+static void describe(Fields& f, TracedParameter& p) {
+  f("name", p.name);
+  f("value", p.value);
+  f("std_error", p.std_error);
+  f("unit", p.unit);
+  f.unless_default("no_error_because", p.why_none);
 }
 
-std::vector<Lead> parse_leads(const Json& j) {
-  std::vector<Lead> leads;
-  for (const Json& lead : j)
-    leads.push_back({lead.at("name"), lead.at("columns").get<std::vector<std::string>>(),
-                     parse_derived(lead.at("derived")), lead.at("form"),
-                     lead.at("family") == family_name(true), number_or_nan(lead.at("p_value")),
-                     number_or_nan(lead.at("share")), lead.at("why_not_added"),
-                     parse_design(lead.at("design")), lead.at("significant"),
-                     lead.at("searched_tests_mae_MPa").at("without"),
-                     lead.at("searched_tests_mae_MPa").at("with")});
-  return leads;
+static void describe(Fields& f, Alternative& a) {
+  f("name", a.name);
+  f("columns", a.columns);
+  f.null_if_empty("derived", a.derived);
+  f("form", a.form);
+  describe_acts_on(f, a.acts_on);
+  f("cannot_be_told_apart", a.in_set);
+  f("why_not", a.why_not);
 }
 
-Json worlds_json(const ValidationShift& w) {
-  return {{"apart", w.found},
-          {"shift_MPa", w.shift_MPa},
-          {"interval_95", {w.interval.low, w.interval.high}},
-          {"share", w.share},
-          {"p_value", w.p_value}};
+static void describe(Fields& f, EffectCurve& c) {
+  f("x", c.x);
+  f("factor", c.factor);
+  f("low_95", c.low);
+  f("high_95", c.high);
+  f("point_x", c.point_x);
+  f("point_factor", c.point_factor);
 }
 
-ValidationShift parse_worlds(const Json& j) {
-  return {j.at("apart"),
-          number_or_nan(j.at("shift_MPa")),
-          {number_or_nan(j.at("interval_95").at(0)), number_or_nan(j.at("interval_95").at(1))},
-          number_or_nan(j.at("share")),
-          number_or_nan(j.at("p_value"))};
+// null: there is nothing to settle, or nothing that would settle it.
+static void describe(Fields& f, Design& d) {
+  if (f.null(d.tests.empty())) return;
+  f("settles", d.settles);
+  f("columns", d.columns);
+  f.list("tests", d.tests, [&](Fields& test, std::vector<std::string>& values) {
+    if (f.reads()) values.resize(d.columns.size());
+    for (std::size_t c = 0; c < values.size(); ++c)
+      test(d.columns[c].c_str(), values[c]);
+  });
+  f("all_else_as_in", d.like);
+  f("probability", d.probability);
+  f("tests_for_80_percent", d.tests_needed);
 }
 
-Json nested_json(const NestedCheck& n) {
-  return {{"folds", n.folds},
-          {"gain", n.gain},
-          {"std_error", n.std_error},
-          {"log_score", n.score},
-          {"log_score_std_error", n.score_se},
-          {"effects_offered", n.offered},
-          {"effects_that_pay", n.paying}};
+static void describe(Fields& f, TracedEffect& e) {
+  f("columns", e.columns);
+  f.null_if_empty("derived", e.derived);
+  describe_form(f, e.placed);
+  if (!f.reads()) f.only_written("formula", effects::formula_text(e.placed));
+  describe_acts_on(f, e.placed.acts_on);
+  f("parameters", e.parameters);
+  describe_family(f, e.between);
+  f("p_value", e.p_value);
+  f("gain_MPa", e.gain_MPa);
+  f("order_confounded", e.order_confounded);
+  f("discriminating_design", e.design);
+  f("alternatives", e.alternatives);
+  f.within("in_the_law", [&](Fields& placed) { describe_placed(placed, e.placed); });
+  f("curve", e.curve);
 }
 
-Json difference_json(const calibrate::Difference& gain) {
-  return {{"validation_mae_MPa", gain.value_MPa},
-          {"interval_95", {gain.interval.low, gain.interval.high}},
-          {"p_value", gain.p_value}};
+static void describe(Fields& f, Lead& lead) {
+  f("name", lead.name);
+  f("columns", lead.columns);
+  f.null_if_empty("derived", lead.derived);
+  f("form", lead.form);
+  describe_family(f, lead.between);
+  f("p_value", lead.p_value);
+  f("share", lead.share);
+  f("why_not_added", lead.why);
+  f("design", lead.design);
+  f("significant", lead.significant);
+  f.within("searched_tests_mae_MPa", [&](Fields& mae) {
+    mae.known("without", lead.without_MPa);
+    mae.known("with", lead.with_MPa);
+  });
 }
 
-calibrate::Difference parse_difference(const Json& j) {
-  const Json& interval = j.at("interval_95");
-  return {number_or_nan(j.at("validation_mae_MPa")),
-          {number_or_nan(interval.at(0)), number_or_nan(interval.at(1))},
-          number_or_nan(j.at("p_value"))};
+static void describe(Fields& f, ValidationShift& w) {
+  f("apart", w.found);
+  f("shift_MPa", w.shift_MPa);
+  f("interval_95", w.interval);
+  f("share", w.share);
+  f("p_value", w.p_value);
 }
 
-Json errors_json(const TraceErrors& errors) {
-  return {{"training", calibrate::metrics_json(errors.training)},
-          {"validation", calibrate::metrics_json(errors.validation)}};
+static void describe(Fields& f, NestedCheck& n) {
+  f("folds", n.folds);
+  f("gain", n.gain);
+  f("std_error", n.std_error);
+  f("log_score", n.score);
+  f("log_score_std_error", n.score_se);
+  f("effects_offered", n.offered);
+  f("effects_that_pay", n.paying);
 }
 
-TraceErrors parse_errors(const Json& j) {
-  return {calibrate::parse_metrics(j.at("training")), calibrate::parse_metrics(j.at("validation"))};
+static void describe(Fields& f, TraceErrors& errors) {
+  f("training", errors.training);
+  f("validation", errors.validation);
 }
 
-Json detectable_json(const std::vector<Detectable>& all) {
-  Json list = Json::array();
-  for (const Detectable& d : all)
-    list.push_back({{"column", d.column},
-                    {"derived", derived_json(d.derived)},
-                    {"acts_on", effects::acts_on_name(d.acts_on)},
-                    {"identifiable", d.identifiable},
-                    {"size_MPa", d.identifiable ? Json(d.size_MPa) : Json()},
-                    {"share", d.identifiable ? Json(d.share) : Json()}});
-  return list;
+static void describe(Fields& f, Detectable& d) {
+  f("column", d.column);
+  f.null_if_empty("derived", d.derived);
+  describe_acts_on(f, d.acts_on);
+  f("identifiable", d.identifiable);
+  for (const auto& [key, size] : {std::pair("size_MPa", &d.size_MPa), {"share", &d.share}}) {
+    double known = d.identifiable ? *size : no_value;
+    f(key, known);
+    if (f.reads()) *size = known;
+  }
 }
 
-Json order_json(const OrderStructure& o) {
-  return {{"structure", o.found},          {"column", o.column}, {"p_value", o.p_value},
-          {"size_MPa", o.size_MPa},        {"share", o.share},   {"order_confounded", o.found},
-          {"law_holds_it_at", o.reference}};
+static void describe(Fields& f, OrderStructure& o) {
+  f("structure", o.found);
+  f("column", o.column);
+  f("p_value", o.p_value);
+  f("size_MPa", o.size_MPa);
+  f("share", o.share);
+  f.only_written("order_confounded", o.found);
+  f("law_holds_it_at", o.reference);
 }
 
-const char* const verdicts = "effect_added, nothing_missing, nothing_found, unexplained_structure";
-
-Verdict parse_verdict(const std::string& text) {
-  for (const Verdict v : {Verdict::effect_added, Verdict::nothing_missing, Verdict::nothing_found,
-                          Verdict::unexplained_structure})
-    if (text == verdict_name(v)) return v;
-  throw InputError({"trace.json", 0, 0}, "unknown verdict '" + text + "'",
-                   std::string("known: ") + verdicts);
+static void describe(Fields& f, Remaining& r) {
+  f("structure", r.structure);
+  f("p_value", r.p_value);
+  f("note", r.note);
 }
 
-Json aliases_json(const std::vector<Alias>& aliases) {
-  Json list = Json::array();
-  for (const Alias& one : aliases)
-    list.push_back(
-        {{"column", one.column}, {"state", one.state}, {"share", one.share}, {"text", one.text}});
-  return list;
+static void describe(Fields& f, Alias& one) {
+  f("column", one.column);
+  f("state", one.state);
+  f("share", one.share);
+  f("text", one.text);
 }
 
-Json one_json(const Trace& t) {
-  Json effects = Json::array();
-  for (const TracedEffect& effect : t.effects)
-    effects.push_back(effect_json(effect));
-  const auto& floor = t.noise_floor;
-  return {{"model", t.model},
-          {"extended_model", derived_json(t.extended_model)},
-          {"verdict", verdict_name(t.verdict)},
-          {"alpha", t.alpha},
-          {"effects", effects},
-          {"unseen", t.unseen},
-          {"validation_searched", t.validation_searched},
-          {"as_calibrated", errors_json(t.as_calibrated)},
-          {"before", errors_json(t.before)},
-          {"after", errors_json(t.after)},
-          {"nested_cross_validation", nested_json(t.nested)},
-          {"validation_against_training", worlds_json(t.validation_shift)},
-          {"leads", leads_json(t.leads)},
-          {"improvement", difference_json(t.improvement)},
-          {"improvement_over_calibrated",
-           t.over_calibrated ? difference_json(*t.over_calibrated) : Json(nullptr)},
-          {"scatter_by_noise_model",
-           {{"mae_MPa", floor.mae_MPa}, {"rmse_MPa", floor.rmse_MPa}, {"method", floor.method}}},
-          {"scatter_between_experiments",
-           {{"share", t.scatter_between},
-            {"interval_95", {t.scatter_interval.low, t.scatter_interval.high}},
-            {"at_least", t.scatter_at_least},
-            {"repeatability", t.repeatability ? Json(*t.repeatability) : Json()},
-            {"repeatability_from", t.repeatability_from}}},
-          {"smallest_seen_between_halves", t.smallest_seen},
-          {"order_of_tests", order_json(t.order)},
-          {"remaining",
-           {{"structure", t.remaining.structure},
-            {"p_value", t.remaining.p_value},
-            {"note", t.remaining.note}}},
-          {"detectable", detectable_json(t.detectable)},
-          {"tried",
-           {{"columns", t.n_columns},
-            {"directions", t.n_candidates},
-            {"sign_flips", t.n_flips},
-            {"least_p_value", t.least_p_value}}},
-          {"cannot_tell", aliases_json(t.cannot_tell)},
-          {"not_identifiable", t.not_identifiable},
-          {"rejected", t.rejected},
-          {"notes", t.notes}};
+static void describe(Fields& f, Trace& t) {
+  f("model", t.model);
+  f.null_if_empty("extended_model", t.extended_model);
+  describe_verdict(f, t.verdict);
+  f.known("alpha", t.alpha);
+  f("effects", t.effects);
+  f("unseen", t.unseen);
+  f("validation_searched", t.validation_searched);
+  f("as_calibrated", t.as_calibrated);
+  f("before", t.before);
+  f("after", t.after);
+  f("nested_cross_validation", t.nested);
+  f("validation_against_training", t.validation_shift);
+  f("leads", t.leads);
+  f.within("improvement", [&](Fields& gain) { describe_gain(gain, t.improvement); });
+  if (f.has("improvement_over_calibrated", true))
+    f.within("improvement_over_calibrated", [&](Fields& gain) {
+      if (!gain.null(!t.over_calibrated))
+        describe_gain(gain, f.reads() ? t.over_calibrated.emplace() : *t.over_calibrated);
+    });
+  describe_scatter(f, t);
+  f("order_of_tests", t.order);
+  f("remaining", t.remaining);
+  f("detectable", t.detectable);
+  f.within("tried", [&](Fields& tried) {
+    tried("columns", t.n_columns);
+    tried("directions", t.n_candidates);
+    tried("sign_flips", t.n_flips);
+    tried.known("least_p_value", t.least_p_value);
+  });
+  if (f.has("cannot_tell", true)) f("cannot_tell", t.cannot_tell);
+  f("not_identifiable", t.not_identifiable);
+  f("rejected", t.rejected);
+  f("notes", t.notes);
 }
 
-std::vector<Alias> parse_aliases(const Json& j) {
-  std::vector<Alias> aliases;
-  for (const Json& one : j)
-    aliases.push_back(
-        {one.at("column"), one.at("state"), number_or_nan(one.at("share")), one.at("text")});
-  return aliases;
-}
+namespace {
 
-OrderStructure parse_order(const Json& j) {
-  return {j.at("structure"),
-          j.at("column"),
-          number_or_nan(j.at("p_value")),
-          number_or_nan(j.at("size_MPa")),
-          number_or_nan(j.at("share")),
-          j.at("law_holds_it_at")};
-}
-
-Trace parse_one(const Json& j) {
-  Trace t;
-  t.model = j.at("model");
-  t.extended_model = parse_derived(j.at("extended_model"));
-  t.verdict = parse_verdict(j.at("verdict"));
-  t.alpha = j.at("alpha");
-  for (const Json& effect : j.at("effects"))
-    t.effects.push_back(parse_effect_json(effect));
-  t.unseen = j.at("unseen");
-  t.validation_searched = j.at("validation_searched");
-  t.as_calibrated = parse_errors(j.at("as_calibrated"));
-  t.before = parse_errors(j.at("before"));
-  const Json& nested = j.at("nested_cross_validation");
-  t.nested = {io::count_of(nested.at("folds")),
-              number_or_nan(nested.at("gain")),
-              number_or_nan(nested.at("std_error")),
-              number_or_nan(nested.at("log_score")),
-              number_or_nan(nested.at("log_score_std_error")),
-              io::count_of(nested.at("effects_offered")),
-              io::count_of(nested.at("effects_that_pay"))};
-  t.validation_shift = parse_worlds(j.at("validation_against_training"));
-  t.leads = parse_leads(j.at("leads"));
-  t.smallest_seen = limit(j.at("smallest_seen_between_halves"));
-  t.after = parse_errors(j.at("after"));
-  t.improvement = parse_difference(j.at("improvement"));
-  if (const auto over = j.find("improvement_over_calibrated"); over != j.end() && !over->is_null())
-    t.over_calibrated = parse_difference(*over);
-  const Json& floor = j.at(j.contains("noise_floor") ? "noise_floor" // as versions to 0.1.0 wrote
-                                                     : "scatter_by_noise_model");
-  t.noise_floor.mae_MPa = number_or_nan(floor.at("mae_MPa"));
-  t.noise_floor.rmse_MPa = number_or_nan(floor.at("rmse_MPa"));
-  t.noise_floor.method = floor.at("method");
-  const Json& scatter = j.at("scatter_between_experiments");
-  t.scatter_between = number_or_nan(scatter.at("share"));
-  t.scatter_interval = {number_or_nan(scatter.at("interval_95").at(0)),
-                        number_or_nan(scatter.at("interval_95").at(1))};
-  t.scatter_at_least = number_or_nan(scatter.at("at_least"));
-  if (!scatter.at("repeatability").is_null()) t.repeatability = scatter.at("repeatability");
-  t.repeatability_from = scatter.at("repeatability_from");
-  t.order = parse_order(j.at("order_of_tests"));
-  t.remaining = {j.at("remaining").at("structure"), number_or_nan(j.at("remaining").at("p_value")),
-                 j.at("remaining").at("note")};
-  for (const Json& d : j.at("detectable"))
-    t.detectable.push_back({d.at("column"), parse_derived(d.at("derived")),
-                            parse_acts_on(d.at("acts_on")), number_or_nan(d.at("size_MPa")),
-                            number_or_nan(d.at("share")), d.at("identifiable")});
-  t.n_columns = io::count_of(j.at("tried").at("columns"));
-  t.n_candidates = io::count_of(j.at("tried").at("directions"));
-  t.n_flips = io::count_of(j.at("tried").at("sign_flips"));
-  t.least_p_value = j.at("tried").at("least_p_value");
-  if (j.contains("cannot_tell")) t.cannot_tell = parse_aliases(j.at("cannot_tell"));
-  t.not_identifiable = j.at("not_identifiable").get<std::vector<std::string>>();
-  t.rejected = j.at("rejected").get<std::vector<std::string>>();
-  t.notes = j.at("notes").get<std::vector<std::string>>();
-  return t;
+void describe_file(Fields& f, std::vector<Trace>& traces) {
+  describe(f, traces.front());
+  if (!f.has("others", traces.size() > 1)) return;
+  const std::size_t others = f.reads() ? f.json().at("others").size() : traces.size() - 1;
+  f.each("others", others, [&](Fields& other, std::size_t i) {
+    describe(other, f.reads() ? traces.emplace_back() : traces[i + 1]);
+  });
 }
 
 } // namespace
 
 std::string trace_json(const std::vector<Trace>& traces, bool synthetic) {
-  Json j = {{"schema", schema}, {"tool_version", tool_version()}, {"synthetic_data", synthetic}};
-  j.update(one_json(traces.front()));
-  Json others = Json::array();
-  for (std::size_t i = 1; i < traces.size(); ++i)
-    others.push_back(one_json(traces[i]));
-  if (!others.empty()) j["others"] = others;
-  return io::json_text(j);
+  return io::record_text(schema, [&](Fields& f) {
+    f.only_written("synthetic_data", synthetic);
+    describe_file(f, io::to_write(traces));
+  });
 }
 
 std::vector<Trace> parse_traces(std::string_view text, const std::string& file) {
-  const Json j = io::parse_json(text, file);
-  io::check_schema(j, schema, file, "trace again");
-  std::vector<Trace> traces;
-  io::read_json(file, "trace again", [&] {
-    traces.push_back(parse_one(j));
-    if (j.contains("others"))
-      for (const Json& other : j.at("others"))
-        traces.push_back(parse_one(other));
-  });
+  std::vector<Trace> traces(1);
+  io::read_record(text, file, schema, "trace again", [&](Fields& f) { describe_file(f, traces); });
   return traces;
 }
 

@@ -3,18 +3,17 @@
 #include <sstream>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
 #include "core/version.h"
-#include "io/json.h"
+#include "io/json_fields.h"
 #include "verify/verify.h"
 
 namespace frictab::verify {
 
-namespace {
+using io::Fields;
 
-using Json = nlohmann::ordered_json;
+namespace {
 
 constexpr const char* schema = "frictab/verify/1";
 
@@ -44,168 +43,102 @@ std::string proof_text(const DriftRecord& record) {
              : "not proven: " + record.not_proven;
 }
 
-Json beyond_json(const BeyondEnd& end) {
-  return {{"axis", end.axis}, {"side", end.side}, {"outside", end.outside},
-          {"end", end.end},   {"rows", end.rows}, {"largest_excess", end.largest_excess}};
-}
-
-Json record_json(const DriftRecord& record) {
-  Json j = {{"model", record.model}, {"subject", record.subject}, {"ran", record.ran}};
-  if (!record.ran) {
-    j["why_not"] = record.why_not;
-    return j;
-  }
-  j["passed"] = record.passed;
-  j["allowed_MPa"] = record.allowed_MPa;
-  if (!record.allowed_from.empty()) j["allowed_from"] = record.allowed_from;
-  if (record.law_error_MPa) j["law_error_MPa"] = *record.law_error_MPa;
-  if (record.over_law_error) j["over_law_error"] = true;
-  j["max_abs_MPa"] = record.rows.max_abs;
-  j["mean_abs_MPa"] = record.rows.mean_abs;
-  j["rms_MPa"] = record.rows.rms;
-  j["p99_MPa"] = record.rows.p99;
-  j["n_rows"] = record.n_rows;
-  j["share_outside"] = record.n_rows == 0 ? 0.0
-                                          : static_cast<double>(record.n_outside) /
-                                                static_cast<double>(record.n_rows);
-  j["outside"] = Json::array();
-  for (const BeyondEnd& end : record.beyond)
-    j["outside"].push_back(beyond_json(end));
-  j["max_abs_outside_MPa"] = record.max_abs_outside_MPa;
-  j["n_refused"] = record.n_refused;
-  if (record.n_rows_not_representable > 0) j["n_rows_not_posed"] = record.n_rows_not_representable;
-  if (record.n_points_not_representable > 0)
-    j["n_points_not_posed"] = record.n_points_not_representable;
-  if (record.n_not_refused > 0) j["n_not_refused"] = record.n_not_refused;
-  j["worst_case_MPa"] = record.worst_case_MPa;
-  j["worst_case_at"] = record.worst_state;
-  j["n_points"] = record.n_points;
-  if (record.unit_roundoff > 0) j["unit_roundoff"] = record.unit_roundoff;
-  if (record.subject != "table") j["max_vs_table_MPa"] = record.max_vs_table_MPa;
-  if (record.proven_MPa) j["proven_MPa"] = *record.proven_MPa;
-  if (!record.not_proven.empty()) j["not_proven"] = record.not_proven;
-  if (record.proof_boxes > 0) j["proof_boxes"] = record.proof_boxes;
-  if (record.over_by_proof) j["over_by_proof"] = true;
-  if (record.out_of_boxes) j["out_of_boxes"] = true;
-  if (record.below)
-    j["below"] = {{"axis", "sigma_n_MPa"},
-                  {"low", record.below->low_MPa},
-                  {"high", record.below->high_MPa},
-                  {"outside", record.below->outside},
-                  {"n_points", record.below->n_points},
-                  {"max_abs_MPa", record.below->max_abs_MPa}};
-  if (record.held) {
-    j["held"] = Json::object();
-    for (const auto& [name, value] : *record.held)
-      j["held"][name] = value;
-    j["cost_mean_abs_MPa"] = record.cost_mean_abs_MPa;
-    j["cost_max_abs_MPa"] = record.cost_max_abs_MPa;
-  }
-  return j;
-}
-
-// Returns null if nothing failed but something was not tested.
-Json passed_json(const Verification& verification) {
-  if (verification.passed() && verification.untested() > 0) return nullptr;
-  return verification.passed();
+// Of the rows, how many lie outside the range.
+void describe_share_outside(Fields& f, DriftRecord& r) {
+  const auto rows = static_cast<double>(r.n_rows);
+  double share = r.n_rows == 0 ? 0 : static_cast<double>(r.n_outside) / rows;
+  f.known("share_outside", share);
+  if (!f.reads()) return;
+  if (!(share >= 0 && share <= 1) || r.n_rows > (std::size_t{1} << 50))
+    f.fail("a share of rows is a number from 0 to 1");
+  r.n_outside = static_cast<std::size_t>(share * rows + 0.5);
 }
 
 } // namespace
+
+static void describe(Fields& f, BeyondEnd& end) {
+  f("axis", end.axis);
+  f("side", end.side);
+  f("outside", end.outside);
+  f.known("end", end.end);
+  f("rows", end.rows);
+  f.known("largest_excess", end.largest_excess);
+}
+
+static void describe(Fields& f, BelowRange& below) {
+  f.only_written("axis", "sigma_n_MPa");
+  f.known("low", below.low_MPa);
+  f.known("high", below.high_MPa);
+  f("outside", below.outside);
+  f("n_points", below.n_points);
+  f.known("max_abs_MPa", below.max_abs_MPa);
+}
+
+static void describe(Fields& f, DriftRecord& r) {
+  f("model", r.model);
+  f("subject", r.subject);
+  f("ran", r.ran);
+  if (!r.ran) {
+    f("why_not", r.why_not);
+    return;
+  }
+  f("passed", r.passed);
+  if (f.has("allowed_MPa", true)) f.known("allowed_MPa", r.allowed_MPa); // not in files of 0.1
+  f.unless_default("allowed_from", r.allowed_from);
+  f.if_known("law_error_MPa", r.law_error_MPa);
+  f.unless_default("over_law_error", r.over_law_error);
+  f.known("max_abs_MPa", r.rows.max_abs);
+  f.known("mean_abs_MPa", r.rows.mean_abs);
+  f.known("rms_MPa", r.rows.rms);
+  f.known("p99_MPa", r.rows.p99);
+  f("n_rows", r.n_rows);
+  describe_share_outside(f, r);
+  f("outside", r.beyond);
+  f.known("max_abs_outside_MPa", r.max_abs_outside_MPa);
+  f("n_refused", r.n_refused);
+  f.unless_default("n_rows_not_posed", r.n_rows_not_posed);
+  f.unless_default("n_points_not_posed", r.n_points_not_posed);
+  f.unless_default("n_not_refused", r.n_not_refused);
+  f.known("worst_case_MPa", r.worst_case_MPa);
+  f.known("worst_case_at", r.worst_state);
+  f("n_points", r.n_points);
+  if (f.has("unit_roundoff", r.unit_roundoff > 0)) f.known("unit_roundoff", r.unit_roundoff);
+  if (f.has("max_vs_table_MPa", r.subject != "table"))
+    f.known("max_vs_table_MPa", r.max_vs_table_MPa);
+  f.if_known("proven_MPa", r.proven_MPa);
+  f.unless_default("not_proven", r.not_proven);
+  f.unless_default("proof_boxes", r.proof_boxes);
+  f.unless_default("over_by_proof", r.over_by_proof);
+  f.unless_default("out_of_boxes", r.out_of_boxes);
+  f.if_there("below", r.below);
+  f.if_known("held", r.held);
+  if (!r.held) return;
+  f.known("cost_mean_abs_MPa", r.cost_mean_abs_MPa);
+  f.known("cost_max_abs_MPa", r.cost_max_abs_MPa);
+}
+
+static void describe(Fields& f, Verification& v) {
+  f.known("max_drift_MPa", v.max_drift_MPa);
+  const bool open = v.passed() && v.untested() > 0; // nothing failed, something was not tested
+  f.only_written("passed", open ? Fields::Json() : Fields::Json(v.passed()));
+  f.only_written("untested", v.untested());
+  f.unless_default("require_proof", v.require_proof);
+  f.unless_default("require_run", v.require_run);
+  f.list("records", v.records, [&](Fields& one, DriftRecord& record) {
+    if (one.reads()) record.allowed_MPa = v.max_drift_MPa;
+    describe(one, record);
+  });
+}
 
 std::string verification_json(const Verification& verification) {
-  Json records = Json::array();
-  for (const DriftRecord& record : verification.records)
-    records.push_back(record_json(record));
-  Json j = {{"schema", schema},
-            {"tool_version", tool_version()},
-            {"max_drift_MPa", verification.max_drift_MPa},
-            {"passed", passed_json(verification)},
-            {"untested", verification.untested()}};
-  if (verification.require_proof) j["require_proof"] = true;
-  if (verification.require_run) j["require_run"] = true;
-  j["records"] = records;
-  return io::json_text(j);
+  return io::record_text(schema, [&](Fields& f) { describe(f, io::to_write(verification)); });
 }
-
-namespace {
-
-std::size_t count_or_0(const Json& j, const char* key) {
-  return j.contains(key) ? io::count_of(j.at(key)) : 0;
-}
-
-// Reads a share and returns it as a number of `rows`.
-std::size_t share_of(const Json& j, std::size_t rows) {
-  const double share = j.get<double>();
-  if (!(share >= 0 && share <= 1) || rows > (std::size_t{1} << 50))
-    throw Json::type_error::create(302, "a share of rows is a number from 0 to 1", &j);
-  return static_cast<std::size_t>(share * static_cast<double>(rows) + 0.5);
-}
-
-} // namespace
 
 Verification parse_verification(std::string_view text, const std::string& file) {
-  const Json j = io::parse_json(text, file);
-  io::check_schema(j, schema, file, "run frictab verify again");
-  try {
-    Verification verification;
-    verification.max_drift_MPa = j.at("max_drift_MPa");
-    verification.require_proof = j.value("require_proof", false);
-    verification.require_run = j.value("require_run", false);
-    for (const Json& one : j.at("records")) {
-      DriftRecord r;
-      r.model = one.at("model");
-      r.subject = one.at("subject");
-      r.ran = one.at("ran");
-      if (r.ran) {
-        r.passed = one.at("passed");
-        // Missing in files of version 0.1.
-        r.allowed_MPa = one.value("allowed_MPa", verification.max_drift_MPa);
-        r.allowed_from = one.value("allowed_from", "");
-        if (one.contains("law_error_MPa")) r.law_error_MPa = one.at("law_error_MPa");
-        r.over_law_error = one.value("over_law_error", false);
-        r.rows = {one.at("max_abs_MPa"), one.at("mean_abs_MPa"), one.at("rms_MPa"),
-                  one.at("p99_MPa")};
-        r.n_rows = io::count_of(one.at("n_rows"));
-        r.n_outside = share_of(one.at("share_outside"), r.n_rows);
-        for (const Json& end : one.at("outside"))
-          r.beyond.push_back({end.at("axis"), end.at("side"), end.at("outside"), end.at("end"),
-                              io::count_of(end.at("rows")), end.at("largest_excess")});
-        r.max_abs_outside_MPa = one.at("max_abs_outside_MPa");
-        r.n_refused = io::count_of(one.at("n_refused"));
-        r.n_rows_not_representable = count_or_0(one, "n_rows_not_posed");
-        r.n_points_not_representable = count_or_0(one, "n_points_not_posed");
-        r.n_not_refused = count_or_0(one, "n_not_refused");
-        r.worst_case_MPa = one.at("worst_case_MPa");
-        r.worst_state = one.at("worst_case_at").get<std::map<std::string, double>>();
-        r.n_points = io::count_of(one.at("n_points"));
-        r.unit_roundoff = one.value("unit_roundoff", 0.0);
-        r.max_vs_table_MPa = one.value("max_vs_table_MPa", 0.0);
-        if (one.contains("proven_MPa")) r.proven_MPa = one.at("proven_MPa");
-        r.not_proven = one.value("not_proven", "");
-        r.proof_boxes = count_or_0(one, "proof_boxes");
-        r.over_by_proof = one.value("over_by_proof", false);
-        r.out_of_boxes = one.value("out_of_boxes", false);
-        if (one.contains("below")) {
-          const Json& below = one.at("below");
-          r.below = {below.at("low"), below.at("high"), below.at("outside"),
-                     io::count_of(below.at("n_points")), below.at("max_abs_MPa")};
-        }
-        if (one.contains("held")) {
-          r.held = one.at("held").get<std::map<std::string, double>>();
-          r.cost_mean_abs_MPa = one.at("cost_mean_abs_MPa");
-          r.cost_max_abs_MPa = one.at("cost_max_abs_MPa");
-        }
-      } else {
-        r.why_not = one.at("why_not");
-        r.allowed_MPa = verification.max_drift_MPa;
-      }
-      verification.records.push_back(std::move(r));
-    }
-    return verification;
-  } catch (const Json::exception& error) {
-    throw InputError({file, 0, 0}, std::string("not as frictab writes it: ") + error.what(),
-                     "run frictab verify again");
-  }
+  Verification verification;
+  io::read_record(text, file, schema, "run frictab verify again",
+                  [&](Fields& f) { describe(f, verification); });
+  return verification;
 }
 
 namespace {
@@ -215,10 +148,6 @@ std::string why_failed(const DriftRecord& record) {
   return record.passed ? proof_text(record) : failure_text(record);
 }
 
-} // namespace
-
-namespace {
-
 void add_property(pugi::xml_node properties, const std::string& name, const std::string& value) {
   pugi::xml_node property = properties.append_child("property");
   property.append_attribute("name") = name.c_str();
@@ -227,7 +156,9 @@ void add_property(pugi::xml_node properties, const std::string& name, const std:
 
 // Adds the figures of verify.json, also for cases that passed, so that a CI pipeline can plot them.
 void add_figures(pugi::xml_node test, const DriftRecord& record) {
-  const Json figures = record_json(record);
+  Fields::Json figures;
+  Fields fields(figures);
+  describe(fields, io::to_write(record));
   pugi::xml_node properties = test.append_child("properties");
   for (const auto& [name, value] : figures.items())
     if (value.is_number()) add_property(properties, name, value.dump());
@@ -250,7 +181,7 @@ std::string verification_junit(const Verification& verification) {
   suite.append_attribute("skipped") = static_cast<unsigned>(skipped);
   pugi::xml_node of_all = suite.append_child("properties");
   add_property(of_all, "tool_version", tool_version());
-  add_property(of_all, "max_drift_MPa", Json(verification.max_drift_MPa).dump());
+  add_property(of_all, "max_drift_MPa", Fields::Json(verification.max_drift_MPa).dump());
   for (const DriftRecord& record : verification.records) {
     pugi::xml_node test = suite.append_child("testcase");
     test.append_attribute("classname") = record.model.c_str();
