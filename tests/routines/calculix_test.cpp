@@ -42,12 +42,8 @@ struct Spring {
   }
 };
 
-class Calculix : public testing::Test {
+class Calculix : public test::NeedsGfortran {
 protected:
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
-
   static const codegen::Exporter& target() { return *codegen::find_exporter("calculix_usrmu"); }
   static codegen::ExportRequest request(const Table& table) {
     return {table, "mm-t-s", {{"psi", "constant:2.5"}, {"sigma_f_MPa", "constant:480"}}};

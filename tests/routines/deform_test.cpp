@@ -3,7 +3,6 @@
 // DEFORM itself cannot call it so, because the COMMON blocks hold one edge's state.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <regex>
 
 #include <gmock/gmock.h>
@@ -12,6 +11,7 @@
 
 #include "core/error.h"
 #include "routines/deform_case.h"
+#include "routines/standard_case.h"
 #include "support/calls/usrbcc.h"
 #include "support/generated.h"
 #include "support/json.h"
@@ -29,15 +29,11 @@ namespace {
 using calls::Ufhcom;
 using calls::Ufhcom2;
 using calls::UsrbccCall;
-using test::Nodcom;
-using test::Nodcom2;
 using testing::HasSubstr;
+using namespace test;
 using Words = std::map<std::string, std::string>;
 
-constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double bound = 1e-13; // the order of operations only
-constexpr double psi = 2.5, flow = 480;
 const double k = flow / std::sqrt(3.0);
 
 const codegen::Exporter& deform() {
@@ -53,11 +49,7 @@ ExportRequest request(const Table& table, const std::string& friction = "coulomb
 
 // A compiled routine and its COMMON blocks, set to 1000 MPa, 50 mm/s, psi, flow stress; TEMC is
 // 100 degC in `call`.
-struct SlowDeform : testing::Test {
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
-
+struct SlowDeform : test::NeedsGfortran {
   void use(const std::string& key, const ExportRequest& asked) {
     library = test::compiled(key, deform(), asked, "double", test::strict_declared);
     contact = library->find<Ufhcom>("ufhcom_");
@@ -75,15 +67,9 @@ struct SlowDeform : testing::Test {
     call.run(Library::address(library->handle(), "usrbcc_"));
     return call.variable;
   }
-  static const Table& four_axis() {
-    static const Table table = test::four_axis_table();
-    return table;
-  }
   static double tau(double pressure, double speed = 50, double temperature = 100,
                     double expansion = psi) {
-    static const TableFunction table(four_axis());
-    const double state[] = {pressure, expansion, speed, temperature, flow};
-    return table(state);
+    return four_axis_tau(pressure, speed, temperature, expansion);
   }
 
   const Library* library = nullptr;
@@ -212,7 +198,6 @@ TEST_F(SlowDeform, TakesTheMeanOfBothNodesHistoriesAnd0WithoutThem) {
 }
 
 TEST_F(SlowDeform, TakesStatesFromUserVariablesOfNodesAndConstantsAsTheJobSays) {
-  static const TableFunction table(four_axis());
   use("fields",
       request(four_axis(), "shear",
               {{"psi", "field:2"}, {"sigma_f_MPa", "field:1"}, {"T_contact_C", "constant:60"}},
@@ -221,13 +206,12 @@ TEST_F(SlowDeform, TakesStatesFromUserVariablesOfNodesAndConstantsAsTheJobSays) 
   call.user_variables = 2;
   call.nodal = {200e6, 3, 400e6, 5};
   surface->effective_stress = nan; // not asked for
-  const double state[] = {1000, 4, 50, 60, 300};
-  EXPECT_CLOSE(run(), table(state) / (300 / std::sqrt(3.0)), bound)
+  EXPECT_CLOSE(run(), four_axis_tau(1000, 50, 60, 4, 300) / (300 / std::sqrt(3.0)), bound)
       << "k of the law's own flow stress";
   call.user_variables = 1; // field 2 is not there: the middle of the axis
   call.nodal = {200e6, 400e6};
-  const double fallback[] = {1000, std::sqrt(20.0), 50, 60, 300};
-  EXPECT_CLOSE(run(), table(fallback) / (300 / std::sqrt(3.0)), bound);
+  EXPECT_CLOSE(run(), four_axis_tau(1000, 50, 60, std::sqrt(20.0), 300) / (300 / std::sqrt(3.0)),
+               bound);
 }
 
 TEST_F(SlowDeform, IsNotAskedForAPeakBelowThePresentPressure) {
@@ -246,13 +230,8 @@ TEST_F(SlowDeform, IsNotAskedForAPeakBelowThePresentPressure) {
 
 TEST_F(SlowDeform, RefusesAFieldThatHoldsAHistory) {
   const Table table = test::traced_table();
-  const auto refusal = [&](const std::string& field) -> std::string {
-    try {
-      deform().generate(request(table, "coulomb", {{"psi", field}}));
-      return "accepted";
-    } catch (const InputError& error) {
-      return error.what();
-    }
+  const auto refusal = [&](const std::string& field) {
+    return test::refusal([&] { deform().generate(request(table, "coulomb", {{"psi", field}})); });
   };
   EXPECT_THAT(refusal("field:3"), HasSubstr("USRNOD(3) holds a history"));
   EXPECT_EQ(refusal("field:4"), "accepted");

@@ -28,12 +28,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string refusal(const ExportRequest& request, const std::string& target = "abaqus_vfric") {
-  try {
-    find_exporter(target)->generate(request);
-    return "accepted";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return test::refusal([&] { find_exporter(target)->generate(request); });
 }
 
 nlohmann::ordered_json recipe(const std::string& target, const ExportRequest& request) {

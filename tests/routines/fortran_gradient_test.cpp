@@ -89,11 +89,9 @@ std::vector<double> row(const test::States& states, std::size_t i) {
   return x;
 }
 
-class SlowFortranGradient : public testing::TestWithParam<std::size_t> {
+class SlowFortranGradient : public test::NeedsGfortran,
+                            public testing::WithParamInterface<std::size_t> {
 protected:
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
   const Table& table() const { return test::sample_tables()[GetParam()].table; }
 };
 

@@ -12,11 +12,8 @@ namespace frictab::fortran_target_test {
 
 namespace {
 
-class FortranTarget : public testing::Test {
+class FortranTarget : public test::NeedsGfortran {
 protected:
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
   static const codegen::Exporter& fortran() { return *codegen::find_exporter("fortran"); }
 };
 

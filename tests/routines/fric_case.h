@@ -22,12 +22,8 @@ using calls::FricCall;
 
 inline constexpr double critical = 0x1p-7; // mm, the elastic slip at which sticking ends
 
-class FricCase : public testing::Test {
+class FricCase : public NeedsGfortran {
 protected:
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
-
   static void* routine(const std::string& key, const codegen::ExportRequest& request) {
     return codegen::Library::address(
         compiled(key, *codegen::find_exporter("abaqus_fric"), request, "double", strict)->handle(),
@@ -74,9 +70,7 @@ protected:
   }
 
   static double tau(double pressure, double speed, double temperature) {
-    static const table::TableFunction table(four_axis());
-    const double state[] = {pressure, psi, speed, temperature, flow};
-    return table(state);
+    return four_axis_tau(pressure, speed, temperature);
   }
   static double slip_tau(double pressure, double speed, double slip) {
     static const table::TableFunction table(slipping());

@@ -5,10 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "routines/standard_case.h"
-#include "support/calls/fric_coef.h"
-#include "support/generated.h"
-#include "support/sample_tables.h"
+#include "routines/abaqus_routines.h"
 
 namespace frictab::fric_coef_states_test {
 
@@ -20,27 +17,15 @@ using namespace test;
 using calls::CoefCall;
 
 // The list of 2024 has slip and state variables.
-class FricCoef2024 : public testing::Test {
+class FricCoef2024 : public NeedsGfortran, protected CoefficientCase<CoefCall> {
 protected:
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
-  static void* routine(const std::string& key, const codegen::ExportRequest& request) {
-    return codegen::Library::address(compiled("states " + key,
-                                              *codegen::find_exporter("abaqus_fric_coef"), request,
-                                              "double", strict)
-                                         ->handle(),
-                                     "fric_coef_");
-  }
   static CoefCall call(std::vector<double> properties) {
     CoefCall c;
     c.temperatures = true;
     c.states = 11;
     c.properties = std::move(properties);
     c.resize(1);
-    c.pressure[0] = 1000;
-    c.slip[0] = 50;
-    c.temperature[0] = 100;
+    set(c, 0, 1000, 50, 100);
     return c;
   }
   static void run(CoefCall& c, void* function) {
@@ -51,19 +36,18 @@ protected:
 
 TEST_F(FricCoef2024, TakesTheEquivalentSlipAndGivesItsDerivative) {
   static const Table table = branching_table();
-  static const table::TableFunction function(table);
   for (const std::string units : {"mm-t-s", "m-kg-s"}) {
     const double length = units == "m-kg-s" ? 1e-3 : 1, stress = units == "m-kg-s" ? 1e6 : 1;
-    void* const compiled = routine("branching " + units, {table, units, {}});
+    void* const compiled = routine("states branching " + units, table, {}, units);
     auto c = call({flow * stress});
     c.pressure[0] = 300 * stress;
     c.slip[0] = 20 * length;
     c.slip[3] = 7 * length;
     run(c, compiled);
-    const double state[] = {300, 20, 7, flow}, up[] = {300, 20, 7.001, flow},
-                 down[] = {300, 20, 6.999, flow};
-    EXPECT_CLOSE(c.coefficient[0], function(state) / 300, 1e-13);
-    EXPECT_NEAR(c.derivative[5] * length, (function(up) - function(down)) / 300 / 0.002, 1e-9);
+    EXPECT_CLOSE(c.coefficient[0], branching_tau(300, 20, 7) / 300, 1e-13);
+    EXPECT_NEAR(c.derivative[5] * length,
+                (branching_tau(300, 20, 7.001) - branching_tau(300, 20, 6.999)) / 300 / 0.002,
+                1e-9);
     EXPECT_EQ(c.derivative[6], 0);
   }
 }
@@ -75,7 +59,7 @@ TEST_F(FricCoef2024, GivesTheDerivativeOfALawThatTakesTheSlipByBothOfItsNames) {
     auto c = call({});
     c.pressure[0] = 300 * stress;
     c.slip[3] = 7 * length;
-    run(c, routine("two slips " + units, {table, units, {}}));
+    run(c, routine("two slips " + units, table, {}, units));
     EXPECT_CLOSE(c.coefficient[0], 0.08 + 7 * 5e-3, 1e-13);
     EXPECT_NEAR(c.derivative[5] * length, 5e-3, 1e-15);
   }
@@ -84,7 +68,7 @@ TEST_F(FricCoef2024, GivesTheDerivativeOfALawThatTakesTheSlipByBothOfItsNames) {
 TEST_F(FricCoef2024, KeepsPeakAndWorkOncePerIncrementWhateverTheIterations) {
   static const Table table = peak_and_work_table();
   static const table::TableFunction function(table);
-  void* const compiled = routine("peaks", {table, "mm-t-s", {}});
+  void* const compiled = routine("peaks", table);
   const std::vector<std::string> inputs = table.inputs();
   const auto wanted = [&](double pressure, double peak, double work) {
     std::vector<double> state;
@@ -117,7 +101,7 @@ TEST_F(FricCoef2024, KeepsPeakAndWorkOncePerIncrementWhateverTheIterations) {
 
 TEST_F(FricCoef2024, HasNoHistoryWithFewerStateVariablesOrInBlocks) {
   static const Table table = peak_and_work_table();
-  void* const compiled = routine("peaks", {table, "mm-t-s", {}});
+  void* const compiled = routine("peaks", table);
   for (const int states : {0, 10}) {
     auto c = call({});
     c.states = states;
@@ -135,7 +119,7 @@ TEST_F(FricCoef2024, HasNoHistoryWithFewerStateVariablesOrInBlocks) {
 }
 
 TEST_F(FricCoef2024, CountsIncrementsOutsideTheRangeOnce) {
-  void* const compiled = routine("outside", {four_axis(), "mm-t-s", {}});
+  void* const compiled = four_axes();
   auto c = call({psi, 60, flow});
   for (const double speed : {50.0, 900.0, 1000.0, 60.0}) {
     c.slip[0] = speed;
@@ -147,12 +131,10 @@ TEST_F(FricCoef2024, CountsIncrementsOutsideTheRangeOnce) {
 }
 
 TEST_F(FricCoef2024, HoldsTheCoefficientOfTheLastIncrementWhereAsked) {
-  void* const compiled = routine(
-      "frozen", {four_axis(), "mm-t-s", {}, {{"abaqus_coefficient", "start_of_increment"}}});
-  static const table::TableFunction function(four_axis());
+  options["abaqus_coefficient"] = "start_of_increment";
+  void* const compiled = routine("frozen", four_axis());
   const auto mu = [](double pressure, double speed) {
-    const double state[] = {pressure, psi, speed, 100, flow};
-    return function(state) / pressure;
+    return four_axis_tau(pressure, speed, 100) / pressure;
   };
   auto c = call({psi, 60, flow});
   run(c, compiled);
@@ -174,7 +156,7 @@ TEST_F(FricCoef2024, HoldsTheCoefficientOfTheLastIncrementWhereAsked) {
 }
 
 TEST_F(FricCoef2024, GivesNaNForANaNHistoryAndKeepsIt) {
-  void* const compiled = routine("outside", {four_axis(), "mm-t-s", {}});
+  void* const compiled = four_axes();
   auto c = call({psi, 60, flow});
   c.state[1] = nan;
   run(c, compiled);

@@ -1,15 +1,12 @@
 // FRIC_COEF called as Abaqus/Standard calls it, by both argument lists, with bounds checked and
-// floating point traps on: every trap of the interface that is known, by name.
+// floating point traps on: what explicit_routines_test.cpp does not ask of all routines.
 #include <cmath>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "routines/standard_case.h"
-#include "support/calls/fric_coef.h"
-#include "support/generated.h"
+#include "routines/abaqus_routines.h"
 #include "support/json.h"
 #include "support/sample_tables.h"
 
@@ -23,71 +20,18 @@ using calls::CoefCall;
 
 using namespace test;
 
+using Case = CoefficientCase<CoefCall>;
+
 // By the argument list: "2024" or "2020".
-class SlowFricCoef : public testing::TestWithParam<std::string> {
+class SlowFricCoef : public NeedsGfortran,
+                     public testing::WithParamInterface<std::string>,
+                     protected Case {
 protected:
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
-
-  static bool newer() { return GetParam() == "2024"; }
-  static void* routine(const std::string& key, codegen::ExportRequest request,
-                       const std::vector<std::string>& flags = strict) {
-    request.options["abaqus_release"] = GetParam();
-    return codegen::Library::address(compiled(key + GetParam(),
-                                              *codegen::find_exporter("abaqus_fric_coef"), request,
-                                              "double", flags)
-                                         ->handle(),
-                                     "fric_coef_");
-  }
-  static void* four_axes() { return routine("four_axes", {four_axis(), "mm-t-s", {}}); }
-
-  // 1000 MPa, 50 mm/s, 100 degC at every point; properties of the four-axis table.
-  static CoefCall call(int points) {
-    CoefCall c;
-    c.release_2024 = newer();
-    c.temperatures = true;
-    c.properties = {psi, 60, flow};
-    c.resize(points);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(points); ++k)
-      set(c, k, 1000, 50, 100);
-    return c;
-  }
-  static void set(CoefCall& c, std::size_t k, double pressure, double speed, double temperature) {
-    c.pressure[k] = pressure;
-    c.slip[k] = speed;
-    c.temperature[k] = temperature;
-  }
-  static void run(CoefCall& c, void* function) {
-    std::fill(c.coefficient.begin(), c.coefficient.end(), 777);
-    std::fill(c.derivative.begin(), c.derivative.end(), 777);
-    const FloatTraps traps;
-    c.run(function);
-  }
-  // i from 1: slip rate, pressure, temperature, and with the newer list equivalent slip as 6.
-  static double by(const CoefCall& c, std::size_t i, std::size_t k = 0) {
-    return c.derivative[(i - 1) * static_cast<std::size_t>(c.points) + k];
-  }
-  static double tau(double pressure, double speed, double temperature) {
-    static const TableFunction table(four_axis());
-    const double state[] = {pressure, psi, speed, temperature, flow};
-    return table(state);
-  }
+  SlowFricCoef() : Case(GetParam()) {}
   static double mu(double pressure, double speed, double temperature) {
     return tau(pressure, speed, temperature) / pressure;
   }
 };
-
-TEST_P(SlowFricCoef, TakesBlocksOf0And1And136And512) {
-  for (const int points : {0, 1, 136, 512}) {
-    auto c = call(points);
-    for (std::size_t k = 0; k < c.pressure.size(); ++k)
-      set(c, k, 600 + 2.0 * double(k), 10 + double(k % 100), 50);
-    run(c, four_axes());
-    for (std::size_t k = 0; k < c.pressure.size(); ++k)
-      EXPECT_CLOSE(c.coefficient[k], mu(c.pressure[k], c.slip[k], 50), 1e-13) << k;
-  }
-}
 
 TEST_P(SlowFricCoef, LeavesTheSecondCoefficientOfIsotropicFrictionAlone) {
   auto c = call(3);
@@ -143,7 +87,7 @@ TEST_P(SlowFricCoef, HoldsTheCoefficientBelowTheSmallestPressureAndWithoutAny) {
     auto c = call(1);
     c.properties = {psi};
     c.pressure[0] = pressure;
-    run(c, routine("one_axis", {table, "mm-t-s", {}}));
+    run(c, routine("one_axis", table));
     EXPECT_GT(function(state), 10) << "at 1 MPa";
     EXPECT_EQ(c.coefficient[0], 10) << "the most that a solver gets";
     EXPECT_EQ(by(c, 2), 0);
@@ -155,12 +99,12 @@ TEST_P(SlowFricCoef, HasNoDerivativesWhereTheCoefficientIsCut) {
   auto c = call(1);
   c.properties = {psi};
   c.pressure[0] = 2;
-  run(c, routine("one_axis", {table, "mm-t-s", {}}));
+  run(c, routine("one_axis", table));
   EXPECT_EQ(c.coefficient[0], 10);
   for (std::size_t i = 1; i <= 3; ++i)
     EXPECT_EQ(by(c, i), 0);
   c.pressure[0] = 100;
-  run(c, routine("one_axis", {table, "mm-t-s", {}}));
+  run(c, routine("one_axis", table));
   EXPECT_LT(c.coefficient[0], 10);
   EXPECT_LT(by(c, 2), 0);
 }
@@ -171,100 +115,25 @@ TEST_P(SlowFricCoef, DoesNotStopForAPointThatDoesNotPress) {
   auto c = call(2);
   c.properties = {60, flow};
   c.pressure[0] = 0;
-  run(c, routine("refusing", {table, "mm-t-s", {}}));
+  run(c, routine("refusing", table));
   EXPECT_GT(c.coefficient[0], 0) << "that of the nearest end";
   for (std::size_t i = 1; i <= 3; ++i)
     EXPECT_EQ(by(c, i), 0);
   EXPECT_GT(c.coefficient[1], 0);
   c.pressure[0] = 100;
-  run(c, routine("refusing", {table, "mm-t-s", {}}));
+  run(c, routine("refusing", table));
   EXPECT_TRUE(std::isnan(c.coefficient[0])) << "where the solver's routine comes back";
 }
 
-TEST_P(SlowFricCoef, TakesTheReferenceTemperatureWhereTheModelHasNone) {
-  auto c = call(2);
-  c.temperatures = false;
-  std::fill(c.temperature.begin(), c.temperature.end(), nan);
+TEST_P(SlowFricCoef, TakesAPullAsTheSmallestPressureHoweverStrongItIs) {
+  auto c = call(1);
+  c.pressure[0] = -inf;
   run(c, four_axes());
-  EXPECT_CLOSE(c.coefficient[1], mu(1000, 50, 60), 1e-13);
-  EXPECT_EQ(by(c, 3), 0);
-}
-
-TEST_P(SlowFricCoef, GivesNaNForNaNInAnyArgumentItUses) {
-  using Spoil = void (*)(CoefCall&);
-  const std::pair<const char*, Spoil> spoils[] = {
-      {"pressure", [](CoefCall& c) { c.pressure[1] = nan; }},
-      {"slip rate", [](CoefCall& c) { c.slip[1] = nan; }},
-      {"tempAvg", [](CoefCall& c) { c.temperature[1] = nan; }},
-      {"props", [](CoefCall& c) { c.properties[2] = nan; }}};
-  for (const auto& [name, spoil] : spoils) {
-    auto c = call(3);
-    spoil(c);
-    run(c, four_axes());
-    EXPECT_TRUE(std::isnan(c.coefficient[1])) << name;
-    for (std::size_t i = 1; i <= 3; ++i)
-      EXPECT_EQ(by(c, i, 1), 0) << name;
-    if (std::string(name) != "props") {
-      EXPECT_CLOSE(c.coefficient[2], mu(1000, 50, 100), 1e-13);
-    }
-  }
-}
-
-TEST_P(SlowFricCoef, TakesInfinitiesAsFarOutsideTheTable) {
-  auto c = call(4);
-  c.pressure[0] = inf; // beyond the shear limit, whose coefficient vanishes
-  c.slip[1] = inf;
-  c.temperature[2] = -inf;
-  c.pressure[3] = -inf;
-  run(c, four_axes());
-  EXPECT_NEAR(c.coefficient[0], 0, 1e-20);
-  EXPECT_CLOSE(c.coefficient[1], mu(1000, 1e9, 100), 1e-13);
-  EXPECT_CLOSE(c.coefficient[2], mu(1000, 50, -1e9), 1e-13);
-  EXPECT_CLOSE(c.coefficient[3], mu(1, 50, 100), 1e-13);
-}
-
-TEST_P(SlowFricCoef, UsesTheNearestEdgeOutsideEachSideOfEachAxis) {
-  const double states[][3] = {{100, 50, 100},    {4000, 50, 100}, {1000, 1, 100},
-                              {1000, 2000, 100}, {1000, 50, -40}, {1000, 50, 900}};
-  auto c = call(6);
-  for (std::size_t k = 0; k < 6; ++k)
-    set(c, k, states[k][0], states[k][1], states[k][2]);
-  run(c, four_axes());
-  for (std::size_t k = 0; k < 6; ++k)
-    EXPECT_CLOSE(c.coefficient[k], mu(states[k][0], states[k][1], states[k][2]), 1e-13);
+  EXPECT_CLOSE(c.coefficient[0], mu(1, 50, 100), 1e-13);
 }
 
 TEST_P(SlowFricCoef, TakesStatesFromFieldsAndConstantsAsTheJobSays) {
-  static const TableFunction table(four_axis());
-  void* const function =
-      routine("fields",
-              {four_axis(),
-               "mm-t-s",
-               {{"psi", "field:2"}, {"sigma_f_MPa", "constant:300"}, {"T_contact_C", "field:1"}}});
-  auto c = call(1);
-  c.properties.clear();
-  c.fields = 2;
-  c.resize(2);
-  for (std::size_t k = 0; k < 2; ++k)
-    set(c, k, 1000, 50, nan);
-  c.field = {60, 100, 4, 7};
-  run(c, function);
-  const double first[] = {1000, 4, 50, 60, 300}, second[] = {1000, 7, 50, 100, 300};
-  EXPECT_CLOSE(c.coefficient[0], table(first) / 1000, 1e-13);
-  EXPECT_CLOSE(c.coefficient[1], table(second) / 1000, 1e-13);
-  c.fields = 1; // field 2 is not there: the middle of the axis
-  run(c, function);
-  const double fallback[] = {1000, std::sqrt(20.0), 50, 60, 300};
-  EXPECT_CLOSE(c.coefficient[0], table(fallback) / 1000, 1e-13);
-}
-
-TEST_P(SlowFricCoef, TakesTypicalValuesForPropertiesTheDeckDoesNotGive) {
-  static const TableFunction table(four_axis());
-  auto c = call(1);
-  c.properties.clear();
-  run(c, four_axes());
-  const double state[] = {1000, std::sqrt(20.0), 50, 100, 480};
-  EXPECT_CLOSE(c.coefficient[0], table(state) / 1000, 1e-13);
+  expect_states_from_fields_and_constants(static_cast<const Case&>(*this));
 }
 
 TEST_P(SlowFricCoef, ConvertsUnitsOfMetreKilogramSecondAndTheirDerivatives) {
@@ -272,7 +141,7 @@ TEST_P(SlowFricCoef, ConvertsUnitsOfMetreKilogramSecondAndTheirDerivatives) {
   metre.properties = {psi, 60, flow * 1e6};
   set(metre, 0, 1000e6, 0.05, 100);
   run(c, four_axes());
-  run(metre, routine("si", {four_axis(), "m-kg-s", {}}));
+  run(metre, routine("si", four_axis(), {}, "m-kg-s"));
   EXPECT_CLOSE(metre.coefficient[0], c.coefficient[0], 1e-13);
   EXPECT_NEAR(by(metre, 1), by(c, 1) * 1e3, 1e-12);
   EXPECT_NEAR(by(metre, 2), by(c, 2) * 1e-6, 1e-20);
@@ -281,9 +150,9 @@ TEST_P(SlowFricCoef, ConvertsUnitsOfMetreKilogramSecondAndTheirDerivatives) {
 
 TEST_P(SlowFricCoef, CompilesWithoutAWarningForEveryTable) {
   for (const NamedTable& sample : sample_tables()) {
-    if (!newer() && !has_every_kind_of_argument(sample)) continue;
+    if (!is_newer() && !has_every_kind_of_argument(sample)) continue;
     SCOPED_TRACE(sample.name);
-    EXPECT_NO_THROW(routine("warnings " + sample.name, {sample.table, "m-kg-s", {}}));
+    EXPECT_NO_THROW(routine("warnings " + sample.name, sample.table, {}, "m-kg-s"));
   }
 }
 
@@ -300,31 +169,6 @@ TEST_P(SlowFricCoef, AgreesWithFrictabItselfBySlippingBlocks) {
                             exporter.variants(request)[0])
         .drive(states.rows(), states.columns(), found);
     EXPECT_LE(worst_relative(found, expected(request.table, states)), 1e-13);
-  }
-}
-
-TEST_P(SlowFricCoef, MayRunInThreadsAtOnce) {
-  // Not with -fcheck=recursion: its own flag is shared by all threads.
-  void* const function = routine("threads", {four_axis(), "mm-t-s", {}}, {"-O2"});
-  auto reference = call(136);
-  for (std::size_t k = 0; k < 136; ++k)
-    set(reference, k, 600 + 10 * double(k), 10 + double(k), 50);
-  auto serial = reference;
-  serial.run(function);
-  std::vector<CoefCall> calls(4, reference);
-  std::vector<std::thread> threads;
-  for (CoefCall& c : calls)
-    threads.emplace_back([&c, &reference, function] {
-      for (int i = 0; i < 200; ++i) {
-        c = reference;
-        c.run(function);
-      }
-    });
-  for (std::thread& thread : threads)
-    thread.join();
-  for (const CoefCall& c : calls) {
-    EXPECT_EQ(c.coefficient, serial.coefficient);
-    EXPECT_EQ(c.derivative, serial.derivative);
   }
 }
 
@@ -345,15 +189,13 @@ TEST(FricCoefRecipe, SaysTheReleaseAndRefusesToKeepACoefficientWithoutStateVaria
     EXPECT_THAT(files.at("frictab_fric_coef.f"),
                 testing::HasSubstr("ARGUMENT LIST OF RELEASE " + release));
   }
-  try {
-    exporter.generate({four_axis(),
-                       "mm-t-s",
-                       {},
-                       {{"abaqus_release", "2020"}, {"abaqus_coefficient", "start_of_increment"}}});
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("has no state variables"));
-  }
+  const codegen::ExportRequest kept{
+      four_axis(),
+      "mm-t-s",
+      {},
+      {{"abaqus_release", "2020"}, {"abaqus_coefficient", "start_of_increment"}}};
+  EXPECT_THAT(refusal([&] { exporter.generate(kept); }),
+              testing::HasSubstr("has no state variables"));
 }
 
 } // namespace

@@ -282,7 +282,6 @@ TEST_F(Fric, WritesNothingBeyondItsStateVariables) {
 }
 
 TEST_F(Fric, TakesStatesFromFieldsAndConstantsAsTheJobSays) {
-  static const table::TableFunction table(four_axis());
   void* const function =
       routine("fields",
               {four_axis(),
@@ -295,23 +294,19 @@ TEST_F(Fric, TakesStatesFromFieldsAndConstantsAsTheJobSays) {
   c.field = {80, 40, 3, 5}; // PREDEF(1,1), PREDEF(2,1), PREDEF(1,2), PREDEF(2,2)
   move(c, 50);
   run(c, function);
-  const double state[] = {1000, 4, 50, 60, 300};
-  EXPECT_CLOSE(c.tau[0], table(state), 1e-13);
+  EXPECT_CLOSE(c.tau[0], four_axis_tau(1000, 50, 60, 4, 300), 1e-13);
   c.predefined = 1; // field 2 is not there: the middle of the axis
   c.state.assign(15, 0);
   run(c, function);
-  const double fallback[] = {1000, std::sqrt(20.0), 50, 60, 300};
-  EXPECT_CLOSE(c.tau[0], table(fallback), 1e-13);
+  EXPECT_CLOSE(c.tau[0], four_axis_tau(1000, 50, 60, std::sqrt(20.0), 300), 1e-13);
 }
 
 TEST_F(Fric, TakesTypicalValuesForPropertiesTheDeckDoesNotGive) {
-  static const table::TableFunction table(four_axis());
   auto c = call(1);
   c.properties.clear();
   move(c, 50);
   run(c, four_axes());
-  const double state[] = {1000, std::sqrt(20.0), 50, 100, 480};
-  EXPECT_CLOSE(c.tau[0], table(state), 1e-13);
+  EXPECT_CLOSE(c.tau[0], four_axis_tau(1000, 50, 100, std::sqrt(20.0)), 1e-13);
 }
 
 TEST_F(Fric, EndsTheAnalysisBeyondAnErrorSideAndNamesIt) {

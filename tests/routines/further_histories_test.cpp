@@ -6,14 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "routines/abaqus_routines.h"
 #include "routines/deform_case.h"
 #include "routines/fric_case.h"
-#include "support/calls/fric_coef.h"
 #include "support/calls/usrbcc.h"
 #include "support/calls/usrfrc.h"
-#include "support/calls/vfric.h"
-#include "support/calls/vfriction.h"
-#include "support/generated.h"
 #include "support/json.h"
 
 namespace frictab::further_histories_test {
@@ -160,49 +157,35 @@ const Library& compiled(const std::string& target, const Units& units, const std
                          {tables.at(units.table), units.name, inputs}, variant, test::strict);
 }
 
-// One contact point of a target: tau_R (MPa) of the next increment.
-template <class Call, class Real> struct ExplicitPoint {
-  double step(const Increment& now, const char* target, const char* entry) {
+// One contact point of a target: tau_R (MPa) of the next increment. An edge has four columns of
+// states, which the law takes the mean of.
+template <class Case> struct ForcePoint {
+  using Real = typename Case::Real;
+  static constexpr const char* target = Case::pairs ? "abaqus_vfric" : "abaqus_vfriction";
+  explicit ForcePoint(const Units& u) : units(u) {
+    c = Case::call(1, [](auto& plain) {
+      plain.states = 6 + 2 * 9;
+      plain.properties.clear();
+      if constexpr (requires { plain.edges; }) plain.edges = true;
+    });
+    c.area[0] = 4;
+  }
+  double step(const Increment& now) {
     c.time_increment = static_cast<Real>(now.time);
     c.normal[0] = static_cast<Real>(4 * now.pressure * units.stress);
     c.slip[0] = static_cast<Real>(now.speed * now.time * units.length);
     c.temperature[0] = c.temperature_main[0] = static_cast<Real>(now.temperature);
-    const Library& library = compiled(target, units, sizeof(Real) == 4 ? "single" : "double");
+    const Library& library = compiled(target, units, Case::single ? "single" : "double");
     const test::FloatTraps traps;
-    c.run(Library::address(library.handle(), entry));
+    c.run(Library::address(library.handle(), Case::pairs ? "vfric_" : "vfriction_"));
     c.previous[0] = c.tangential[0];
     return -static_cast<double>(c.tangential[0]) / 4 / units.stress;
   }
   Units units;
-  Call c = {};
+  typename Case::Call c;
 };
-
-template <class Real> struct Vfric : ExplicitPoint<calls::VfricCall<Real>, Real> {
-  static constexpr const char* target = "abaqus_vfric";
-  explicit Vfric(const Units& u) {
-    this->units = u;
-    this->c.states = 6 + 2 * 9;
-    this->c.temperatures = true;
-    this->c.resize(1, 1);
-    this->c.area[0] = Real(4);
-  }
-  double step(const Increment& now) { return Vfric::ExplicitPoint::step(now, target, "vfric_"); }
-};
-
-// An edge: four columns of states, which the law takes the mean of.
-template <class Real> struct Vfriction : ExplicitPoint<calls::VfrictionCall<Real>, Real> {
-  static constexpr const char* target = "abaqus_vfriction";
-  explicit Vfriction(const Units& u) {
-    this->units = u;
-    this->c.states = 6 + 2 * 9;
-    this->c.temperatures = this->c.edges = true;
-    this->c.resize(1);
-    this->c.area[0] = Real(4);
-  }
-  double step(const Increment& now) {
-    return Vfriction::ExplicitPoint::step(now, target, "vfriction_");
-  }
-};
+template <class Real> using Vfric = ForcePoint<test::VfricCase<Real>>;
+template <class Real> using Vfriction = ForcePoint<test::VfrictionCase<Real>>;
 
 template <class Real> struct Usrfrc {
   static constexpr const char* target = "lsdyna_usrfrc";
@@ -351,12 +334,7 @@ template <> double bound<Usrfrc<float>>() {
   return 2e-5;
 }
 
-template <class Point> class FurtherHistories : public testing::Test {
-protected:
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
-};
+template <class Point> class FurtherHistories : public test::NeedsGfortran {};
 
 using Points = testing::Types<Vfric<double>, Vfric<float>, Vfriction<double>, Vfriction<float>,
                               Usrfrc<double>, Usrfrc<float>, Fric, FricCoef, Usrbcc>;
@@ -368,33 +346,21 @@ struct PointName {
 TYPED_TEST_SUITE(FurtherHistories, Points, PointName);
 
 TYPED_TEST(FurtherHistories, FollowAPathOfIncrementsAsTheDefinitionSays) {
-  for (const Units& units : both_units) {
-    SCOPED_TRACE(units.name);
-    TypeParam point(units);
-    Definition wanted;
-    for (const Increment& now : path) {
-      const double tau = wanted.tau(now);
-      EXPECT_NEAR(point.step(now), tau, tau * bound<TypeParam>());
-      wanted.keep(now);
+  for (const std::string table : {"further", "way"})
+    for (Units units : both_units) {
+      SCOPED_TRACE(table + " " + units.name);
+      units.table = table;
+      TypeParam point(units);
+      Definition wanted(table);
+      for (const Increment& now : path) {
+        const double tau = wanted.tau(now);
+        EXPECT_NEAR(point.step(now), tau, tau * bound<TypeParam>());
+        wanted.keep(now);
+      }
+      EXPECT_GT(wanted.energy, 0);
+      EXPECT_LT(wanted.dwell, wanted.time) << "not all of the path is dwell";
+      EXPECT_GT(wanted.since_peak, 0);
     }
-    EXPECT_GT(wanted.energy, 0);
-    EXPECT_LT(wanted.dwell, wanted.time) << "not all of the path is dwell";
-  }
-}
-
-TYPED_TEST(FurtherHistories, OfLoadAndHeatFollowAPathAsTheDefinitionSays) {
-  for (Units units : both_units) {
-    SCOPED_TRACE(units.name);
-    units.table = "way";
-    TypeParam point(units);
-    Definition wanted("way");
-    for (const Increment& now : path) {
-      const double tau = wanted.tau(now);
-      EXPECT_NEAR(point.step(now), tau, tau * bound<TypeParam>());
-      wanted.keep(now);
-    }
-    EXPECT_GT(wanted.since_peak, 0);
-  }
 }
 
 TYPED_TEST(FurtherHistories, SlipStatesStartWithTheFirstIncrementThatSlides) {

@@ -7,10 +7,7 @@
 
 #include "codegen/solver_inputs.h"
 #include "data/derived.h"
-#include "support/calls/vfric.h"
-#include "support/calls/vfriction.h"
-#include "support/generated.h"
-#include "support/sample_tables.h"
+#include "routines/abaqus_routines.h"
 
 namespace frictab::histories_test {
 
@@ -50,49 +47,18 @@ struct Contact {
 const std::vector<Contact> path = {{500, 2}, {800, 3}, {300, 4}, {0, 5}, {900, 6}, {400, 1}};
 
 // One contact point of either routine; units are the solver's.
-template <class Real> struct PairPoint {
-  static constexpr const char *target = "abaqus_vfric", *entry = "vfric_";
-  using Call = calls::VfricCall<Real>;
-  static void resize(Call& c) { c.resize(1, 1); }
-};
-template <class Real> struct GeneralPoint {
-  static constexpr const char *target = "abaqus_vfriction", *entry = "vfriction_";
-  using Call = calls::VfrictionCall<Real>;
-  static void resize(Call& c) { c.resize(1); }
-};
-
-template <class Point, class Number> struct Kind {
-  using Contact = Point;
-  using Real = Number;
-};
-
-template <class Kind> class SlowHistories : public testing::Test {
+template <class Case> class SlowHistories : public test::NeedsGfortran, protected Case {
 protected:
-  using Real = typename Kind::Real;
-  using Point = typename Kind::Contact;
-  using Call = typename Point::Call;
-  static constexpr bool single = sizeof(Real) == 4;
+  using Call = typename Case::Call;
   // Single: force, state and slip are rounded to 24 bits at each of six increments.
-  static constexpr double bound = single ? 2e-5 : 1e-13;
-
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
-
-  static void* routine(const std::string& key, const Table& table, const std::string& units) {
-    return codegen::Library::address(
-        test::compiled(key + units, *codegen::find_exporter(Point::target), {table, units, {}},
-                       single ? "single" : "double", test::strict)
-            ->handle(),
-        Point::entry);
-  }
+  using Case::bound;
 
   static Call call(unsigned states = 6) {
-    Call c;
-    c.states = static_cast<int>(states);
-    c.time_increment = Real(0.125);
-    Point::resize(c);
-    c.area[0] = Real(4);
+    Call c = Case::call(1, [states](Call& plain) { plain.states = static_cast<int>(states); });
+    c.temperatures = false;
+    c.properties.clear();
+    c.time_increment = typename Case::Real(0.125);
+    c.area[0] = 4;
     return c;
   }
 
@@ -102,16 +68,7 @@ protected:
     c.previous[0] = c.tangential[0]; // as the solver hands it back
   }
 };
-
-using Kinds = testing::Types<Kind<PairPoint<double>, double>, Kind<PairPoint<float>, float>,
-                             Kind<GeneralPoint<double>, double>, Kind<GeneralPoint<float>, float>>;
-struct KindName {
-  template <class K> static std::string GetName(int) {
-    return std::string(K::Contact::target) +
-           (sizeof(typename K::Real) == 4 ? "_single" : "_double");
-  }
-};
-TYPED_TEST_SUITE(SlowHistories, Kinds, KindName);
+TYPED_TEST_SUITE(SlowHistories, test::ForceCases, test::RoutineName);
 
 TYPED_TEST(SlowHistories, FollowAPathOfIncrementsAsTheDefinitionSays) {
   using Number = typename TypeParam::Real;
@@ -119,7 +76,7 @@ TYPED_TEST(SlowHistories, FollowAPathOfIncrementsAsTheDefinitionSays) {
   static const table::TableFunction function(table);
   for (const std::string units : {"mm-t-s", "m-kg-s"}) {
     const double stress = units == "mm-t-s" ? 1 : 1e6, length = units == "mm-t-s" ? 1 : 1e-3;
-    void* routine = this->routine("path", table, units);
+    void* routine = this->routine("path" + units, table, {}, units);
     auto c = this->call();
     double slip = 0, work = 0, peak = 0, before = 0;
     for (const Contact& contact : path) {
@@ -152,7 +109,7 @@ TYPED_TEST(SlowHistories, WithoutStateVariablesAreThoseOfTheIncrementAlone) {
   for (int increment = 0; increment < 2; ++increment) {
     c.normal[0] = 4 * 500;
     c.slip[0] = 2;
-    this->run(c, this->routine("path", table, "mm-t-s"));
+    this->run(c, this->routine("path", table));
     const double state[] = {500, 0, 500, 2};
     EXPECT_NEAR(c.tangential[0], -4 * function(state), 4 * function(state) * TestFixture::bound);
   }
@@ -160,7 +117,7 @@ TYPED_TEST(SlowHistories, WithoutStateVariablesAreThoseOfTheIncrementAlone) {
 
 TYPED_TEST(SlowHistories, AreNotSpoiltByAForceBeforeThatIsNaN) {
   static const Table table = history_table();
-  void* routine = this->routine("path", table, "mm-t-s");
+  void* routine = this->routine("path", table);
   auto c = this->call();
   c.normal[0] = 4 * 500;
   c.slip[0] = 2;
@@ -180,7 +137,7 @@ TYPED_TEST(SlowHistories, ThatAreNaNGiveNaNWhereTheLawAsksForThem) {
     c.normal[0] = 4 * 500;
     c.slip[0] = 2;
     c.state[spoilt] = std::numeric_limits<typename TypeParam::Real>::quiet_NaN();
-    this->run(c, this->routine("path", table, "mm-t-s"));
+    this->run(c, this->routine("path", table));
     EXPECT_EQ(std::isnan(c.tangential[0]), spoilt != 3) << "4 is a count: " << spoilt;
   }
 }
@@ -188,7 +145,7 @@ TYPED_TEST(SlowHistories, ThatAreNaNGiveNaNWhereTheLawAsksForThem) {
 TYPED_TEST(SlowHistories, OfSmallIncrementsDoNotStandStillInSinglePrecision) {
   using Number = typename TypeParam::Real;
   static const Table table = test::constant_table();
-  void* routine = this->routine("constant", table, "mm-t-s");
+  void* routine = this->routine("constant", table);
   auto with = this->call(6), without = this->call(4);
   for (auto* c : {&with, &without}) {
     c->state[0] = 40;
@@ -210,7 +167,7 @@ TYPED_TEST(SlowHistories, DriversPoseThemAndLeaveOutWhatCannotBe) {
   static const table::TableFunction function(table);
   const std::vector<double> slip = {5, 20, 30, 12}, work = {100, 2000, 700, 5};
   const std::vector<double> peak = {900, 1500, 400, 600}, pressure = {700, 1500, 500, 600};
-  const codegen::Exporter& exporter = *codegen::find_exporter(TestFixture::Point::target);
+  const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_" + this->entry);
   for (const std::string units : {"mm-t-s", "m-kg-s"}) {
     const codegen::ExportRequest request{table, units, {}};
     const codegen::BuildVariant variant = exporter.variants(request)[TestFixture::single ? 1 : 0];

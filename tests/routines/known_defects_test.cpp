@@ -65,11 +65,8 @@ template <class Call> Call pressed(int points) {
   return c;
 }
 
-class KnownDefects : public testing::Test {
+class KnownDefects : public test::NeedsGfortran {
 protected:
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
   const Table constant = test::constant_table();
 };
 

@@ -2,8 +2,6 @@
 // traps on.
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <thread>
 #include <type_traits>
 
 #include <dlfcn.h>
@@ -11,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "routines/abaqus_routines.h"
 #include "support/calls/usrfrc.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
@@ -24,26 +23,19 @@ using table::TableFunction;
 namespace {
 
 using testing::HasSubstr;
-
-constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double psi = 2.5, flow = 480;
+using namespace test;
 
 const codegen::Exporter& lsdyna() {
   return *codegen::find_exporter("lsdyna_usrfrc");
 }
 
-template <class Real> struct SlowLsDyna : testing::Test {
+template <class Real> struct SlowLsDyna : test::NeedsGfortran {
   static constexpr bool single = sizeof(Real) == 4;
   using Int = std::conditional_t<single, std::int32_t, std::int64_t>;
   using Call = calls::UsrfrcCall<Real, Int>;
   // Double: the order of operations only. Single: see agreement_test.cpp.
   static constexpr double bound = single ? 2e-5 : 1e-13;
   static constexpr const char* variant = single ? "single" : "double";
-
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
 
   static const Library& library(const std::string& key, const Table& table,
                                 const std::map<std::string, std::string>& inputs = {},
@@ -52,10 +44,6 @@ template <class Real> struct SlowLsDyna : testing::Test {
   }
   static const Library& four_axes() { return library("four_axes", four_axis()); }
   static const Library& branching() { return library("branching", test::branching_table()); }
-  static const Table& four_axis() {
-    static const Table table = test::four_axis_table();
-    return table;
-  }
 
   // For the four-axis table: 1000 MPa, 50 mm/s across the force before, 100 degC everywhere.
   static Call call(std::size_t places) {
@@ -80,9 +68,7 @@ template <class Real> struct SlowLsDyna : testing::Test {
     c.run(Library::address(library.handle(), "usrfrc_"));
   }
   static double tau(double pressure = 1000, double speed = 50, double temperature = 100) {
-    static const TableFunction table(four_axis());
-    const double state[] = {pressure, psi, speed, temperature, flow};
-    return table(state);
+    return four_axis_tau(pressure, speed, temperature);
   }
 };
 
@@ -327,7 +313,6 @@ TYPED_TEST(SlowLsDyna, WritesNoHistoryBeyondNHV) {
 }
 
 TYPED_TEST(SlowLsDyna, AddsSlipBeforeEvaluatingAndOncePerCall) {
-  static const TableFunction table(test::branching_table());
   auto c = this->call(1);
   c.constants = {TypeParam(flow)};
   c.rate = 8;
@@ -337,8 +322,7 @@ TYPED_TEST(SlowLsDyna, AddsSlipBeforeEvaluatingAndOncePerCall) {
     c.before[2] = TypeParam(0x1p60), c.before[3] = 0;
     this->run(c, this->branching());
     EXPECT_EQ(c.history[0], TypeParam(5 * cycle));
-    const double state[] = {300, 40, 5.0 * cycle, flow};
-    EXPECT_CLOSE(c.force[0][0], table(state), TestFixture::bound);
+    EXPECT_CLOSE(c.force[0][0], branching_tau(300, 40, 5.0 * cycle), TestFixture::bound);
   }
 }
 
@@ -427,18 +411,15 @@ TYPED_TEST(SlowLsDyna, TakesWorkAndPeakPressureInTheSolversUnits) {
 }
 
 TYPED_TEST(SlowLsDyna, TakesConstantsAsTheJobSaysAndTypicalValuesForThoseTheDeckDoesNotGive) {
-  static const TableFunction table(this->four_axis());
   auto c = this->call(1);
   c.constants.clear();
   this->run(c, this->four_axes());
-  const double typical[] = {1000, std::sqrt(20.0), 50, 100, 480};
-  EXPECT_CLOSE(c.force[0][0], table(typical), TestFixture::bound);
+  EXPECT_CLOSE(c.force[0][0], four_axis_tau(1000, 50, 100, std::sqrt(20.0)), TestFixture::bound);
   auto said = this->call(1);
   said.constants = {TypeParam(9)};
-  this->run(said, this->library("said", this->four_axis(),
+  this->run(said, this->library("said", four_axis(),
                                 {{"sigma_f_MPa", "constant:300"}, {"T_contact_C", "constant:80"}}));
-  const double state[] = {1000, 9, 50, 80, 300};
-  EXPECT_CLOSE(said.force[0][0], table(state), TestFixture::bound);
+  EXPECT_CLOSE(said.force[0][0], four_axis_tau(1000, 50, 80, 9, 300), TestFixture::bound);
   auto unknown = this->call(1);
   unknown.constants.clear();
   this->run(unknown, this->branching());
@@ -458,7 +439,7 @@ TYPED_TEST(SlowLsDyna, ConvertsUnitsOfMetreKilogramSecond) {
   auto c = this->call(1);
   c.constants[2] = TypeParam(480e6);
   this->set(c, 0, 1000e6, 0.05);
-  this->run(c, this->library("si", this->four_axis(), {}, "m-kg-s"));
+  this->run(c, this->library("si", four_axis(), {}, "m-kg-s"));
   EXPECT_CLOSE(c.force[0][0], this->tau() * 1e6, TestFixture::bound);
 }
 
@@ -500,31 +481,15 @@ TYPED_TEST(SlowLsDyna, EndsTheAnalysisOutsideAndWhereTheContactGivesNoAreas) {
 }
 
 TYPED_TEST(SlowLsDyna, MayRunInThreadsAtOnce) {
-  // Not with -fcheck=recursion: its own flag is shared by all threads.
-  const Library* library = test::compiled("threads", lsdyna(), {this->four_axis(), "mm-t-s", {}},
+  const Library* library = test::compiled("threads", lsdyna(), {four_axis(), "mm-t-s", {}},
                                           TestFixture::variant, {"-O2"});
   *library->template find<typename TestFixture::Int>("thropt_") = 999;
   void* function = Library::address(library->handle(), "usrfrc_");
   auto reference = this->call(128);
   for (std::size_t i = 0; i < 128; ++i)
     this->set(reference, i, 600 + 10 * double(i), 10 + double(i));
-  auto serial = reference;
-  serial.run(function);
-  std::vector<typename TestFixture::Call> calls(4, reference);
-  std::vector<std::thread> threads;
-  for (auto& c : calls)
-    threads.emplace_back([&c, &reference, function] {
-      for (int i = 0; i < 200; ++i) {
-        c = reference;
-        c.run(function);
-      }
-    });
-  for (std::thread& thread : threads)
-    thread.join();
-  for (const auto& c : calls) {
-    EXPECT_EQ(c.force[0], serial.force[0]);
-    EXPECT_EQ(c.history, serial.history);
-  }
+  test::expect_the_same_in_threads(reference, function,
+                                   [](const auto& c) { return std::tie(c.force[0], c.history); });
 }
 
 } // namespace

@@ -1,12 +1,12 @@
 // UFRIC called as Marc calls it, with bounds checked and floating point traps on.
 #include <cmath>
-#include <limits>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "routines/standard_case.h"
 #include "support/calls/ufric.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
@@ -21,12 +21,10 @@ namespace {
 
 using calls::UfricCall;
 using testing::HasSubstr;
+using namespace test;
 using Options = std::map<std::string, std::string>;
 
-constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double bound = 1e-13; // the order of operations only
-constexpr double psi = 2.5, flow = 480;
 const double k = flow / std::sqrt(3.0);
 
 const codegen::Exporter& marc() {
@@ -40,19 +38,11 @@ ExportRequest request(const Table& table, const Options& options = {},
   return out;
 }
 
-class SlowMarc : public testing::Test {
+class SlowMarc : public test::NeedsGfortran {
 protected:
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
-
   static void* routine(const std::string& key, const ExportRequest& request) {
     return Library::address(
         test::compiled(key, marc(), request, "double", test::strict_declared)->handle(), "ufric_");
-  }
-  static const Table& four_axis() {
-    static const Table table = test::four_axis_table();
-    return table;
   }
   static void* four_axes(const Options& options = {}, const std::string& units = "mm-t-s") {
     ExportRequest asked = request(four_axis(), options, units);
@@ -76,11 +66,6 @@ protected:
     const test::FloatTraps traps;
     return c.run(function);
   }
-  static double tau(double pressure, double speed, double temperature) {
-    static const table::TableFunction table(four_axis());
-    const double state[] = {pressure, psi, speed, temperature, flow};
-    return table(state);
-  }
 };
 
 TEST_F(SlowMarc, AgreesWithFrictabForEveryKindOfArgumentUnitAndChoice) {
@@ -96,28 +81,30 @@ TEST_F(SlowMarc, AgreesWithFrictabForEveryKindOfArgumentUnitAndChoice) {
 }
 
 TEST_F(SlowMarc, GivesMuOrTheShearFactorAsTheJobSays) {
-  EXPECT_CLOSE(run(call(), four_axes()), tau(1000, 50, 100) / 1000, bound);
-  EXPECT_CLOSE(run(call(), four_axes({{"marc_friction", "shear"}})), tau(1000, 50, 100) / k, bound);
+  EXPECT_CLOSE(run(call(), four_axes()), four_axis_tau(1000, 50, 100) / 1000, bound);
+  EXPECT_CLOSE(run(call(), four_axes({{"marc_friction", "shear"}})),
+               four_axis_tau(1000, 50, 100) / k, bound);
 }
 
 TEST_F(SlowMarc, ReadsOneComponentOfVRELIn2DAndTwoIn3D) {
   UfricCall c = call();
   c.slip[1] = nan;
-  EXPECT_CLOSE(run(c, four_axes()), tau(1000, 50, 100) / 1000, bound);
+  EXPECT_CLOSE(run(c, four_axes()), four_axis_tau(1000, 50, 100) / 1000, bound);
   c.slip[0] = -30;
   c.slip[1] = 40;
-  EXPECT_CLOSE(run(c, four_axes({{"marc_dimension", "3d"}})), tau(1000, 50, 100) / 1000, bound);
-  EXPECT_CLOSE(run(c, four_axes()), tau(1000, 30, 100) / 1000, bound);
+  EXPECT_CLOSE(run(c, four_axes({{"marc_dimension", "3d"}})), four_axis_tau(1000, 50, 100) / 1000,
+               bound);
+  EXPECT_CLOSE(run(c, four_axes()), four_axis_tau(1000, 30, 100) / 1000, bound);
 }
 
 TEST_F(SlowMarc, DoesNotRelyOnTheSignOfTheNormalStress) {
   UfricCall c = call();
   c.normal = -1000;
-  EXPECT_CLOSE(run(c, four_axes()), tau(1000, 50, 100) / 1000, bound);
+  EXPECT_CLOSE(run(c, four_axes()), four_axis_tau(1000, 50, 100) / 1000, bound);
 }
 
 TEST_F(SlowMarc, GivesMuOfTheLeastPressureInsteadOf0Over0) {
-  const double least = tau(1e-3, 50, 100) / 1e-3;
+  const double least = four_axis_tau(1e-3, 50, 100) / 1e-3;
   for (const double pressure : {0.0, 1e-300, 1e-4, 1e-3}) {
     UfricCall c = call();
     c.normal = pressure;
@@ -154,10 +141,10 @@ TEST_F(SlowMarc, TakesInfinitiesAsFarOutsideTheTable) {
   EXPECT_CLOSE(run(c, four_axes({{"marc_friction", "shear"}})), 0.8, bound);
   c = call();
   c.slip[0] = inf;
-  EXPECT_CLOSE(run(c, four_axes()), tau(1000, 1e9, 100) / 1000, bound);
+  EXPECT_CLOSE(run(c, four_axes()), four_axis_tau(1000, 1e9, 100) / 1000, bound);
   c = call();
   c.temperature[0] = -inf;
-  EXPECT_CLOSE(run(c, four_axes()), tau(1000, 50, -1e9) / 1000, bound);
+  EXPECT_CLOSE(run(c, four_axes()), four_axis_tau(1000, 50, -1e9) / 1000, bound);
 }
 
 TEST_F(SlowMarc, UsesTheNearestEdgeOutsideEachSideOfEachAxis) {
@@ -166,33 +153,29 @@ TEST_F(SlowMarc, UsesTheNearestEdgeOutsideEachSideOfEachAxis) {
   for (const auto& [p, v, T] : states) {
     UfricCall c = call();
     c.normal = p, c.slip[0] = v, c.temperature[0] = T;
-    EXPECT_CLOSE(run(c, four_axes()), tau(p, v, T) / p, bound);
+    EXPECT_CLOSE(run(c, four_axes()), four_axis_tau(p, v, T) / p, bound);
   }
 }
 
 TEST_F(SlowMarc, ConvertsUnitsOfMetreKilogramSecond) {
   UfricCall c = call();
   c.normal = 1000e6, c.slip[0] = 0.05, c.flow_stress = flow * 1e6;
-  EXPECT_CLOSE(run(c, four_axes({}, "m-kg-s")), tau(1000, 50, 100) / 1000, bound);
+  EXPECT_CLOSE(run(c, four_axes({}, "m-kg-s")), four_axis_tau(1000, 50, 100) / 1000, bound);
 }
 
 TEST_F(SlowMarc, KeepsWhatMarcDoesNotGiveAsConstantsOfTheSource) {
   ExportRequest asked = request(four_axis());
   asked.inputs = {{"psi", "constant:7"}, {"sigma_f_MPa", "constant:300"}};
-  static const table::TableFunction table(four_axis());
-  const double state[] = {1000, 7, 50, 100, 300};
-  EXPECT_CLOSE(run(call(), routine("constants", asked)), table(state) / 1000, bound);
+  EXPECT_CLOSE(run(call(), routine("constants", asked)),
+               four_axis_tau(1000, 50, 100, 7, 300) / 1000, bound);
   EXPECT_THAT(marc().generate(asked).at("recipe.json"), HasSubstr("\"constant\": 7.0"));
 }
 
 TEST_F(SlowMarc, RefusesAForceWhereTheCoefficientDependsOnThePressure) {
-  const auto refusal = [](const Table& table, const std::string& friction) -> std::string {
-    try {
+  const auto refusal = [](const Table& table, const std::string& friction) {
+    return test::refusal([&] {
       marc().generate(request(table, {{"marc_normal", "force"}, {"marc_friction", friction}}));
-      return "accepted";
-    } catch (const InputError& error) {
-      return error.what();
-    }
+    });
   };
   Table limited = test::constant_table();
   limited.combine = minimum(limited.combine, expr::Expr::symbol("sigma_f_MPa") / 2);

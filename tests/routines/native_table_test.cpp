@@ -10,6 +10,7 @@
 #include "codegen/exporter.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "support/generated.h"
 #include "support/json.h"
 #include "support/sample_tables.h"
 
@@ -47,12 +48,7 @@ std::string text_of(const std::string& target, const Table& table, const Inputs&
 
 std::string refusal(const std::string& target, const Table& table, const Inputs& inputs = {},
                     const Inputs& options = {}) {
-  try {
-    text_of(target, table, inputs, "mm-t-s", options);
-    return "accepted";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return test::refusal([&] { text_of(target, table, inputs, "mm-t-s", options); });
 }
 
 // Lines that do not start with the comment, their cells as numbers where they are some.

@@ -49,12 +49,8 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(text.find(what), what.size(), with);
 }
 
-class OutsideSummary : public testing::Test {
+class OutsideSummary : public test::NeedsGfortran {
 protected:
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
-
   // What the program writes that is linked with the routine.
   static std::string output(const std::string& target, const std::string& beyond,
                             const std::string& low) {

@@ -48,12 +48,8 @@ Routine routine(const std::string& target, const std::string& entry, const table
   return out;
 }
 
-class SpeedScale : public testing::Test {
+class SpeedScale : public test::NeedsGfortran {
 protected:
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
-
   // Forces and state variables of six increments of this length: `run(scaled, seconds)`. Equal at
   // the process's speed and with the property; not the same without it.
   template <class Run> static void expect_process(const Run& run) {

@@ -1,4 +1,4 @@
-// What the tests of routines for Abaqus/Standard share.
+// States and tables that the tests of several routines share.
 #pragma once
 
 #include <limits>
@@ -20,6 +20,14 @@ inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 inline const table::Table& four_axis() {
   static const table::Table table = four_axis_table();
   return table;
+}
+
+// tau_R by that table, in MPa.
+inline double four_axis_tau(double pressure, double speed, double temperature,
+                            double expansion = psi, double flow_stress = flow) {
+  static const table::TableFunction table(four_axis());
+  const double state[] = {pressure, expansion, speed, temperature, flow_stress};
+  return table(state);
 }
 
 // Peak pressure and friction work as states of the law.

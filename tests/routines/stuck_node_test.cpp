@@ -7,10 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/calls/vfric.h"
-#include "support/calls/vfriction.h"
-#include "support/generated.h"
-#include "support/sample_tables.h"
+#include "routines/abaqus_routines.h"
 
 namespace frictab::stuck_node_test {
 
@@ -18,41 +15,20 @@ namespace {
 
 constexpr double mass = 1e-6, stiffness = 7.5e5, time_step = 2e-7; // t, N/mm, s
 
-template <class Call> struct Routine;
-template <class Real> struct Routine<calls::VfricCall<Real>> {
-  static constexpr const char* target = "abaqus_vfric";
-  static constexpr const char* entry = "vfric_";
-  static void resize(calls::VfricCall<Real>& c) { c.resize(1, 1); }
-};
-template <class Real> struct Routine<calls::VfrictionCall<Real>> {
-  static constexpr const char* target = "abaqus_vfriction";
-  static constexpr const char* entry = "vfriction_";
-  static void resize(calls::VfrictionCall<Real>& c) { c.resize(1); }
-};
-
-template <class Call> class SlowPenaltyNode : public testing::Test {
+template <class Case> class SlowPenaltyNode : public test::NeedsGfortran, protected Case {
 protected:
-  using Real = typename decltype(Call::stick)::value_type;
-  static constexpr bool single = sizeof(Real) == 4;
-  static constexpr double bound = single ? 2e-5 : 1e-13; // as in vfric_test.cpp
+  using Call = typename Case::Call;
+  using Real = typename Case::Real;
 
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-    static const table::Table table = test::four_axis_table();
-    const codegen::ExportRequest request{table, "mm-t-s", {}};
-    function_ = codegen::Library::address(
-        test::compiled("stuck", *codegen::find_exporter(Routine<Call>::target), request,
-                       single ? "single" : "double", test::strict)
-            ->handle(),
-        Routine<Call>::entry);
-    call_.directions = 2;
-    call_.states = 6;
-    call_.temperatures = true;
-    call_.time_increment = static_cast<Real>(time_step);
-    call_.properties = {Real(2.5), Real(60), Real(480)}; // psi, a temperature, sigma_f
-    Routine<Call>::resize(call_);
-    call_.normal[0] = 1000; // an area of 1
-    call_.temperature[0] = call_.temperature_main[0] = 100;
+    NeedsGfortran::SetUp();
+    if (IsSkipped()) return;
+    function_ = this->routine("stuck", test::four_axis());
+    call_ = Case::call(1, [](Call& plain) {
+      plain.directions = 2;
+      plain.states = 6;
+      plain.time_increment = static_cast<Real>(time_step);
+    });
   }
 
   // One increment of central differences under this load.
@@ -79,11 +55,7 @@ protected:
   }
 
   // Largest friction of a node that moves this fast, mm/s.
-  double limit(double speed) {
-    const table::TableFunction tau(test::four_axis_table());
-    const double state[] = {1000, 2.5, speed, 100, 480};
-    return tau(state);
-  }
+  double limit(double speed) { return Case::tau(1000, speed, 100); }
 
   double kept_slip() const { return static_cast<double>(call_.state[0] + call_.state[4]); }
   double kept_work() const { return static_cast<double>(call_.state[1] + call_.state[5]); }
@@ -93,15 +65,7 @@ protected:
   double speed_ = 0, moved_ = 0, friction_ = 0;
 };
 
-using Calls = testing::Types<calls::VfricCall<double>, calls::VfricCall<float>,
-                             calls::VfrictionCall<double>, calls::VfrictionCall<float>>;
-struct CallName {
-  template <class Call> static std::string GetName(int) {
-    return std::string(Routine<Call>::entry) +
-           (sizeof(typename decltype(Call::stick)::value_type) == 4 ? "single" : "double");
-  }
-};
-TYPED_TEST_SUITE(SlowPenaltyNode, Calls, CallName);
+TYPED_TEST_SUITE(SlowPenaltyNode, test::ForceCases, test::RoutineName);
 
 TYPED_TEST(SlowPenaltyNode, GivesTheStickForceWithItsSignAsFarAsFrictionHoldsIt) {
   const double limit = this->limit(50);
@@ -114,7 +78,7 @@ TYPED_TEST(SlowPenaltyNode, GivesTheStickForceWithItsSignAsFarAsFrictionHoldsIt)
 
 TYPED_TEST(SlowPenaltyNode, AForceBeforeThatIsNaNCountsAsTheOneNow) {
   const double limit = this->limit(50);
-  const TypeParam c = this->moved(1e30, std::numeric_limits<double>::quiet_NaN());
+  const auto c = this->moved(1e30, std::numeric_limits<double>::quiet_NaN());
   EXPECT_NEAR(c.tangential[0], -limit, TestFixture::bound * limit);
   EXPECT_EQ(c.state[0], c.slip[0]);
   const double work = limit * static_cast<double>(c.slip[0]);

@@ -9,14 +9,34 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "codegen/compile.h"
 #include "codegen/exporter.h"
+#include "core/error.h"
 
 // Relative to what is expected.
 #define EXPECT_CLOSE(value, expected, bound)                                                       \
   EXPECT_NEAR(value, expected, (bound)*std::abs(expected))
 
 namespace frictab::test {
+
+class NeedsGfortran : public testing::Test {
+protected:
+  void SetUp() override {
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  }
+};
+
+// The message of the InputError that `body` ends with, else "accepted".
+template <class Body> std::string refusal(const Body& body) {
+  try {
+    body();
+    return "accepted";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
 
 // For gfortran. (The constants of a solver's include, and its other arguments, are not ours to
 // use.)
