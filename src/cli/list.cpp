@@ -25,7 +25,7 @@ struct Line {
   bool by_name = false; // a job gets this law only by naming it
 };
 
-template <class T> std::vector<Line> lines_of(const std::vector<T>& items) {
+template <class T, class Items> std::vector<Line> lines_of(const Items& items) {
   std::vector<Line> lines;
   for (const T& item : items)
     lines.push_back({item.name, item.title});
@@ -46,13 +46,13 @@ const std::vector<std::string>& lists() {
 
 std::vector<Line> lines_of(const std::string& what) {
   if (what == "models" || what == "laws") {
-    std::vector<Line> lines = lines_of(models::all_laws());
+    std::vector<Line> lines = lines_of<models::Law>(models::all_laws());
     for (const auto& law : job::literature().own())
       lines.push_back({law->name, law->title, true});
     return lines;
   }
-  if (what == "effects") return lines_of(effects::all_effects());
-  if (what == "targets") return lines_of(codegen::all_exporters());
+  if (what == "effects") return lines_of<effects::EffectForm>(effects::all_effects());
+  if (what == "targets") return lines_of<codegen::Exporter>(codegen::all_exporters());
   if (what == "quantities") return quantity_lines();
   throw InputError({}, fmt::format("there is no list of '{}'", what), suggest(what, lists()));
 }

@@ -137,8 +137,8 @@ std::string native_recipe(const Exporter& exporter, const ExportRequest& request
 std::string NativeTarget::plain_text(const table::PlainRequest& request) const {
   std::vector<std::string> columns;
   ExportRequest asked{request.table, "mm-t-s", {}};
-  for (const auto& [name, value] : request.held)
-    asked.inputs[name] = "constant:" + shortest(value);
+  for (const auto& [state, value] : request.held)
+    asked.inputs[state] = "constant:" + shortest(value);
   const ExportRequest whole{request.table, "mm-t-s", {}};
   for (const NativeColumn& column : native_columns(whole, form(whole))) {
     columns.push_back(column.argument.name);

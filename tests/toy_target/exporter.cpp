@@ -28,8 +28,8 @@ public:
     if (!request.table.axes.empty())
       throw InputError({}, "the toy target knows no axes", "a law of one coefficient");
     std::map<std::string, expr::Expr> numbers = {{"value", request.table.value.at(0)}};
-    for (const auto& [name, number] : request.table.constants)
-      numbers[name] = number;
+    for (const auto& [constant, number] : request.table.constants)
+      numbers[constant] = number;
     codegen::SourceBundle files;
     files["toy.txt"] = expr::to_text(substitute(request.table.combine, numbers)) + "\n";
     files["recipe.json"] = io::json_text(codegen::recipe_head(*this, request, "toy.txt", files));
