@@ -21,7 +21,7 @@ Values halves(std::size_t tests, Random& random) {
 }
 
 // Not so alike that nobody could tell them apart.
-std::vector<Values> told_apart(std::size_t columns, std::size_t tests, Random& random) {
+std::vector<Values> distinguishable_errors(std::size_t columns, std::size_t tests, Random& random) {
   std::vector<Values> all;
   while (all.size() < columns) {
     const Values next = halves(tests, random);
@@ -60,7 +60,7 @@ Part masked_part(const Options& options, std::size_t tests, const Program& progr
   std::erase_if(part.columns, [&](const data::Column& c) {
     return c.name == "sigma_f_MPa" || (plain && (c.name == "psi" || c.name == "T_contact_C"));
   });
-  const auto columns = told_apart(options.masked_columns, tests, random);
+  const auto columns = distinguishable_errors(options.masked_columns, tests, random);
   part.law = part.at("sigma_n_MPa");
   for (std::size_t c = 0; c < columns.size(); ++c) {
     part.add_per_test(fmt::format("x{}", c + 1), columns[c]);

@@ -31,7 +31,7 @@ void RowsBeyond::add(const models::Law& law, const std::vector<std::string>& nam
   }
   for (std::size_t row = 0; row < data.rows(); ++row)
     if (outside[row]) any += behind(row);
-  rows += data.rows_behind();
+  rows += data.source_rows();
 }
 
 void RowsBeyond::add(const RowsBeyond& more) {

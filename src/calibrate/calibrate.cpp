@@ -99,7 +99,7 @@ void check_parameters(const models::Law& law, const Dataset& data, const Place& 
 }
 
 // Reports that the data lack columns of a law that was requested.
-void tell_missing(const models::Law& law, const std::vector<std::string>& missing,
+void report_missing(const models::Law& law, const std::vector<std::string>& missing,
                   const CalibrationInput& input, FaultList& faults) {
   const LeftOut left{law.name, join(missing, ", ")};
   const auto named = law.places.find(missing.front());
@@ -134,7 +134,7 @@ Selection select_laws(const CalibrationInput& input, const models::Conventions& 
     if (missing.empty())
       selection.laws.push_back(law);
     else if (asked || !models::is_registered(*law))
-      tell_missing(*law, missing, input, faults);
+      report_missing(*law, missing, input, faults);
     else
       selection.left_out.push_back({law->name, join(missing, ", ")});
   }
@@ -150,7 +150,7 @@ Metrics errors_on(const Dataset& data, const std::vector<double>& predicted,
   return metrics(data, predicted, options.bootstrap, options.seed);
 }
 
-void tell_beyond_ends(ModelFit& fit, const models::AssembledLaw& law, const InputColumns& columns,
+void remark_rows_outside_range(ModelFit& fit, const models::AssembledLaw& law, const InputColumns& columns,
                       const CalibrationInput& input) {
   const auto add = [&](const InputColumns& of, const Dataset& data, const char* called) {
     RowsBeyond beyond;
@@ -167,7 +167,7 @@ void tell_beyond_ends(ModelFit& fit, const models::AssembledLaw& law, const Inpu
 // Judges the law on the rows in memory; for condensed data judge_on_rows does this.
 void judge_fit(ModelFit& fit, const models::AssembledLaw& law, const Predicted& trained,
                const CalibrationInput& input) {
-  tell_beyond_ends(fit, law, trained.columns, input);
+  remark_rows_outside_range(fit, law, trained.columns, input);
   fit.training = errors_on(input.training, trained.tau_MPa, input.options);
   if (!on_other_experiments(input.judged_by)) return;
   const Predicted unseen = predict_with_columns(law, law.inputs, input.validation);

@@ -82,7 +82,7 @@ public:
     add_tied();
     for (const Determination::Open& open : fit_.determination.not_determined)
       fit_.remarks.push_back(open.text);
-    add_told(); // already remarks of the fit
+    add_remarked(); // already remarks of the fit
   }
 
 private:
@@ -200,7 +200,7 @@ private:
   }
 
   // Adds parameters that the fit itself reported.
-  void add_told() {
+  void add_remarked() {
     for (std::size_t p = 0; p < size(); ++p)
       if (!u_.why_none[p].empty())
         fit_.determination.not_determined.push_back({{name(p)}, name(p) + ": " + u_.why_none[p]});

@@ -57,7 +57,7 @@ struct Mean {
 // Number of rows of an experiment without load or without resistance.
 std::size_t count_unloaded(const Dataset& data, std::size_t e, std::span<const double> per,
                            const data::RatioSum& ratio) {
-  if (!has_uncertainties(data)) return data.rows_behind(e) - static_cast<std::size_t>(ratio.rows);
+  if (!has_uncertainties(data)) return data.source_rows(e) - static_cast<std::size_t>(ratio.rows);
   const auto of_test = per.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e]);
   return static_cast<std::size_t>(
       std::count_if(of_test.begin(), of_test.end(), [](double x) { return !(x > 0); }));

@@ -206,7 +206,7 @@ std::map<std::string, std::pair<double, double>> InputColumns::ranges() const {
 
 std::pair<double, double> InputColumns::range(std::size_t input) const {
   const data::Column* column = recorded_column(names_[input], *data_);
-  return data::span_behind(*data_, column ? column->name : names_[input], (*this)[input]);
+  return data::source_range(*data_, column ? column->name : names_[input], (*this)[input]);
 }
 
 namespace {

@@ -116,7 +116,7 @@ TrainingSet prepare(const models::Law& law, const data::Dataset& data,
   bins.z.resize(bins.stress.size(), static_cast<Index>(names.size()));
   for (std::size_t i = 0; i < names.size(); ++i) {
     const VectorXd mean = binning.means(data.values(names[i]));
-    const double smallest = data::span_behind(data, names[i], data.values(names[i])).first;
+    const double smallest = data::source_range(data, names[i], data.values(names[i])).first;
     set.inputs.push_back(scaling(names[i], smallest, mean));
     bins.z.col(static_cast<Index>(i)) =
         mean.unaryExpr([&](double x) { return set.inputs.back().z(x); });

@@ -58,7 +58,7 @@ double exceeded_by_most(const data::Dataset& data, std::span<const double> rows)
 PolynomialState coordinate(const std::string& name, const data::Dataset& data) {
   PolynomialState state{.name = name};
   const auto rows = data.values(name);
-  std::tie(state.low, state.high) = data::span_behind(data, name, rows);
+  std::tie(state.low, state.high) = data::source_range(data, name, rows);
   if (data::find_quantity(name)->unit == "degC" || state.low < 0) return state;
   const double small = exceeded_by_most(data, rows);
   state.log = true;

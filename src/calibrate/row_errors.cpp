@@ -124,7 +124,7 @@ private:
     return metrics(sums_of(errors), input_.options.bootstrap, input_.options.seed);
   }
 
-  void tell_beyond(ModelFit& fit, const RowsBeyond& beyond, const char* data) const {
+  void remark_rows_outside(ModelFit& fit, const RowsBeyond& beyond, const char* data) const {
     for (std::string& remark : beyond.told(*fit.model.law, data))
       fit.remarks.push_back(std::move(remark));
   }
@@ -132,13 +132,13 @@ private:
   void take(ModelFit& fit, std::size_t l, const std::vector<RowFindings>& found) const {
     fit.on_rows.clear();
     fit.training = metrics_of(found[0].errors[l]);
-    tell_beyond(fit, found[0].beyond[l], "training");
+    remark_rows_outside(fit, found[0].beyond[l], "training");
     if (on_other_experiments(input_.judged_by)) {
       append_errors(fit, found[0].errors[l]);
       append_errors(fit, found[1].errors[l]);
       fit.validation = metrics_of(found[1].errors[l]);
       fit.band = check_band(fit.model, gains_of(found[1].errors[l]));
-      tell_beyond(fit, found[1].beyond[l], "validation");
+      remark_rows_outside(fit, found[1].beyond[l], "validation");
     } else if (leaves_out()) {
       fit.unseen = found[1].errors[l];
       fit.validation = metrics_of(fit.unseen);

@@ -106,7 +106,7 @@ std::string with_tables(const std::string& recipe, const NamedTables& laws,
 
 void write(io::OutputFiles& output, const codegen::Exporter& exporter, const NamedTables& laws,
            const codegen::ExportOptions& options, const fs::path& directory) {
-  const codegen::CombinedBundle bundle = codegen::said_of(exporter.name, [&] {
+  const codegen::CombinedBundle bundle = codegen::faults_of_law(exporter.name, [&] {
     return exporter.combine(requests(laws, options, exporter.name), laws.names);
   });
   for (const auto& [path, text] : bundle.files)

@@ -69,7 +69,7 @@ std::string positive_number(const std::string& text);
 std::string number_from_0(const std::string& text);
 
 // Reports the current exception on stderr, from within a catch block, and returns its exit code.
-int tell_error();
+int print_exception();
 
 // Writes to stdout after `printable` (core/text.h), so that text from files cannot move the cursor.
 void show(const std::string& text);

@@ -193,7 +193,7 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, cha
 }
 
 // Flushes stdout and checks it: output is buffered until here, so that a full disk shows only now.
-int told_all(int exit_code) {
+int finish(int exit_code) {
   std::cout.flush();
   errno = 0;
   if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return exit_code;
@@ -213,7 +213,7 @@ int run_parsed(CLI::App& app, const Runners& runners, const CommonOptions& commo
   } catch (const CLI::ParseError& error) {
     return usage_error(app, error, argc, argv);
   } catch (...) {
-    return tell_error();
+    return print_exception();
   }
 }
 
@@ -229,7 +229,7 @@ std::string number_from_0(const std::string& text) {
       text, [](double x) { return x >= 0; }, "a number from 0 on");
 }
 
-int tell_error() {
+int print_exception() {
   try {
     throw;
   } catch (const InputError& error) {
@@ -240,7 +240,7 @@ int tell_error() {
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "error: out of memory\n  hint: fewer nodes, or a smaller file\n");
   } catch (const std::exception& error) {
-    if (!std::ferror(stdout)) // otherwise told_all reports the error
+    if (!std::ferror(stdout)) // otherwise finish reports the error
       fmt::print(stderr, "error: {}\n", printable(error.what()));
   }
   return 3;
@@ -287,7 +287,7 @@ int run_command_line(int argc, char** argv) {
       sub->require_subcommand(1);
     }
   }
-  return told_all(run_parsed(app, runners, common, argc, argv));
+  return finish(run_parsed(app, runners, common, argc, argv));
 }
 
 } // namespace frictab::cli

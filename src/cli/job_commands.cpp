@@ -44,19 +44,19 @@ job::Job read_job(const std::string& file, const CommonOptions& common) {
   job::Job job = job::read_job(file, common.set);
   if (!common.output.empty()) {
     job.directory = common.output;
-    job.said += " -o " + shell_word(common.output);
+    job.command_line_options += " -o " + shell_word(common.output);
   }
   job.replaces_others = common.force;
   if (common.seed) {
     job.calibration.seed = *common.seed;
-    job.said += fmt::format(" --seed {}", *common.seed);
+    job.command_line_options += fmt::format(" --seed {}", *common.seed);
   }
   for (const std::string& key : common.set)
-    job.said += " --set " + shell_word(key);
+    job.command_line_options += " --set " + shell_word(key);
   return job;
 }
 
-void tell_notes(const run::Run& run, const CommonOptions& common) {
+void print_notes(const run::Run& run, const CommonOptions& common) {
   if (run.data && !run.data->leak.empty()) note(common, "warning: " + run.data->leak);
   for (const std::string& line : run.notes)
     note(common, line);
@@ -75,7 +75,7 @@ void show_summary(const std::string& text) {
 
 } // namespace
 
-int tell_plan(const job::Job& job, const std::string& command, const CommonOptions& common) {
+int print_plan(const job::Job& job, const std::string& command, const CommonOptions& common) {
   const run::Plan plan = run::plan_of(job, command);
   show(common.json ? run::plan_json(plan) : run::plan_text(plan));
   return plan.refused() ? 2 : 0;
@@ -85,24 +85,24 @@ int run_stage_command(const std::string& file, const CommonOptions& common,
                       const std::string& command,
                       const std::function<void(const run::Run&)>& afterwards) {
   job::Job job = read_job(job_file(file), common);
-  if (common.dry_run) return tell_plan(job, command, common);
+  if (common.dry_run) return print_plan(job, command, common);
   run::Run run(std::move(job));
-  const auto tell_kept = [&] {
+  const auto print_checkpoint = [&] {
     if (const std::string kept = run.workspace.checkpoint_text(); !kept.empty()) note(common, kept);
   };
   try {
-    const WhenInterrupted interrupted(tell_kept);
+    const WhenInterrupted interrupted(print_checkpoint);
     if (command == "run")
       run_all(run);
     else
       run_stage(run, command);
     run.workspace.commit();
   } catch (...) {
-    const int code = tell_error();
-    tell_kept();
+    const int code = print_exception();
+    print_checkpoint();
     return code;
   }
-  tell_notes(run, common);
+  print_notes(run, common);
   if (common.verbose && run.data)
     for (const std::string& line : run.data->training.notes)
       note(common, line);

@@ -21,7 +21,7 @@ std::string job_file(const std::string& given);
 job::Job read_job(const std::string& file, const CommonOptions& common);
 
 // Writes the notes of a run for the user to stderr.
-void tell_notes(const run::Run& run, const CommonOptions& common);
+void print_notes(const run::Run& run, const CommonOptions& common);
 
 // Runs "frictab COMMAND JOB" for one stage, or for "run", which is all stages: reads the job, runs,
 // commits and prints the summary. `afterwards` gets the finished run. Returns the exit code.
@@ -30,6 +30,6 @@ int run_stage_command(const std::string& file, const CommonOptions& common,
                       const std::function<void(const run::Run&)>& afterwards = {});
 
 // Handles --dry-run for a command that runs stages of a job.
-int tell_plan(const job::Job& job, const std::string& command, const CommonOptions& common);
+int print_plan(const job::Job& job, const std::string& command, const CommonOptions& common);
 
 } // namespace frictab::cli

@@ -94,11 +94,11 @@ int verify_job(const Options& options, const CommonOptions& common) {
   if (options.max_drift_MPa) job.verify.max_drift_MPa = options.max_drift_MPa;
   if (options.require_proof) job.verify.require_proof = true;
   if (options.require_run) job.verify.require_run = true;
-  if (common.dry_run) return tell_plan(job, "verify", common);
+  if (common.dry_run) return print_plan(job, "verify", common);
   run::Run run(std::move(job));
   run_stage(run, "verify");
   run.workspace.commit();
-  tell_notes(run, common);
+  print_notes(run, common);
   write_junit(options, *run.verification);
   show(common.json ? run::summary_json(run)
                    : run::drift_text(*run.verification, run::Detail::full));

@@ -41,7 +41,7 @@ std::vector<ExportRequest> named_laws(std::vector<ExportRequest> laws,
                                       const std::vector<std::string>& names, const LawSelector& by);
 
 // Returns the result of `make`; adds the law's name to faults that it throws: "PUNCH: ...".
-template <class Make> auto said_of(const std::string& whose, const Make& make) {
+template <class Make> auto faults_of_law(const std::string& whose, const Make& make) {
   try {
     return make();
   } catch (const InputError& error) {

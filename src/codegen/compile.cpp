@@ -58,7 +58,7 @@ void* Library::address(void* handle, const std::string& symbol) {
   return found;
 }
 
-void Library::tell_directory(const fs::path& directory, const std::string& symbol) const {
+void Library::pass_directory(const fs::path& directory, const std::string& symbol) const {
   if (void* tell = dlsym(handle_, symbol.c_str()))
     reinterpret_cast<void (*)(const char*)>(tell)(directory.c_str());
 }
@@ -74,7 +74,7 @@ CompiledTarget::CompiledTarget(const Exporter& exporter, const ExportRequest& re
   // The prefix option exists for all targets of a job, but not all of them use it.
   for (const std::string& symbol :
        {std::string("frictab_directory"), prefixed(request, "frictab_directory")})
-    library_->tell_directory(directory_.path(), symbol);
+    library_->pass_directory(directory_.path(), symbol);
 }
 
 } // namespace frictab::codegen

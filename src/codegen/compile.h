@@ -31,7 +31,7 @@ public:
   static void* address(void* handle, const std::string& symbol);
   // Passes the directory of the values file to generated code that reads one, through the C
   // function `symbol`. Does nothing if the code has no such function.
-  void tell_directory(const std::filesystem::path& directory,
+  void pass_directory(const std::filesystem::path& directory,
                       const std::string& symbol = "frictab_directory") const;
 
 private:

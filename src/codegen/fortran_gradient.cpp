@@ -30,7 +30,7 @@ Lines axes(const table::Table& table, const TemplateValues& core) {
 }
 
 // True for the states that may change the value inside the formula.
-std::vector<bool> behind_value(const table::Table& table) {
+std::vector<bool> steps_after_value(const table::Table& table) {
   std::vector<bool> out;
   for (const std::string& name : table.inputs())
     out.push_back((table.extension && expr::symbols(*table.extension).count(name)) ||
@@ -45,7 +45,7 @@ void add_formula(TemplateValues& values, const table::Table& table,
   const std::string tau = "tau";
   Variables variables(table, table.combine, Language::fortran);
   const std::vector<std::string> inputs = table.inputs();
-  const std::vector<bool> behind = behind_value(table);
+  const std::vector<bool> behind = steps_after_value(table);
   // The slope is needed only if some state changes the value.
   const bool changes = std::count(behind.begin(), behind.end(), true) > 0;
   std::vector<Wanted> wanted{{table.combine, tau},

@@ -68,7 +68,7 @@ void RoutineTarget::drive(const Built& built, const ExportRequest& request, std:
 
 table::HeldStates RoutineTarget::held(const ExportRequest& request) const {
   const CurvedRequest curved(request, gives(request));
-  return said_constants(curved.get(), checked_inputs(curved.get()));
+  return declared_constants(curved.get(), checked_inputs(curved.get()));
 }
 
 bool RoutineTarget::gives_mu(const ExportRequest& request) const {
@@ -81,7 +81,7 @@ CombinedBundle RoutineTarget::combine(const std::vector<ExportRequest>& requests
   CombinedBundle out{{}, named_laws(requests, names, selector_)};
   std::vector<SourceBundle> bundles;
   for (std::size_t i = 0; i < requests.size(); ++i)
-    bundles.push_back(said_of(names[i], [&] { return generate(requests[i]); }));
+    bundles.push_back(faults_of_law(names[i], [&] { return generate(requests[i]); }));
   out.files = codegen::combine({*this, entry_, arguments(requests.front()), quit(), selector_},
                                out.laws, bundles);
   return out;

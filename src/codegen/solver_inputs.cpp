@@ -258,7 +258,7 @@ std::vector<SolverInput> solver_inputs(const ExportRequest& request, const Solve
   return inputs;
 }
 
-table::HeldStates said_constants(const ExportRequest& request,
+table::HeldStates declared_constants(const ExportRequest& request,
                                  const std::vector<SolverInput>& inputs) {
   table::HeldStates held;
   for (const SolverInput& input : inputs) {

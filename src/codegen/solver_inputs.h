@@ -104,7 +104,7 @@ struct FurtherProperty {
 using FurtherProperties = std::vector<FurtherProperty>;
 
 // Returns the inputs that the job makes constants, [export.inputs] NAME = "constant:VALUE".
-table::HeldStates said_constants(const ExportRequest& request,
+table::HeldStates declared_constants(const ExportRequest& request,
                                  const std::vector<SolverInput>& inputs);
 
 std::size_t property_count(const std::vector<SolverInput>& inputs);

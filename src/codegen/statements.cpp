@@ -189,7 +189,7 @@ private:
   }
 
   // Returns the room left on a line after a name.
-  std::size_t room_behind(std::size_t name) const {
+  std::size_t room_after(std::size_t name) const {
     return line_width - std::min(line_width, spelling_.owner.size() + name + 3);
   }
 
@@ -202,7 +202,7 @@ private:
   Text line(const Expr& e) {
     const auto found = spelling_.steps.find(e.id());
     const std::size_t name = found == spelling_.steps.end() ? 4 : found->second.name.size();
-    return assign(e, written(e, room_behind(name)).text, "");
+    return assign(e, written(e, room_after(name)).text, "");
   }
 
   Text operand(const Expr& e, Op of) {
@@ -238,7 +238,7 @@ private:
     const auto named = spelling_.steps.find(e.id());
     const bool known = named != spelling_.steps.end() && named->second.own_line;
     if (known) return line(e).text;
-    return assign(e, written(e, room_behind(wanted.name.size())).text, wanted.name).text;
+    return assign(e, written(e, room_after(wanted.name.size())).text, wanted.name).text;
   }
 
   const Spelling& spelling_;

@@ -12,7 +12,7 @@
 
 namespace frictab::data {
 
-void tell_cells(Part& part) {
+void report_odd_cells(Part& part) {
   if (part.cell_faults.empty()) return;
   const std::set<std::size_t> kept(part.row.begin(), part.row.end());
   FaultsByCause causes;

@@ -11,7 +11,7 @@ namespace frictab::data {
 
 // Reports cells of kept rows that are not numbers; a value that would be computed from such a cell
 // is not reported again.
-void tell_cells(Part& part);
+void report_odd_cells(Part& part);
 
 // Reports a missing contact normal stress. A column that is mapped but absent has been reported
 // before.

@@ -216,11 +216,11 @@ Dataset condense(const Dataset& rows, std::size_t blocks,
 namespace {
 
 void check_same(const Dataset& data, std::size_t experiment, std::size_t rows) {
-  if (rows == data.rows_behind(experiment)) return;
+  if (rows == data.source_rows(experiment)) return;
   throw InputError({join(data.sources, ", "), 0, 0},
                    fmt::format("experiment '{}' had {} rows when it was condensed, and has {} now",
                                data.experiments[experiment],
-                               thousands(data.rows_behind(experiment)), thousands(rows)),
+                               thousands(data.source_rows(experiment)), thousands(rows)),
                    "the files were changed while they were read: run again when they are complete");
 }
 
@@ -272,7 +272,7 @@ void read_again(std::span<const Dataset* const> all, const TakeRows& take) {
       if (!seen[d][e]) check_same(*all[d], e, 0);
 }
 
-std::pair<double, double> span_behind(const Dataset& data, const std::string& name,
+std::pair<double, double> source_range(const Dataset& data, const std::string& name,
                                       std::span<const double> held) {
   if (!data.condensed) return ends_of(held);
   std::vector<double> ends;

@@ -29,14 +29,14 @@ std::span<const double> Dataset::values(std::string_view name) const {
   return column->values;
 }
 
-std::size_t Dataset::rows_behind() const {
+std::size_t Dataset::source_rows() const {
   std::size_t all = 0;
   for (std::size_t e = 0; e < experiments.size(); ++e)
-    all += rows_behind(e);
+    all += source_rows(e);
   return all;
 }
 
-std::size_t Dataset::rows_behind(std::size_t experiment) const {
+std::size_t Dataset::source_rows(std::size_t experiment) const {
   return condensed ? condensed->experiments[experiment].rows
                    : first_row[experiment + 1] - first_row[experiment];
 }

@@ -179,13 +179,13 @@ public:
   // Synthetic data only: the noise-free tau_R per row; empty if unknown. Not a column, so that
   // nothing can be fitted to it, and not part of the fingerprint.
   std::vector<double> oracle_MPa;
-  // Set if each row is the mean over a block of rows. To count rows use rows_behind(), to sum over
+  // Set if each row is the mean over a block of rows. To count rows use source_rows(), to sum over
   // them row_weights().
   std::optional<Condensed> condensed;
 
   std::size_t rows() const { return first_row.back(); } // rows in memory
-  std::size_t rows_behind() const;                      // rows that were read
-  std::size_t rows_behind(std::size_t experiment) const;
+  std::size_t source_rows() const;                      // rows that were read
+  std::size_t source_rows(std::size_t experiment) const;
   // Number of source rows per row; empty: one each.
   std::span<const double> row_weights() const;
   double row_weight(std::size_t row) const { return condensed ? condensed->rows[row] : 1; }

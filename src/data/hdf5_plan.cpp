@@ -165,7 +165,7 @@ private:
   void take_root(Hdf5Rows&& root, Hdf5Plan& plan) {
     const std::set<std::string> taken(root.columns.begin(), root.columns.end());
     root.singles = singles_of_root(root, taken);
-    tell_others_of(root, true);
+    report_other_objects(root, true);
     for (const std::string& group : in_.groups())
       left_.add("", group, "a group");
     plan.groups.push_back(std::move(root));
@@ -187,10 +187,10 @@ private:
         taken.insert(single.name);
     }
     const std::vector<Hdf5Single> of_all = singles_of_root({}, taken);
-    tell_others_of({}, false);
+    report_other_objects({}, false);
     for (Hdf5Rows& test : tests) {
       test.singles.insert(test.singles.end(), of_all.begin(), of_all.end());
-      tell_others_of(test, true);
+      report_other_objects(test, true);
     }
     plan.groups = std::move(tests);
   }
@@ -269,7 +269,7 @@ private:
 
   // Reports contents other than columns and single values. `read`: the columns of this group are
   // read.
-  void tell_others_of(const Hdf5Rows& rows, bool read) {
+  void report_other_objects(const Hdf5Rows& rows, bool read) {
     for (const io::Hdf5Other& other : in_.others(rows.group.empty() ? "/" : rows.group))
       leave(rows.group, other.name, other.what);
     for (const std::string& name : datasets(rows.group)) {

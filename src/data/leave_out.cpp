@@ -195,7 +195,7 @@ bool look_again(const Dataset& data, DataOptions& options) {
   return again;
 }
 
-void tell_left_out(Dataset& data) {
+void report_rows_left_out(Dataset& data) {
   constexpr std::size_t named = 12;
   std::size_t all = 0, fitted = 0;
   for (std::size_t p = 0; p < phase_count; ++p) {

@@ -27,6 +27,6 @@ bool look_again(const Dataset& data, DataOptions& options);
 
 // Adds a note on the whole campaign that its summary repeats.
 void tell(Dataset& data, std::string intervention);
-void tell_left_out(Dataset& data);
+void report_rows_left_out(Dataset& data);
 
 } // namespace frictab::data

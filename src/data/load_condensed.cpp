@@ -60,7 +60,7 @@ public:
   std::vector<FaultList> read_parts(const Take& take) const {
     std::vector<FaultList> faults(files_.size());
     for (std::size_t first = 0; first < files_.size();) {
-      const std::size_t end = behind_side_by_side(first);
+      const std::size_t end = end_of_contiguous_parts(first);
       parallel_for(end - first,
                    [&](std::size_t i) { read_file(first + i, faults[first + i], take); });
       first = end;
@@ -82,7 +82,7 @@ public:
   }
 
 private:
-  std::size_t behind_side_by_side(std::size_t first) const {
+  std::size_t end_of_contiguous_parts(std::size_t first) const {
     std::uint64_t bytes = 0;
     std::size_t end = first;
     while (end < files_.size()) {
@@ -139,7 +139,7 @@ public:
     for (std::size_t f = 0; f < faults_.size(); ++f)
       for (const Fault& fault : of_files[f].all())
         faults_[f].add(fault.place, fault.what, fault.hint);
-    tell_empty_files();
+    report_empty_files();
     throw_faults(faults_);
     return appended();
   }
@@ -184,7 +184,7 @@ private:
 
   // Reports files without any row left; data.drop may remove all rows of an experiment, but not of
   // a file.
-  void tell_empty_files() {
+  void report_empty_files() {
     std::vector<std::size_t> rows(faults_.size(), 0);
     for (const auto& [number, found] : parts_)
       rows[number.file] += found.blocks.rows() + found.blocks.at_rest.size();

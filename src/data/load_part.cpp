@@ -59,7 +59,7 @@ void finish_part(Part& part, const DataOptions& options, const Beside& beside) {
   derive_shear_stress(part, options);
   drop_missing(part, options);
   drop_rows(part, options);
-  tell_cells(part);
+  report_odd_cells(part);
   check_experiments(part, options);
   const std::vector<Phase> phases = take_signs(part, options);
   integrate_distance(part); // over all rows
@@ -91,7 +91,7 @@ Part load_second_part(const FilePlan& plan) {
     multiply_coefficients(part, plan.options);
     drop_missing(part, plan.options);
     forget_signed(part);
-    tell_cells(part);
+    report_odd_cells(part);
     check_values(part);
     check_computed(part, plan.options);
   });
@@ -178,8 +178,8 @@ void complete(Dataset& all, const DataOptions& options, const Beside& beside) {
           fmt::format("data.join: {} {} left out ({}): its columns are interpolated "
                       "between those before and after",
                       thousands(dropped.rows), dropped.rows == 1 ? "row" : "rows", dropped.rule));
-  tell_left_out(all);
-  tell_signs(all, options.force_zero);
+  report_rows_left_out(all);
+  report_signs(all, options.force_zero);
   all.unused = unused_tests(all, beside);
   find_recordings(all, options);
   const auto assume = [&](const std::vector<AssumedUnit>& units) {

@@ -63,7 +63,7 @@ public:
       map_quantity(*quantity, column);
     map_bystanders();
     add_same_for_all();
-    tell_nameless();
+    report_nameless_columns();
     for (const CsvColumn& column : raw_.columns)
       forget(column);
     return std::move(out_);
@@ -455,7 +455,7 @@ private:
   }
 
   // Reports nameless columns with content. Empty ones come from delimiters at the end of a line.
-  void tell_nameless() {
+  void report_nameless_columns() {
     std::vector<std::size_t> nameless;
     for (std::size_t i = 0; i < raw_.columns.size(); ++i) {
       const CsvColumn& column = raw_.columns[i];
@@ -481,7 +481,7 @@ private:
     Column column{raw.name, "", {}, {}};
     if (words > 0 && words >= (words + numeric) / 2) { // empty cells count as neither
       make_categorical(column, raw);
-      if (missing > 0) tell_empty(raw.name, missing, ": a level of their own");
+      if (missing > 0) report_empty_cells(raw.name, missing, ": a level of their own");
       out_.columns.push_back(std::move(column));
       return;
     }
@@ -495,12 +495,12 @@ private:
       if (std::isinf(raw.numbers[i])) not_finite(i, 0, raw.name, shortest(raw.numbers[i]));
     const auto empty = std::count_if(raw.numbers.begin(), raw.numbers.end(),
                                      [](double value) { return std::isnan(value); });
-    if (empty > 0) tell_empty(raw.name, static_cast<std::size_t>(empty), "");
+    if (empty > 0) report_empty_cells(raw.name, static_cast<std::size_t>(empty), "");
     column.values = taken(raw);
     out_.columns.push_back(std::move(column));
   }
 
-  void tell_empty(const std::string& name, std::size_t rows, const char* then) {
+  void report_empty_cells(const std::string& name, std::size_t rows, const char* then) {
     note_counted(name + ": ", fmt::format(" rows without a value{}", then), rows, false);
   }
 

@@ -80,14 +80,14 @@ std::string coefficient_hint(const Dataset& data, double typical) {
 
 // ---- the checks ----
 
-bool nothing_rubs(const Dataset& data) {
+bool all_friction_zero(const Dataset& data) {
   const auto tau = data.values("tau_R_MPa");
   return std::all_of(tau.begin(), tau.end(), [](double value) { return value == 0; });
 }
 
 Implausible no_friction(const Dataset& data) {
-  if (!nothing_rubs(data)) return {};
-  return {"", data.rows_behind(), data.rows_behind(),
+  if (!all_friction_zero(data)) return {};
+  return {"", data.source_rows(), data.source_rows(),
           "tau_R_MPa is 0 in every row: nothing was measured",
           "a channel that was not connected, or another column that holds the friction: map it in "
           "[data.columns]"};
@@ -158,7 +158,7 @@ Implausible high_coefficient(const Dataset& data) {
 }
 
 Implausible no_coefficient(const Dataset& data) {
-  if (nothing_rubs(data)) return {}; // reported already
+  if (all_friction_zero(data)) return {}; // reported already
   std::size_t rows = 0, tests = 0;
   std::string first;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
@@ -168,12 +168,12 @@ Implausible no_coefficient(const Dataset& data) {
     if (tests++ == 0)
       first = fmt::format("the mean of tau_R_MPa/sigma_n_MPa is {:.3g} in test '{}'", mean,
                           data.experiments[e]);
-    rows += data.rows_behind(e);
+    rows += data.source_rows(e);
   }
   if (tests == 0) return {};
   return {"",
           rows,
-          data.rows_behind(),
+          data.source_rows(),
           first + and_more(tests - 1, "test"),
           "a zero point that was not set, or a force of the other sign?",
           false};
@@ -234,7 +234,7 @@ Implausible speed(const Dataset& data) {
 
 // Number of rows in pieces of `width` whose mean is below that of an earlier piece by more than
 // `by`.
-std::size_t rows_behind(std::span<const double> distance, std::size_t width, double by) {
+std::size_t source_rows(std::span<const double> distance, std::size_t width, double by) {
   double farthest = -std::numeric_limits<double>::infinity();
   std::size_t behind = 0;
   for (std::size_t begin = 0; begin < distance.size(); begin += width) {
@@ -249,7 +249,7 @@ std::size_t rows_behind(std::span<const double> distance, std::size_t width, dou
 // Rows of a test that go back by more than a usual step. Many backward steps may be noise, so
 // pieces are compared instead of rows; without a clock to confirm the order of rows, nothing is
 // reported.
-std::size_t rows_behind(std::span<const double> distance, bool has_clock) {
+std::size_t source_rows(std::span<const double> distance, bool has_clock) {
   std::vector<double> steps;
   std::size_t back = 0;
   for (std::size_t i = 1; i < distance.size(); ++i) {
@@ -259,7 +259,7 @@ std::size_t rows_behind(std::span<const double> distance, bool has_clock) {
   if (back == 0) return 0;
   const bool may_be_noise = rare_share * double(distance.size()) < double(back);
   if (may_be_noise && !has_clock) return 0;
-  return rows_behind(distance, may_be_noise ? std::max<std::size_t>(1, distance.size() / 10) : 1,
+  return source_rows(distance, may_be_noise ? std::max<std::size_t>(1, distance.size() / 10) : 1,
                      median(std::move(steps)));
 }
 
@@ -271,7 +271,7 @@ Implausible path(const Dataset& data) {
   std::string first;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const std::size_t begin = data.first_row[e];
-    const std::size_t behind = rows_behind(
+    const std::size_t behind = source_rows(
         data.values("s_mm").subspan(begin, data.first_row[e + 1] - begin), data.has("time_s"));
     if (behind > 0 && tests++ == 0) first = data.experiments[e];
     rows += behind;
@@ -403,7 +403,7 @@ bool is_coarse(const Dataset& data, std::span<const double> values, const std::v
 
 // Finds a stuck channel: one number repeated while other columns change.
 Implausible stuck_channel(const Dataset& data) {
-  if (nothing_rubs(data)) return {}; // reported already
+  if (all_friction_zero(data)) return {}; // reported already
   Implausible out;
   out.of = data.rows();
   std::string where;
@@ -526,9 +526,9 @@ Implausible test_apart(const Dataset& data) {
   if (apart.empty()) return {};
   std::size_t rows = 0;
   for (const TestApart& one : apart)
-    rows += data.rows_behind(one.test);
+    rows += data.source_rows(one.test);
   return {
-      "", rows, data.rows_behind(),
+      "", rows, data.source_rows(),
       fmt::format("test '{}' stands apart: its friction is {:.2g} times what the other {} tests "
                   "say of its states{}",
                   data.experiments[apart.front().test], apart.front().factor,
@@ -542,14 +542,14 @@ Implausible copied_test(const Dataset& data) {
   std::string first;
   for (std::size_t e = 0; e < same.size(); ++e) {
     if (!same[e]) continue;
-    rows += data.rows_behind(e);
+    rows += data.source_rows(e);
     if (*same[e] > e) continue; // the original of the copies
     if (copies++ == 0)
       first = fmt::format("test '{}' has the rows of test '{}', value by value",
                           data.experiments[e], data.experiments[*same[e]]);
   }
   if (copies == 0) return {};
-  return {"", rows, data.rows_behind(), first + and_more(copies - 1, "test"),
+  return {"", rows, data.source_rows(), first + and_more(copies - 1, "test"),
           "no test is measured twice alike: keep one (is a file there under two names?)"};
 }
 
@@ -790,7 +790,7 @@ std::string impossible_text(const std::string& check) {
 namespace {
 
 std::size_t rows_with_apart(const Dataset& data) {
-  std::size_t rows = data.rows_behind();
+  std::size_t rows = data.source_rows();
   for (const RowsApart& one : data.apart)
     rows += one.rows;
   return rows;

@@ -131,7 +131,7 @@ public:
       : parts_(parts), options_(options) {
     std::set<std::string> known, of_states;
     for (const Column& column : parts.front()->columns)
-      if (const Given said = said_before_looking(column.name); !said.why.empty())
+      if (const Given said = role_known_without_values(column.name); !said.why.empty())
         (said.role == Role::state || said.role == Role::setting ? of_states : known)
             .insert(column.name);
     const std::vector<const Dataset*> all(parts.begin(), parts.end());
@@ -140,7 +140,7 @@ public:
 
   Given of(const Column& column) {
     const std::string& name = column.name;
-    if (const Given said = said_before_looking(name); !said.why.empty()) return said;
+    if (const Given said = role_known_without_values(name); !said.why.empty()) return said;
     const auto disguise = disguises_.find(name);
     if (disguise != disguises_.end() && disguise->second.sure)
       return {Role::response, disguise->second.how};
@@ -157,9 +157,9 @@ public:
 
 private:
   // Role given by the job or by the definition of a quantity.
-  Given said_before_looking(const std::string& name) const {
+  Given role_known_without_values(const std::string& name) const {
     if (const auto said = options_.roles.find(name); said != options_.roles.end())
-      return {said->second.role, said_by_job};
+      return {said->second.role, set_by_job};
     if (is_measured(name)) return {Role::response, "what was measured of friction"};
     if (name == "time_s") return {Role::clock, "the time"};
     if (find_quantity(name)) return {Role::state, "a quantity that laws or routines take"};

@@ -17,7 +17,7 @@ const char* role_name(Role role);
 std::vector<std::string> role_names();
 
 // Column::why if the job gives the role.
-inline constexpr const char* said_by_job = "the job says so";
+inline constexpr const char* set_by_job = "the job says so";
 
 // True if a column of this role may be searched for causes of friction.
 bool may_be_cause(Role role);

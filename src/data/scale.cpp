@@ -518,7 +518,7 @@ Implausible normal_to_flow(const Dataset& data) {
   const Span ratio = span_of(data, "sigma_n_MPa / sigma_f_MPa");
   if (!ratio.known() || (ratio.high >= least_of_flow && ratio.low <= most_of_flow)) return {};
   const bool far_below = ratio.high < least_of_flow;
-  Implausible out = {"", data.rows_behind(), data.rows_behind(),
+  Implausible out = {"", data.source_rows(), data.source_rows(),
                      fmt::format("sigma_n_MPa is {} at a flow stress sigma_f_MPa of {}",
                                  shown(span_of(data, "sigma_n_MPa")),
                                  shown(span_of(data, "sigma_f_MPa"))),
@@ -555,12 +555,12 @@ Implausible temperature(const Dataset& data) {
   for (const char* name : {"T_contact_C", "T_tool_C"}) {
     if (!data.has(name)) continue;
     const auto values = data.values(name);
-    const auto [low, high] = span_behind(data, name, values);
+    const auto [low, high] = source_range(data, name, values);
     const auto rows = std::size_t(std::count_if(
         values.begin(), values.end(), [](double T) { return T < coldest_C || T > hottest_C; }));
     if (low > kelvin_low && low < room_in_kelvin)
       worst = {
-          "", data.rows_behind(), data.rows_behind(),
+          "", data.source_rows(), data.source_rows(),
           fmt::format("{} is {:.4g} to {:.4g}, and never below {}", name, low, high, kelvin_low),
           "a temperature in K? unit = \"K\" where it is mapped"};
     else if (rows > worst.rows)
@@ -652,7 +652,7 @@ Implausible mixed_units(std::span<const Dataset* const> parts) {
                   "match; or other settings, if they were",
                   first.certain};
   for (std::size_t i = 0; i < compared.places.size(); ++i) {
-    const std::size_t rows = compared.places[i].data->rows_behind(compared.places[i].test);
+    const std::size_t rows = compared.places[i].data->source_rows(compared.places[i].test);
     out.of += rows;
     if (std::binary_search(first.tests.begin(), first.tests.end(), i)) out.rows += rows;
   }

@@ -197,7 +197,7 @@ public:
     if (std::any_of(direction_.begin(), direction_.end(), [](double d) { return d < 0; }) &&
         !part_.find(direction_column))
       part_.data.columns.push_back(direction_of(std::move(direction_)));
-    tell_readings(readings);
+    report_speed_readings(readings);
     return phases;
   }
 
@@ -226,7 +226,7 @@ private:
       part_.data.signs.push_back(std::move(found));
   }
 
-  void tell_readings(const std::map<SpeedReading, std::size_t>& readings) {
+  void report_speed_readings(const std::map<SpeedReading, std::size_t>& readings) {
     if (!options_.measured || part_.data.rows() == part_.data.experiments.size()) return;
     const auto count = [&](SpeedReading reading) {
       const auto found = readings.find(reading);
@@ -355,7 +355,7 @@ Signed collected(const Dataset& data,
   return out;
 }
 
-void tell_offsets(Dataset& data, ForceZero said) {
+void report_zero_errors(Dataset& data, ForceZero said) {
   const Signed both = collected(data, [](const SignedTest& test) {
     return test.zero ? std::optional(test.zero->offset) : std::nullopt;
   });
@@ -406,8 +406,8 @@ DirectionsDiffer directions_differ(const Dataset& data) {
   return DirectionsDiffer::cannot_tell;
 }
 
-void tell_signs(Dataset& data, ForceZero said) {
-  tell_offsets(data, said);
+void report_signs(Dataset& data, ForceZero said) {
+  report_zero_errors(data, said);
   const Signed negative = collected(data, [](const SignedTest& test) {
     return test.friction < 0 ? std::optional(0.0) : std::nullopt;
   });

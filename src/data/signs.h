@@ -39,7 +39,7 @@ enum class DirectionsDiffer { nowhere, by_zero, by_friction, cannot_tell };
 DirectionsDiffer directions_differ(const Dataset& data);
 
 // Adds notes on signs for a whole campaign.
-void tell_signs(Dataset& data, ForceZero said);
+void report_signs(Dataset& data, ForceZero said);
 
 // Adds our own column `direction` where only some of these datasets have one: +1 for all sliding.
 void add_direction(std::span<Dataset* const> all);

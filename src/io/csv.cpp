@@ -356,7 +356,7 @@ struct RaggedLine {
 };
 
 // Reports ragged lines, once per number of cells.
-void tell_ragged(const std::vector<RaggedLine>& ragged, const CsvTable& table, FaultList& faults) {
+void report_ragged_lines(const std::vector<RaggedLine>& ragged, const CsvTable& table, FaultList& faults) {
   std::map<std::size_t, std::size_t> count;
   for (const RaggedLine& one : ragged)
     ++count[one.cells];
@@ -407,7 +407,7 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
     forget_row(table, row, cells.kept);
   }
   tell();
-  tell_ragged(ragged, table, faults);
+  report_ragged_lines(ragged, table, faults);
   settle_nameless(table, named);
   table.passed_over = {again, in_front, delimiters_alone};
   if (scanner.unclosed_line() > 0)

@@ -44,7 +44,7 @@ void set_limit(int what, rlim_t value) {
   ::setrlimit(static_cast<__rlimit_resource>(what), &limit);
 }
 
-[[noreturn]] void be_the_child(const ChildLimits& limits, int out,
+[[noreturn]] void run_in_child(const ChildLimits& limits, int out,
                                const std::function<void(ByteSink&)>& work) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL); // dies with the parent, its only reader
   sigset_t none;                      // the child has no thread that waits for signals
@@ -170,7 +170,7 @@ bool run_isolated(const ChildLimits& limits, const std::function<void(ByteSink&)
   }
   if (id == 0) {
     ::close(ends[0]);
-    be_the_child(limits, ends[1], work);
+    run_in_child(limits, ends[1], work);
   }
   ::close(ends[1]);
   Child child(id, ends[0]);

@@ -18,7 +18,8 @@ namespace frictab::job {
 
 struct Job {
   std::string file; // as given by the user
-  std::string said; // further command-line options: " -o loose --set data.holdout=0.2"
+  std::string
+      command_line_options; // further command-line options: " -o loose --set data.holdout=0.2"
   data::DataOptions data;
   calibrate::ModelOptions models;
   calibrate::CalibrationOptions calibration;
@@ -34,7 +35,7 @@ struct Job {
   std::map<std::string, std::string> sections;
 
   // Arguments for another command, as advice repeats them: "job.toml -o loose".
-  std::string arguments() const { return shell_word(file) + said; }
+  std::string arguments() const { return shell_word(file) + command_line_options; }
 };
 
 // Reads and checks a job file; `set` lists "key=value" overrides (TOML values, dotted keys). Throws

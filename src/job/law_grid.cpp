@@ -100,7 +100,7 @@ private:
       row_of[node] = row;
       table_.value[node] = columns_.value[row];
     }
-    tell_missing(row_of);
+    report_missing(row_of);
   }
 
   std::size_t node_of(std::size_t row) const {
@@ -113,7 +113,7 @@ private:
     return node;
   }
 
-  void tell_missing(const std::vector<std::size_t>& row_of) {
+  void report_missing(const std::vector<std::size_t>& row_of) {
     const auto is_missing = [&](std::size_t row) { return row == raw_.rows(); };
     const auto missing = std::count_if(row_of.begin(), row_of.end(), is_missing);
     if (missing == 0) return;

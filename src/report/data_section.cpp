@@ -53,7 +53,7 @@ std::vector<std::string> bystanders_of(const data::Dataset& data) {
 
 std::string range_of(const data::Dataset& data, const std::string& name) {
   if (!data.has(name)) return "\u2013";
-  const auto [low, high] = data::span_behind(data, name, data.values(name));
+  const auto [low, high] = data::source_range(data, name, data.values(name));
   if (!(low <= high)) return "\u2013";
   return low == high ? short_figures(low) : short_figures(low) + " to " + short_figures(high);
 }
@@ -74,7 +74,7 @@ void add_data_lines(TemplateValues& page, const data::Dataset& t, const data::Da
   add("Files", lines(files_of(t)), none.empty() ? lines(files_of(v)) : none);
   add("Experiments", thousands(t.experiments.size()),
       of_validation(thousands(v.experiments.size())));
-  add("Rows", thousands(t.rows_behind()), of_validation(thousands(v.rows_behind())));
+  add("Rows", thousands(t.source_rows()), of_validation(thousands(v.source_rows())));
   if (const std::string how = uneven_text(judged_by, t, v); !how.empty())
     add("Length of experiments", none.empty() ? "\u2013" : svg::escape(how),
         none.empty() ? svg::escape(how) : "\u2013");

@@ -35,7 +35,7 @@ JudgedWords judged_words(JudgedBy judged_by) {
 std::string size_text(JudgedBy judged_by, const data::Dataset& training,
                       const data::Dataset& validation) {
   const auto describe = [](const data::Dataset& data) {
-    return count_of(data.rows_behind(), "row") + " of " +
+    return count_of(data.source_rows(), "row") + " of " +
            count_of(data.experiments.size(), "experiment");
   };
   const data::Units units = data::units_of(training);
@@ -81,7 +81,7 @@ std::string uneven_text(JudgedBy judged_by, const data::Dataset& training,
   double all = 0, squares = 0, most = 0;
   std::string longest;
   for (std::size_t e = 0; e < count; ++e) {
-    const auto rows = static_cast<double>(judged.rows_behind(e));
+    const auto rows = static_cast<double>(judged.source_rows(e));
     all += rows;
     squares += rows * rows;
     if (rows <= most) continue;

@@ -41,7 +41,7 @@ nlohmann::ordered_json table_json(const table::Table& table) {
 }
 
 nlohmann::ordered_json condensed_json(const JobData& data) {
-  return {{"rows", data.training.rows_behind() + data.validation.rows_behind()},
+  return {{"rows", data.training.source_rows() + data.validation.source_rows()},
           {"blocks", data.training.rows() + data.validation.rows()},
           {"from_blocks", report::from_blocks()}};
 }

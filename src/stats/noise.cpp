@@ -22,14 +22,14 @@ constexpr double least_share = 0.05; // of the mean tau: lower bound for noise t
 // covariance I. The whole covariance is I + c c', where c holds their two columns. With the
 // eigenvectors q and eigenvalues l of c c', its inverse root is I - sum (1 - 1/sqrt(1 + l)) q q';
 // the member `c` holds the factors 1 - 1/sqrt(1 + l).
-struct RandomEffects {
+struct TestEffects {
   MatrixXd q;
   VectorXd c;
   double log_det = 0;
 };
 
-RandomEffects random_effects(const MatrixXd& columns) {
-  RandomEffects shared;
+TestEffects test_effects(const MatrixXd& columns) {
+  TestEffects shared;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(columns.transpose() * columns);
   shared.q = MatrixXd::Zero(columns.rows(), 2);
   shared.c = VectorXd::Zero(2);
@@ -77,7 +77,7 @@ Whitener::Whitener(const NoiseModel& noise, const VectorXd& tau, const Blocks& b
   filter(effects);
   for (std::size_t e = 0; e < parts_.size(); ++e) {
     const Part& part = parts_[e];
-    const RandomEffects both = random_effects(effects.middleRows(part.first, part.size));
+    const TestEffects both = test_effects(effects.middleRows(part.first, part.size));
     q_.push_back(both.q);
     qc_.emplace_back(both.q * both.c.asDiagonal());
     log_det_(static_cast<Index>(e)) +=

@@ -126,7 +126,7 @@ std::string head_text(const Plan& plan, const Found& found) {
 std::string next_text(const Plan& plan, const Found& found) {
   const bool open = counts_of(plan, found).missing > 0;
   return fmt::format("next: frictab study {} {}{}\n", open ? "run" : "report",
-                     shell_word(plan.study.file), plan.study.said);
+                     shell_word(plan.study.file), plan.study.command_line_options);
 }
 
 Json head_json(const Plan& plan, const Found& found) {

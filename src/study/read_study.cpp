@@ -41,7 +41,7 @@ namespace {
 
 constexpr std::size_t largest_file = 1 << 20; // same limit as for job files
 
-std::string said(const StudyOverrides& overrides) {
+std::string command_line_options(const StudyOverrides& overrides) {
   std::string text;
   if (!overrides.directory.empty()) text += " -o " + shell_word(overrides.directory);
   if (overrides.stage) text += fmt::format(" --stage {}", stage_name(*overrides.stage));
@@ -65,7 +65,7 @@ public:
       for (const WrittenTwin& twin : written_.twins)
         add_twin(twin, *jobs);
       check_together();
-      if (!faults_.empty()) tell_missing_files(jobs->folder());
+      if (!faults_.empty()) report_missing_files(jobs->folder());
     }
     faults_.throw_if_any();
     study_.jobs = jobs->take();
@@ -91,7 +91,7 @@ private:
 
   std::optional<ResolvedJobs> read_jobs() {
     study_.file = file_;
-    study_.said = said(overrides_);
+    study_.command_line_options = command_line_options(overrides_);
     study_.stage = overrides_.stage.value_or(written_.stage);
     study_.directory =
         overrides_.directory.empty() ? beside_study(written_.directory) : overrides_.directory;
@@ -166,7 +166,7 @@ private:
 
   // Reports missing files together with other faults, which stop the study before plan_of reads the
   // files for their keys.
-  void tell_missing_files(const std::string& folder) {
+  void report_missing_files(const std::string& folder) {
     for (const Campaign& one : study_.campaigns) {
       const std::string about = fmt::format("campaign '{}': ", one.name);
       std::vector<std::string> named = one.training;

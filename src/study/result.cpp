@@ -63,7 +63,7 @@ CampaignResult result_of(const calibrate::Calibration& calibration, const run::J
   result.judged_by = calibrate::judged_by_name(calibration.judged_by);
   result.synthetic = calibration.synthetic;
   result.experiments = data.training.experiments.size() + data.validation.experiments.size();
-  result.rows = data.training.rows_behind() + data.validation.rows_behind();
+  result.rows = data.training.source_rows() + data.validation.source_rows();
   for (const calibrate::ModelFit& fit : calibration.fits)
     result.laws.push_back(law_of(fit, calibration.comparisons));
   return result;

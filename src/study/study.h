@@ -51,7 +51,7 @@ struct Campaign {
 
 struct Study {
   std::string file, directory;
-  std::string said; // command-line options, as advice repeats them
+  std::string command_line_options; // as advice repeats them
   LastStage stage = LastStage::trace;
   std::vector<ResolvedJob> jobs;
   std::vector<TwinBlock> twins;

@@ -174,7 +174,7 @@ std::vector<StateRange> table_ranges(const Table& table, const data::Dataset* da
     else if (input.low && input.high && *input.low <= *input.high)
       ranges.push_back({name, *input.low, *input.high, "attribute"});
     else if (data && data->has(name))
-      ranges.push_back(data_range(name, data::span_behind(*data, name, data->values(name))));
+      ranges.push_back(data_range(name, data::source_range(*data, name, data->values(name))));
     else
       throw InputError({file, 0, 0},
                        "the range of " + name +

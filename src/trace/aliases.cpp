@@ -203,10 +203,11 @@ std::vector<Alias> find_aliases(const Dataset& training, const models::Model& mo
       const double by_levels = few ? explained_by_levels(setting, state.at) : 0;
       const double by_line = column.levels.empty() ? explained_by_line(setting, state.at) : 0;
       if (std::max(by_levels, by_line) <= tied) continue;
-      aliases.push_back({column.name, state.name, std::max(by_levels, by_line),
-                         fmt::format("{} cannot be distinguished from {}: {}", column.name, state.name,
-                                     by_levels > tied ? levels_text(column, setting, state)
-                                                      : line_text(column.name, setting, state))});
+      aliases.push_back(
+          {column.name, state.name, std::max(by_levels, by_line),
+           fmt::format("{} cannot be distinguished from {}: {}", column.name, state.name,
+                       by_levels > tied ? levels_text(column, setting, state)
+                                        : line_text(column.name, setting, state))});
     }
   }
   return aliases;

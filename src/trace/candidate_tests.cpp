@@ -34,7 +34,7 @@ std::vector<double> test_means(const Dataset& data, const Column& column) {
     double sum = 0;
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
       sum += data.row_weight(i) * column.values[i];
-    means.push_back(sum / static_cast<double>(data.rows_behind(e)));
+    means.push_back(sum / static_cast<double>(data.source_rows(e)));
   }
   return means;
 }

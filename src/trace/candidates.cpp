@@ -68,7 +68,7 @@ double likeness(const VectorXd& a, const VectorXd& b) {
   return size > 0 ? xy * xy / size : 0;
 }
 
-constexpr double the_same = 1 - 1e-9, much_alike = 0.98; // likeness
+constexpr double identical_r2 = 1 - 1e-9, near_collinear_r2 = 0.98; // likeness
 
 // Multiples of the golden ratio: evenly distributed and never periodic, so no column has this
 // direction by chance.
@@ -211,7 +211,7 @@ private:
     if (!data::is_order(column) || varies_within(column.values, training_) ||
         is_constant(column.values))
       return 0;
-    if (column.why == data::said_by_job) return 3;
+    if (column.why == data::set_by_job) return 3;
     if (!column.levels.empty()) return 1; // a time stamp
     return values_of_tests(column, training_) == training_.experiments.size() ? 2 : 0;
   }
@@ -355,7 +355,7 @@ private:
   bool is_reading(const std::string& name) const {
     const Column* column = training_.find(name);
     return column && !data::find_quantity(name) && column->levels.empty() &&
-           column->why != data::said_by_job &&
+           column->why != data::set_by_job &&
            2 * values_of_tests(*column, training_) > training_.experiments.size();
   }
 
@@ -364,7 +364,8 @@ private:
     std::size_t first = found_.columns.size();
     for (auto near = standings_.lower_bound(at - together);
          near != standings_.end() && near->first <= at + together; ++near)
-      if (near->second < first && likeness(found_.columns[near->second].values, values) > the_same)
+      if (near->second < first &&
+          likeness(found_.columns[near->second].values, values) > identical_r2)
         first = near->second;
     return first < found_.columns.size() ? &found_.columns[first] : nullptr;
   }
@@ -490,7 +491,7 @@ namespace {
 
 // Whether two columns are nearly collinear: they are one quantity, and their product is a parabola.
 bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
-  return a.levels.empty() && b.levels.empty() && likeness(a.values, b.values) > much_alike;
+  return a.levels.empty() && b.levels.empty() && likeness(a.values, b.values) > near_collinear_r2;
 }
 
 } // namespace

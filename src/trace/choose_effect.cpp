@@ -24,8 +24,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t fitted_rivals = 6; // size of the shortlist from which a set is made
-constexpr double told_apart = 3;         // standard errors, on selected tests only
+constexpr std::size_t fitted_rivals = 6;     // size of the shortlist from which a set is made
+constexpr double distinguishable_errors = 3; // standard errors, on selected tests only
 // cost in -2 log likelihood per step away from recorded columns
 constexpr double per_complexity = 3;
 // Costs of sites in penalised log likelihood: where the data cannot distinguish sites, an effect
@@ -124,12 +124,12 @@ double sureness(const Rival& first, const Rival& other) {
 // Keeps the first option and those that the selected tests cannot distinguish from it. An option
 // that a few hundred tests separate this clearly, all tests separate even more clearly, so it
 // cannot be in a set.
-void drop_told_apart(const Search& search, const stats::NoiseModel& noise, Options& options) {
+void drop_distinguishable(const Search& search, const stats::NoiseModel& noise, Options& options) {
   if (options.size() < 2) return;
   const std::vector<Rival> fits = rivals_of(search, selected(search.campaign()), options, noise);
   Options kept;
   for (std::size_t i = 0; i < options.size(); ++i)
-    if (i == 0 || !(sureness(fits.front(), fits[i]) > told_apart))
+    if (i == 0 || !(sureness(fits.front(), fits[i]) > distinguishable_errors))
       kept.push_back(std::move(options[i]));
   options = std::move(kept);
 }
@@ -192,7 +192,7 @@ std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>
                      [&](const Option& o) { return o.cause == option.cause; }) &&
         best.size() < fitted_rivals)
       best.push_back(std::move(option));
-  if (search.campaign().selection) drop_told_apart(search, noise, best);
+  if (search.campaign().selection) drop_distinguishable(search, noise, best);
   std::vector<Rival> rivals = rivals_of(search, search.campaign(), best, noise);
   for (std::size_t i = 0; i < best.size(); ++i)
     rivals[i].criterion = best[i].criterion;

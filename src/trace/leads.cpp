@@ -95,8 +95,7 @@ std::string rate_sentence(const Search& search, const VectorXd& change) {
   const VectorXd mu = search.last().predicted.cwiseQuotient(sigma->second.cwiseMax(1e-300));
   const double lead = per_e_fold(search, mu.cwiseProduct(change)), law = per_e_fold(search, mu);
   if (!std::isfinite(lead)) return "";
-  const std::string with_law =
-      std::abs(law) > 1e-9 ? fmt::format(", {:+.2g} by the law", law) : "";
+  const std::string with_law = std::abs(law) > 1e-9 ? fmt::format(", {:+.2g} by the law", law) : "";
   return fmt::format("; mu changes by {:+.2g} per e-fold of speed{} (a - b, in the words of "
                      "rate-and-state friction)",
                      lead, with_law);

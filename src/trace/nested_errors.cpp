@@ -32,7 +32,7 @@ VectorXd relative_errors(const data::Dataset& data, const std::vector<double>& p
       const double ratio = measured[i] / std::max(predicted[i], 1e-300);
       sum += data.row_weight(i) * std::abs(std::log(std::clamp(ratio, 1 / farthest, farthest)));
     }
-    errors(static_cast<Index>(e)) = sum / static_cast<double>(data.rows_behind(e));
+    errors(static_cast<Index>(e)) = sum / static_cast<double>(data.source_rows(e));
   }
   return errors;
 }

@@ -232,7 +232,7 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
     const stats::NoiseData data{residual, rival.predicted, campaign.blocks, rival.jacobian,
                                 campaign.nuisance};
     if (first)
-      rival.noise = stats::refit_noise(campaign, data, rival.noise);
+      rival.noise = refit_campaign_noise(campaign, data, rival.noise);
     else if (!campaign.quick)
       rival.noise = stats::refine_noise(data, rival.noise).noise;
     else
@@ -282,13 +282,13 @@ stats::NoiseModel noise_by(const Campaign& campaign, const stats::NoiseData& dat
 
 } // namespace
 
-stats::NoiseModel stats::fit_noise(const Campaign& campaign, const stats::NoiseData& data) {
+stats::NoiseModel fit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data) {
   return noise_by(campaign, data,
                   [](const stats::NoiseData& part) { return stats::fit_noise(part); });
 }
 
-stats::NoiseModel stats::refit_noise(const Campaign& campaign, const stats::NoiseData& data,
-                                     const stats::NoiseModel& earlier) {
+stats::NoiseModel refit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data,
+                                       const stats::NoiseModel& earlier) {
   return noise_by(campaign, data, [&](const stats::NoiseData& part) {
     return campaign.quick ? stats::refit_noise_coarsely(part, earlier)
                           : stats::refit_noise(part, earlier);
@@ -358,7 +358,7 @@ Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t i
                    NoiseSearch::again);
 }
 
-std::vector<bool> not_told_apart(const std::vector<Rival>& rivals, std::uint64_t seed) {
+std::vector<bool> indistinguishable_rivals(const std::vector<Rival>& rivals, std::uint64_t seed) {
   constexpr std::size_t resamples = 500;
   const Index experiments = rivals.front().log_likelihood.size();
   MatrixXd times(static_cast<Index>(resamples), experiments);

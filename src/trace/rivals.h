@@ -80,9 +80,9 @@ Rival fit_rival(const Campaign& campaign, const Rival& from,
 
 // Fits the noise of a residual of the campaign's law, to the selected tests where it has a
 // selection: from scratch, or from an earlier fit of a residual that has changed since.
-stats::NoiseModel stats::fit_noise(const Campaign& campaign, const stats::NoiseData& data);
-stats::NoiseModel stats::refit_noise(const Campaign& campaign, const stats::NoiseData& data,
-                                     const stats::NoiseModel& earlier);
+stats::NoiseModel fit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data);
+stats::NoiseModel refit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data,
+                                       const stats::NoiseModel& earlier);
 
 // Penalty matrix of the smooth effects over all parameters, which a fit adds to its normal
 // equations. Empty if no effect is penalised.
@@ -125,6 +125,6 @@ models::Law bounded_law(const Campaign& campaign, const Rival& rival);
 // Marks the rivals that these experiments cannot distinguish from the first (Vuong 1989, by
 // resampling whole experiments): not worse with 95 % confidence, or within 2 of its log restricted
 // likelihood.
-std::vector<bool> not_told_apart(const std::vector<Rival>& rivals, std::uint64_t seed);
+std::vector<bool> indistinguishable_rivals(const std::vector<Rival>& rivals, std::uint64_t seed);
 
 } // namespace frictab::trace

@@ -44,9 +44,9 @@ double within_blocks(const data::Dataset& training, const stats::Blocks& blocks)
   if (training.condensed) // the means scatter less than rows, and lack the scatter within them
     return (std::accumulate(training.condensed->within_MPa2.begin(),
                             training.condensed->within_MPa2.end(), 0.0) +
-            sum * static_cast<double>(training.rows_behind()) /
+            sum * static_cast<double>(training.source_rows()) /
                 static_cast<double>(training.rows())) /
-           static_cast<double>(training.rows_behind());
+           static_cast<double>(training.source_rows());
   return sum / static_cast<double>(training.rows());
 }
 
@@ -62,7 +62,7 @@ double excess_kurtosis(const VectorXd& values) {
 double modelled_variance(const Search& search, const Rival& last) {
   const VectorXd residual = search.campaign().measured - last.predicted;
   const MatrixXd& nuisance = search.campaign().nuisance;
-  const stats::NoiseModel noise = stats::refit_noise(
+  const stats::NoiseModel noise = refit_campaign_noise(
       search.campaign(), {residual, last.predicted, search.blocks, last.jacobian, nuisance},
       last.noise);
   return stats::Whitener(noise, last.predicted, search.blocks).variance().mean() +
@@ -87,7 +87,7 @@ void add_floor(Trace& trace, const Search& search, const Rival& last) {
   trace.noise_floor.part = "training";
   trace.noise_floor.rmse_MPa = rmse;
   trace.noise_floor.mae_MPa = least.rmse_MPa > 0 ? rmse * least.mae_MPa / least.rmse_MPa : 0;
-  trace.noise_floor.n_rows = training.rows_behind();
+  trace.noise_floor.n_rows = training.source_rows();
   trace.noise_floor.n_experiments = training.experiments.size();
 }
 

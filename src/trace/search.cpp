@@ -128,7 +128,7 @@ void Search::fit_base(const stats::NoiseModel* earlier) {
                                   candidates.by_symbol, predicted);
   const VectorXd residual = campaign_->measured - predicted;
   const stats::NoiseData data{residual, predicted, blocks, jacobian, trained_};
-  const stats::NoiseModel noise = earlier ? *earlier : stats::fit_noise(*campaign_, data);
+  const stats::NoiseModel noise = earlier ? *earlier : fit_campaign_noise(*campaign_, data);
   base = fit_rival(*campaign_, {}, {}, model.parameters, noise, NoiseSearch::again);
   one_factor = one_factor_at_a_time(state_means(candidates, blocks));
   tie_parameters(*campaign_, base, one_factor ? tied_by_one_factor : tied);

@@ -92,7 +92,7 @@ private:
     }
     s_.move_to(without_effect(s_.campaign(), all, index));
     std::vector<Rival> rivals = choose_cause(s_, suspects);
-    const std::vector<bool> in_set = not_told_apart(rivals, s_.input.seed);
+    const std::vector<bool> in_set = indistinguishable_rivals(rivals, s_.input.seed);
     for (std::size_t i = 1; i < rivals.size(); ++i) {
       finding.others.push_back(rivals[i]);
       finding.in_set.push_back(in_set[i]);

@@ -120,9 +120,8 @@ TestDates sort_dates(const std::vector<std::string>& texts) {
     if (auto order = places(stamps, as)) found.push_back(std::move(*order));
   if (found.empty()) return {{}, fmt::format("'{}' and others are not dates", texts.front())};
   if (std::any_of(found.begin(), found.end(), [&](const auto& o) { return o != found.front(); }))
-    return {
-        {},
-        fmt::format("'{}' and the others do not show which number is the day", texts.front())};
+    return {{},
+            fmt::format("'{}' and the others do not show which number is the day", texts.front())};
   return {found.front(), ""};
 }
 

@@ -114,7 +114,8 @@ void add_effect(std::string& out, const TracedEffect& e, bool coefficients) {
   for (const Alternative& a : e.alternatives)
     if (a.in_set) same.push_back(a.name);
   if (!same.empty())
-    out += fmt::format("      these experiments cannot distinguish it from: {}\n", join(same, ", "));
+    out +=
+        fmt::format("      these experiments cannot distinguish it from: {}\n", join(same, ", "));
   if (e.order_confounded)
     out += "      may stand for time: a drift over the tests would look the same; name their order "
            "([trace] order), or run tests at both ends of it in turn\n";
@@ -282,8 +283,7 @@ std::string found_text(const Trace& t, bool coefficients) {
   out += error_table(t);
   out += fmt::format("  gained on unseen tests: {}\n", gain_text(t.improvement));
   if (weights_matter(t) && t.over_calibrated)
-    out +=
-        fmt::format("  compared with the calibrated law: {}\n", gain_text(*t.over_calibrated));
+    out += fmt::format("  compared with the calibrated law: {}\n", gain_text(*t.over_calibrated));
   out += unseen_line(t);
   if (const std::string shown = shown_by_validation(t); !shown.empty()) out += "  " + shown + "\n";
   return out;

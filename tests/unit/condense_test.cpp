@@ -74,7 +74,7 @@ TEST(Condense, ABlockIsItsMeanItsRowsAndItsSquares) {
     EXPECT_NEAR(blocks.values("tau_R_MPa")[b], sum / n, 1e-12);
     EXPECT_NEAR(blocks.condensed->within_MPa2[b], square - sum * sum / n, 1e-8);
   }
-  EXPECT_EQ(blocks.rows_behind(), 1000u);
+  EXPECT_EQ(blocks.source_rows(), 1000u);
 }
 
 TEST(Condense, BlocksAreShortWhereATestBegins) {
@@ -86,8 +86,8 @@ TEST(Condense, BlocksAreShortWhereATestBegins) {
 
 TEST(Condense, SpansAndMeansOfRatiosAreOfAllRows) {
   const Dataset rows = many_rows_of_one(1000), blocks = data::condense(rows, 20, nullptr);
-  EXPECT_EQ(data::span_behind(blocks, "tau_R_MPa", blocks.values("tau_R_MPa")),
-            data::span_behind(rows, "tau_R_MPa", rows.values("tau_R_MPa")));
+  EXPECT_EQ(data::source_range(blocks, "tau_R_MPa", blocks.values("tau_R_MPa")),
+            data::source_range(rows, "tau_R_MPa", rows.values("tau_R_MPa")));
   EXPECT_NEAR(data::overview(blocks)[0].mean_mu, data::overview(rows)[0].mean_mu, 1e-15);
 }
 
@@ -245,7 +245,7 @@ TEST_F(CondensedLoad, IsTheCondensedCampaign) {
   EXPECT_EQ(by_parts.hash, at_once.hash);
   EXPECT_THAT(by_parts.notes, UnorderedElementsAreArray(rows.notes));
   EXPECT_EQ(by_parts.sources, rows.sources);
-  EXPECT_EQ(by_parts.rows_behind(), rows.rows());
+  EXPECT_EQ(by_parts.source_rows(), rows.rows());
   for (std::size_t e = 0; e < rows.experiments.size(); ++e)
     EXPECT_EQ(data::overview(by_parts)[e].spans, data::overview(rows)[e].spans);
 }
@@ -266,7 +266,7 @@ TEST_F(CondensedLoad, OfHdf5IsTheCondensedCampaign) {
     options.piece_bytes = bytes;
     const Dataset blocks = condensed({"a.h5"});
     EXPECT_EQ(blocks.hash, data::condense(rows, 10, nullptr).hash) << bytes;
-    EXPECT_EQ(blocks.rows_behind(), rows.rows());
+    EXPECT_EQ(blocks.source_rows(), rows.rows());
   }
 }
 
@@ -342,7 +342,7 @@ TEST_F(CondensedLoad, RowsLeftOutAreCountedOverAllParts) {
   const Dataset rows = data::load_dataset({name}, options), blocks = condensed({name});
   ASSERT_EQ(blocks.dropped.size(), 1u);
   EXPECT_EQ(blocks.dropped[0].rows, rows.dropped[0].rows);
-  EXPECT_EQ(blocks.rows_behind(), rows.rows());
+  EXPECT_EQ(blocks.source_rows(), rows.rows());
 }
 
 TEST_F(CondensedLoad, AnExperimentOfWhichNothingIsLeftIsNoFault) {

@@ -77,7 +77,7 @@ TEST_F(LoadHdf5, ColumnsOfTwoAxesAreReadAsMatlabWritesThem) {
     EXPECT_EQ(data.hash, flat.hash) << shape;
     EXPECT_THAT(data.notes, Not(Contains(HasSubstr("not read")))) << shape;
     EXPECT_EQ(in_pieces().experiments, flat.experiments) << shape;
-    EXPECT_EQ(in_pieces().rows_behind(), flat.rows()) << shape;
+    EXPECT_EQ(in_pieces().source_rows(), flat.rows()) << shape;
   }
   write("rows(f)\nf['sigma_f_MPa'] = numpy.full((40, 1), 400.0)\n"
         "f['oil'] = numpy.array([[b'a'] * 40])");

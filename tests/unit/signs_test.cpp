@@ -199,7 +199,7 @@ TEST_F(Signs, BlocksHaveOneDirection) {
   const Dataset rows = load_dataset(files, options), blocks = load_condensed(files, options, 10);
   EXPECT_THAT(column(blocks, "direction"), Each(testing::AnyOf(1, -1)));
   EXPECT_EQ(blocks.phases, rows.phases);
-  EXPECT_EQ(blocks.rows_behind(), rows.rows());
+  EXPECT_EQ(blocks.source_rows(), rows.rows());
   EXPECT_NEAR(mean_mu(blocks, 1), mu, 0.001);
 }
 

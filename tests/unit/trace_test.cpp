@@ -305,7 +305,7 @@ TEST(Trace, AColumnCalledLikeAnOrderThatNumbersTheTestsIsOne) {
   EXPECT_EQ(traced(data, "log_coulomb").order.column, "");
   for (Dataset* part : {&data.training, &data.validation}) {
     column(*part, "K").role = data::Role::order;
-    column(*part, "K").why = data::said_by_job;
+    column(*part, "K").why = data::set_by_job;
   }
   EXPECT_EQ(traced(data, "log_coulomb").order.column, "K");
 }

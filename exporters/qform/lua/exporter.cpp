@@ -153,7 +153,7 @@ public:
 
   table::HeldStates held(const ExportRequest& request) const override {
     const CurvedRequest curved(request, gives());
-    return said_constants(curved.get(), solver_inputs(curved.get(), gives()));
+    return declared_constants(curved.get(), solver_inputs(curved.get(), gives()));
   }
 };
 
