@@ -11,6 +11,7 @@
 #include "data/options.h"
 #include "data/quantity.h"
 #include "data/roles.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -20,15 +21,10 @@ using data::Role;
 
 namespace {
 
-constexpr double tied = 0.9;        // minimum share of a state's variance between tests
-constexpr double held_share = 1e-3; // of its range: largest variation of a setting within a test
-constexpr double same_value = 0.05; // relative range of a level's tests that counts as one value
-constexpr std::size_t least_to_tell = 4;
-
 // Returns the setting of each test; empty if the column is not constant within tests.
 std::vector<double> setting_of(const Column& column, const Dataset& data) {
   const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
-  const double allowed = column.levels.empty() ? held_share * (*high - *low) : 0;
+  const double allowed = column.levels.empty() ? tuning::held_share_of_range * (*high - *low) : 0;
   std::vector<double> values;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const double first = column.values[data.first_row[e]];
@@ -148,7 +144,7 @@ std::string figure(double value) {
 std::string values_text(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double middle = mean_of(values);
-  if (*high - *low <= same_value * std::abs(middle)) return figure(middle);
+  if (*high - *low <= tuning::same_value_share_of_mean * std::abs(middle)) return figure(middle);
   return figure(*low) + " to " + figure(*high);
 }
 
@@ -190,7 +186,7 @@ std::vector<Alias> find_aliases(const Dataset& training, const models::Model& mo
                                 const TraceOptions& options) {
   std::vector<Alias> aliases;
   const std::size_t tests = training.experiments.size();
-  if (tests < least_to_tell) return aliases;
+  if (tests < tuning::fewest_tests_for_aliases) return aliases;
   const std::vector<State> states = states_of(training, model);
   for (const Column& column : training.columns) {
     if (!may_act(column, options)) continue;
@@ -202,12 +198,13 @@ std::vector<Alias> find_aliases(const Dataset& training, const models::Model& mo
     for (const State& state : states) {
       const double by_levels = few ? explained_by_levels(setting, state.at) : 0;
       const double by_line = column.levels.empty() ? explained_by_line(setting, state.at) : 0;
-      if (std::max(by_levels, by_line) <= tied) continue;
+      if (std::max(by_levels, by_line) <= tuning::aliased_share_of_variance) continue;
       aliases.push_back(
           {column.name, state.name, std::max(by_levels, by_line),
            fmt::format("{} cannot be distinguished from {}: {}", column.name, state.name,
-                       by_levels > tied ? levels_text(column, setting, state)
-                                        : line_text(column.name, setting, state))});
+                       by_levels > tuning::aliased_share_of_variance
+                           ? levels_text(column, setting, state)
+                           : line_text(column.name, setting, state))});
     }
   }
   return aliases;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "data/quantity.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -15,10 +16,6 @@ using data::Column;
 using data::Dataset;
 
 namespace {
-
-constexpr std::size_t most_settings = 5; // 3^5 combinations
-constexpr std::size_t most_rows = 200;   // of a candidate; more would not change a decision
-constexpr double varied = 0.02;          // least range of a setting, relative to its mean
 
 bool is_state(const std::string& name) {
   return data::find_quantity(name) != nullptr;
@@ -65,7 +62,7 @@ struct Range {
   double low, high;
   double width() const { return high - low; }
   Range widened() const {
-    const double end = range_widened * width();
+    const double end = tuning::range_extension * width();
     // Non-negative quantities stay non-negative, and positive ones stay away from 0.
     return {low > 0 ? std::max(low - end, 0.5 * low) : low == 0 ? 0 : low - end, high + end};
   }
@@ -74,11 +71,12 @@ struct Range {
 // Values that several tests share, as of a switch or of grades; no others can be set. Empty if
 // there are many.
 std::vector<double> levels_of(std::vector<double> values) {
-  constexpr std::size_t most_levels = 5, tests_each = 2;
   std::sort(values.begin(), values.end());
   const std::size_t tests = values.size();
   values.erase(std::unique(values.begin(), values.end()), values.end());
-  if (values.size() > most_levels || values.size() * tests_each > tests) values.clear();
+  if (values.size() > tuning::most_fixed_values ||
+      values.size() * tuning::tests_per_fixed_value > tests)
+    values.clear();
   return values;
 }
 
@@ -91,7 +89,8 @@ class CandidateTestBuilder {
 public:
   CandidateTestBuilder(const Dataset& data, std::vector<Setting> settings) : data_(data) {
     built_.settings = std::move(settings);
-    if (built_.settings.size() > most_settings) built_.settings.resize(most_settings);
+    if (built_.settings.size() > tuning::most_varied_settings)
+      built_.settings.resize(tuning::most_varied_settings);
     choose_template();
   }
 
@@ -135,7 +134,7 @@ private:
   }
 
   std::vector<double> of_template(const Column& column) const {
-    const std::size_t kept = std::min(rows_, most_rows);
+    const std::size_t kept = std::min(rows_, tuning::most_candidate_rows);
     std::vector<double> values;
     for (std::size_t i = 0; i < kept; ++i)
       values.push_back(column.values[begin_ + i * rows_ / kept]);
@@ -154,7 +153,8 @@ private:
       column.values.insert(column.values.end(), values.begin(), values.end());
     }
     built_.data.experiments.push_back(fmt::format("candidate {}", built_.at.size() + 1));
-    built_.data.first_row.push_back(built_.data.first_row.back() + std::min(rows_, most_rows));
+    built_.data.first_row.push_back(built_.data.first_row.back() +
+                                    std::min(rows_, tuning::most_candidate_rows));
     built_.at.push_back(at);
   }
 
@@ -225,7 +225,7 @@ std::vector<Setting> settings_of(const Dataset& data, const std::vector<std::str
     } else {
       if (!is_state(name) && !is_constant_in_tests(data, *column)) return;
       const Range run = range_of(test_means(data, *column));
-      if (!(run.width() > varied * std::abs(run.low + run.high) / 2)) return;
+      if (!(run.width() > tuning::varied_share_of_mean * std::abs(run.low + run.high) / 2)) return;
       const Range range = run.widened();
       if (const auto levels = levels_of(test_means(data, *column)); !levels.empty()) {
         for (const double value : {levels.front(), levels[levels.size() / 2], levels.back()})

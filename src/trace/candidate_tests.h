@@ -17,14 +17,12 @@ struct Setting {
   std::vector<std::string> text; // the same, formatted
 };
 
-// Width by which the range of the campaign is extended at either end, as a fraction of it. The
-// values of a setting are both ends and the middle of the extended range; for a text column, all
-// its levels; for a number with at most five values that tests share, the least, the middle and the
-// largest of these. Non-negative quantities stay non-negative.
-inline constexpr double range_widened = 0.1;
-
-// Finds the settings that change `columns` and were varied. Surface expansion, sliding distance and
-// time follow from pressure and speed, the contact's temperature from the tool's and the speed.
+// Finds the settings that change `columns` and were varied. The values of a setting are both ends
+// and the middle of the range of the campaign, extended by a tenth at either end; for a text
+// column, all its levels; for a number with at most five values that tests share, the least, the
+// middle and the largest of these. Non-negative quantities stay non-negative. Surface expansion,
+// sliding distance and time follow from pressure and speed, the contact's temperature from the
+// tool's and the speed.
 std::vector<Setting> settings_of(const data::Dataset& data,
                                  const std::vector<std::string>& columns);
 

@@ -22,6 +22,7 @@
 #include "data/quantity.h"
 #include "data/roles.h"
 #include "trace/test_dates.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -33,11 +34,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 using Rows = std::span<const double>;
-
-// number of columns up to which every pair is a candidate
-constexpr std::size_t most_in_pairs = 100;
-// of a text column; one with more levels identifies experiments
-constexpr std::size_t most_levels = 12;
 
 bool is_constant(Rows values) {
   return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
@@ -68,8 +64,6 @@ double likeness(const VectorXd& a, const VectorXd& b) {
   return size > 0 ? xy * xy / size : 0;
 }
 
-constexpr double identical_r2 = 1 - 1e-9, near_collinear_r2 = 0.98; // likeness
-
 // Multiples of the golden ratio: evenly distributed and never periodic, so no column has this
 // direction by chance.
 VectorXd golden_direction(Index size) {
@@ -89,16 +83,13 @@ double standing(const VectorXd& values, const VectorXd& direction) {
   const double size = x.norm();
   return size > 0 ? std::abs(direction.dot(x)) / size : 0;
 }
-// Maximum distance of such positions: unit vectors of identical columns differ by up to sqrt(1e-9).
-constexpr double together = 4e-5;
 
 // Quantiles; partially sorts `all`: every value ends up between the quantiles around it.
 std::vector<double> quantiles_of(std::vector<double>& all) {
-  constexpr std::size_t parts = 30;
   std::vector<double> at;
   std::vector<std::size_t> ranks;
-  for (std::size_t i = 0; i <= parts; ++i)
-    ranks.push_back(i * (all.size() - 1) / parts);
+  for (std::size_t i = 0; i <= tuning::quantile_intervals; ++i)
+    ranks.push_back(i * (all.size() - 1) / tuning::quantile_intervals);
   place_ranks(all, ranks);
   for (const std::size_t rank : ranks)
     at.push_back(all[rank]);
@@ -362,10 +353,10 @@ private:
   // First column that is identical up to offset and scale; nullptr if there is none.
   const CandidateColumn* twin_of(const VectorXd& values, double at) const {
     std::size_t first = found_.columns.size();
-    for (auto near = standings_.lower_bound(at - together);
-         near != standings_.end() && near->first <= at + together; ++near)
+    for (auto near = standings_.lower_bound(at - tuning::same_projection_tolerance);
+         near != standings_.end() && near->first <= at + tuning::same_projection_tolerance; ++near)
       if (near->second < first &&
-          likeness(found_.columns[near->second].values, values) > identical_r2)
+          likeness(found_.columns[near->second].values, values) > tuning::identical_r2)
         first = near->second;
     return first < found_.columns.size() ? &found_.columns[first] : nullptr;
   }
@@ -377,9 +368,9 @@ private:
 
   void add_recorded(const Column& column) {
     if (column.levels.empty()) return add_column(column.name, {column.name}, false, column.values);
-    if (column.levels.size() > most_levels) {
+    if (column.levels.size() > tuning::most_levels_of_text) {
       found_.notes.push_back(fmt::format("{} has {} levels, more than {}: left out", column.name,
-                                         column.levels.size(), most_levels));
+                                         column.levels.size(), tuning::most_levels_of_text));
       return;
     }
     CandidateColumn text;
@@ -428,7 +419,7 @@ private:
 // Each pair has a dozen shapes, each as long as the data. Pairs of a thousand columns would exhaust
 // memory, and no effect could be significant among half a million.
 bool pairs_every_column(const Candidates& candidates) {
-  return candidates.columns.size() <= most_in_pairs;
+  return candidates.columns.size() <= tuning::most_columns_for_all_pairs;
 }
 
 // Whether a column may act together with others. Among histories only four may: the others nearly
@@ -458,8 +449,8 @@ Candidates find_candidates(const Dataset& training, const Dataset& validation,
   if (!pairs_every_column(found))
     found.notes.push_back(fmt::format("pairs without a state of the law, of {} columns (of all up "
                                       "to {}; data.bystanders or trace.ignore leave some out){}",
-                                      thousands(found.columns.size()), most_in_pairs,
-                                      not_searched));
+                                      thousands(found.columns.size()),
+                                      tuning::most_columns_for_all_pairs, not_searched));
   if (training.has("sigma_n_MPa")) { // effects added to tau_R fade with it
     const auto sigma = training.values("sigma_n_MPa");
     found.by_symbol.try_emplace("sigma_n_MPa", blocks.mean(sigma));
@@ -491,7 +482,8 @@ namespace {
 
 // Whether two columns are nearly collinear: they are one quantity, and their product is a parabola.
 bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
-  return a.levels.empty() && b.levels.empty() && likeness(a.values, b.values) > near_collinear_r2;
+  return a.levels.empty() && b.levels.empty() &&
+         likeness(a.values, b.values) > tuning::near_collinear_r2;
 }
 
 } // namespace
@@ -544,18 +536,18 @@ Eigen::MatrixXd state_means(const Candidates& candidates, const stats::Blocks& b
 }
 
 bool one_factor_at_a_time(const Eigen::MatrixXd& states) {
-  constexpr double changed = 0.2; // fraction of a state's range, from its median
-  constexpr double most = 0.05;   // fraction of the tests that change more than one state
   if (states.cols() < 2 || states.rows() < 5) return false;
   Eigen::VectorXi count = Eigen::VectorXi::Zero(states.rows());
   for (Eigen::Index s = 0; s < states.cols(); ++s) {
     Eigen::VectorXd sorted = states.col(s);
     std::sort(sorted.begin(), sorted.end());
     const double range = sorted(sorted.size() - 1) - sorted(0), middle = sorted(sorted.size() / 2);
-    count += ((states.col(s).array() - middle).abs() > changed * range).cast<int>().matrix();
+    count += ((states.col(s).array() - middle).abs() > tuning::changed_share_of_range * range)
+                 .cast<int>()
+                 .matrix();
   }
   const auto several = static_cast<double>((count.array() > 1).count());
-  return several <= most * static_cast<double>(states.rows());
+  return several <= tuning::share_of_tests_changing_several * static_cast<double>(states.rows());
 }
 
 std::optional<Cause> cause_in(const Candidates& to, const Cause& cause, const Candidates& from) {

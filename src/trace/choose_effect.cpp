@@ -13,6 +13,7 @@
 #include "stats/projection.h"
 #include "stats/smooth.h"
 #include "trace/shapes.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -24,15 +25,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t fitted_rivals = 6;     // size of the shortlist from which a set is made
-constexpr double distinguishable_errors = 3; // standard errors, on selected tests only
-// cost in -2 log likelihood per step away from recorded columns
-constexpr double per_complexity = 3;
-// Costs of sites in penalised log likelihood: where the data cannot distinguish sites, an effect
-// acts on mu.
-constexpr std::array<double, sites.size()> site_margins = {0.0, 0.5, 1.5, 0.25};
-constexpr std::size_t forms_tried = 8;  // at each site
-constexpr std::size_t forms_on_all = 3; // of those, if fitted to selected tests first
+static_assert(tuning::site_costs.size() == sites.size());
 
 // One way to explain the residual, linear in its coefficients.
 struct Option {
@@ -75,8 +68,8 @@ void fit_options(const Search& search, const stats::NoiseModel& noise, Options& 
     MatrixXd basis = basis_of(search, option.effect);
     whitener.apply(basis);
     option.fit = stats::fit_smooth(residual.col(0), basis, option.penalty, known);
-    option.criterion =
-        option.fit.criterion + per_complexity * complexity(option.cause, search.candidates);
+    option.criterion = option.fit.criterion +
+                       tuning::cause_step_cost * complexity(option.cause, search.candidates);
   });
 }
 
@@ -129,7 +122,7 @@ void drop_distinguishable(const Search& search, const stats::NoiseModel& noise, 
   const std::vector<Rival> fits = rivals_of(search, selected(search.campaign()), options, noise);
   Options kept;
   for (std::size_t i = 0; i < options.size(); ++i)
-    if (i == 0 || !(sureness(fits.front(), fits[i]) > distinguishable_errors))
+    if (i == 0 || !(sureness(fits.front(), fits[i]) > tuning::distinguishable_std_errors))
       kept.push_back(std::move(options[i]));
   options = std::move(kept);
 }
@@ -190,7 +183,7 @@ std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>
   for (Option& option : options)
     if (std::none_of(best.begin(), best.end(),
                      [&](const Option& o) { return o.cause == option.cause; }) &&
-        best.size() < fitted_rivals)
+        best.size() < tuning::shortlisted_causes)
       best.push_back(std::move(option));
   if (search.campaign().selection) drop_distinguishable(search, noise, best);
   std::vector<Rival> rivals = rivals_of(search, search.campaign(), best, noise);
@@ -312,8 +305,8 @@ std::vector<Rival> fit_forms(const Campaign& campaign, const Rival& winner, std:
     effects[index] = starts[i].effect;
     rivals[i] = fit_rival(campaign, winner, std::move(effects), winner.causes, winner.noise,
                           NoiseSearch::kept);
-    if (starts[i].effect.form->penalty) rivals[i].penalised -= smooth_margin;
-    rivals[i].penalised -= site_margins[site_of(starts[i].effect)];
+    if (starts[i].effect.form->penalty) rivals[i].penalised -= tuning::smooth_cost;
+    rivals[i].penalised -= tuning::site_costs[site_of(starts[i].effect)];
     progress.tick();
   });
   return rivals;
@@ -330,7 +323,7 @@ void keep_promising(double share, std::size_t index, std::vector<Start>& starts,
   };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return promise(a) > promise(b); });
-  if (order.size() > forms_on_all) order.resize(forms_on_all);
+  if (order.size() > tuning::most_forms_on_all_tests) order.resize(tuning::most_forms_on_all_tests);
   std::vector<Start> kept;
   for (const std::size_t i : order) {
     kept.push_back(starts[i]);
@@ -347,7 +340,8 @@ std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::s
   std::vector<Start> starts = FormStarts(search, winner, index).run();
   std::map<effects::ActsOn, std::size_t> tried;
   std::erase_if(starts, [&](const Start& start) {
-    return !start.effect.form->penalty && tried[start.effect.acts_on]++ >= forms_tried;
+    return !start.effect.form->penalty &&
+           tried[start.effect.acts_on]++ >= tuning::most_forms_at_site;
   });
   std::vector<Rival> rivals = fit_forms(selected(search.campaign()), winner, index, starts);
   if (search.campaign().selection) {
@@ -355,8 +349,8 @@ std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::s
     rivals = fit_forms(search.campaign(), winner, index, starts);
   }
   rivals.push_back(winner);
-  rivals.back().penalised -= site_margins[site_of(winner.effects[index])];
-  if (winner.effects[index].form->penalty) rivals.back().penalised -= smooth_margin;
+  rivals.back().penalised -= tuning::site_costs[site_of(winner.effects[index])];
+  if (winner.effects[index].form->penalty) rivals.back().penalised -= tuning::smooth_cost;
   std::stable_sort(rivals.begin(), rivals.end(),
                    [](const Rival& a, const Rival& b) { return a.penalised > b.penalised; });
   return rivals;

@@ -20,10 +20,8 @@ std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>
 
 // Fits the effect `index` of `winner` in every closed form that its columns allow and at every site
 // where it may act. A closed form replaces a smooth if its penalised log likelihood is at most
-// `smooth_margin` lower. Best first.
+// `tuning::smooth_cost` lower. Best first.
 std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::size_t index);
-
-inline constexpr double smooth_margin = 3;
 
 // The effect with which a finding is first fitted: one parameter, or one per level.
 effects::PlacedEffect plain_effect(const Search& search, const Cause& cause);

@@ -17,6 +17,7 @@
 #include "trace/design.h"
 #include "trace/joint_choice.h"
 #include "trace/rows_alike.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -27,11 +28,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// of the mean square, remaining after the effects: R^2 above 0.999
-constexpr double unlikely_share = 1e-3;
-constexpr double apart_level = 1e-3; // p-value below which validation tests differ as a whole
-constexpr double hardly = 0.2;       // of a column's spread over the training rows
 
 class Deliverer {
 public:
@@ -184,7 +180,8 @@ private:
   }
 
   bool by_validation() const {
-    return in_.searched.empty() && in_.validation.experiments.size() >= enough_validation;
+    return in_.searched.empty() &&
+           in_.validation.experiments.size() >= tuning::fewest_judging_validation_tests;
   }
 
   bool no_validation() const { return in_.validation.experiments.empty(); }
@@ -280,7 +277,7 @@ private:
   std::size_t too_good() const {
     if (d_.findings.empty()) return 0;
     const double before = t_.before.validation.rmse_MPa, after = t_.after.validation.rmse_MPa;
-    if (!(after * after < unlikely_share * before * before)) return 0;
+    if (!(after * after < tuning::implausible_share_left * before * before)) return 0;
     for (std::size_t i = 0; i < d_.findings.size(); ++i)
       if (reads_something(d_.findings[i])) return i + 1;
     return 0;
@@ -337,7 +334,7 @@ private:
     std::string names;
     for (const std::string& name : columns) {
       const data::Column *here = in_.training.find(name), *there = in_.validation.find(name);
-      if (here && there && spread_of(*there) < hardly * spread_of(*here))
+      if (here && there && spread_of(*there) < tuning::small_share_of_spread * spread_of(*here))
         names += (names.empty() ? "" : ", ") + name;
     }
     return names.empty() ? "" : "; the validation tests hardly vary " + names;
@@ -459,7 +456,7 @@ ValidationShift shift_of(const TestGains& seen, const TestGains& unseen, double 
   const double shift = unseen.gain.mean() - seen.gain.mean();
   const double degrees = std::min(free, n - 1);
   apart.p_value = 2 * gsl_cdf_tdist_Q(std::abs(shift) / std::max(se, 1e-300), degrees);
-  apart.found = apart.p_value < apart_level;
+  apart.found = apart.p_value < tuning::validation_shift_p_value;
   const double t = gsl_cdf_tdist_Qinv(0.025, degrees);
   apart.share = std::expm1(shift);
   apart.interval = {std::expm1(shift - t * se), std::expm1(shift + t * se)};

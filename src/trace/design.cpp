@@ -11,6 +11,7 @@
 
 #include "stats/projection.h"
 #include "trace/candidate_tests.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -19,16 +20,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr std::size_t least_tests = 3, most_tests = 6;
-constexpr std::size_t most_rivals = 4;
-constexpr double wanted = 0.8;     // probability
-constexpr double two_sided = 1.96; // 5 %
-constexpr double tiny = 1e-9; // of a parameter's information: regularises parameters without any
-// of the standardised amplitude, that a design with one setting fewer must keep
-constexpr double costs_nothing = 0.97;
-constexpr double hopeless = 60;           // number of tests that nobody would run
-constexpr double least_probability = 0.1; // of success, for which a few tests are worth running
 
 // Derivatives of tau_R, per block, by each parameter that all rivals share, and by each rival's
 // amplitude.
@@ -114,7 +105,7 @@ public:
     std::vector<Setting> settings = settings_of(search_.input.training, recorded());
     if (settings.empty()) return {};
     Plan plan = best_plan(settings);
-    if (rivals_.size() == 1 && probability(plan.before) >= wanted)
+    if (rivals_.size() == 1 && probability(plan.before) >= tuning::wanted_power)
       return {}; // the data would show it already, if it were as large as fitted
     // Prefers a design with fewer settings if it is nearly as good.
     for (std::size_t s = settings.size(); s-- > 0 && settings.size() > 1;) {
@@ -122,7 +113,7 @@ public:
       fewer.erase(fewer.begin() + static_cast<long>(s));
       Plan simpler = best_plan(fewer);
       if (simpler.tests.size() > plan.tests.size() ||
-          simpler.amplitude < costs_nothing * plan.amplitude)
+          simpler.amplitude < tuning::kept_share_of_amplitude * plan.amplitude)
         continue;
       settings = std::move(fewer);
       plan = std::move(simpler);
@@ -153,10 +144,10 @@ private:
     if (plan.candidates.at.empty()) return plan;
     add_information(plan.candidates);
     plan.before = amplitude(known_);
-    for (std::size_t n = least_tests; n <= most_tests; ++n) {
+    for (std::size_t n = tuning::fewest_advised_tests; n <= tuning::most_advised_tests; ++n) {
       plan.tests = exchange(n);
       plan.amplitude = amplitude(information(plan.tests));
-      if (probability(plan.amplitude) >= wanted) break;
+      if (probability(plan.amplitude) >= tuning::wanted_power) break;
     }
     return plan;
   }
@@ -177,7 +168,7 @@ private:
     for (MatrixXd* m : all())
       *m = (scale.asDiagonal() * *m * scale.asDiagonal()).eval();
     for (Index p = 0; p < shared; ++p)
-      known_(p, p) += tiny;
+      known_(p, p) += tuning::information_ridge;
   }
 
   std::vector<MatrixXd*> all() {
@@ -229,14 +220,13 @@ private:
   }
 
   bool improve(std::vector<std::size_t>& design, std::size_t slot) const {
-    constexpr double clearly = 1e-6;
     const std::size_t before = design[slot];
     double most = log_det(design);
     std::size_t best = before;
     for (std::size_t c = 0; c < each_.size(); ++c) {
       design[slot] = c;
       const double value = log_det(design);
-      if (value <= most + clearly) continue;
+      if (value <= most + tuning::determinant_gain_that_counts) continue;
       most = value;
       best = c;
     }
@@ -258,7 +248,7 @@ private:
     return std::sqrt(std::max(least, 0.0));
   }
 
-  double limit() const { return rivals_.size() > 1 ? two_sided : threshold_; }
+  double limit() const { return rivals_.size() > 1 ? tuning::two_sided_std_errors : threshold_; }
   double probability(double standardised) const {
     return gsl_cdf_ugaussian_P(standardised - limit());
   }
@@ -269,10 +259,10 @@ private:
     // Information is proportional to the number of such tests.
     const double each = (plan.amplitude * plan.amplitude - plan.before * plan.before) /
                         static_cast<double>(plan.tests.size());
-    const double target = limit() + gsl_cdf_ugaussian_Pinv(wanted);
+    const double target = limit() + gsl_cdf_ugaussian_Pinv(tuning::wanted_power);
     const double tests = (target * target - plan.before * plan.before) / std::max(each, 1e-300);
-    if (tests > hopeless) return design;
-    if (probability(plan.amplitude) < least_probability) return design;
+    if (tests > tuning::most_tests_needed) return design;
+    if (probability(plan.amplitude) < tuning::smallest_power) return design;
     design.probability = probability(plan.amplitude);
     design.tests_needed = std::max(std::ceil(tests), 1.0);
     design.like = plan.candidates.like;
@@ -302,7 +292,7 @@ private:
 Design design_tests(const Search& search, const std::vector<const Rival*>& rivals,
                     double threshold) {
   std::vector<const Rival*> some = rivals;
-  if (some.size() > most_rivals) some.resize(most_rivals);
+  if (some.size() > tuning::most_rivals_in_plan) some.resize(tuning::most_rivals_in_plan);
   return Designer(search, some, threshold).run();
 }
 
@@ -324,7 +314,7 @@ Design design_for(const Search& search, const Finding& finding) {
     if (finding.in_set[i] &&
         !contains(finding.others[i].causes.back(), finding.rival.causes.back()))
       rivals.push_back(&finding.others[i]);
-  return rivals.size() > 1 ? design_tests(search, rivals, two_sided) : Design{};
+  return rivals.size() > 1 ? design_tests(search, rivals, tuning::two_sided_std_errors) : Design{};
 }
 
 Design design_for_lead(const Search& search, const effects::PlacedEffect& effect,
@@ -372,7 +362,6 @@ Ends ends_by_level(const Setting& setting, const VectorXd& x, const VectorXd& ga
 } // namespace
 
 Design design_in_turn(const Search& search, const Cause& cause, double scatter) {
-  constexpr std::size_t least = 4; // two of each value
   Design design;
   if (cause.is_joint()) return design;
   const CandidateColumn& column = search.candidates.columns[cause.columns[0]];
@@ -386,9 +375,12 @@ Design design_in_turn(const Search& search, const Cause& cause, double scatter) 
     return ends.apart / (2 * std::max(scatter, 1e-300) / std::sqrt(tests));
   };
   const auto probability = [&](std::size_t tests) {
-    return gsl_cdf_ugaussian_P(standardised(static_cast<double>(tests)) - two_sided);
+    return gsl_cdf_ugaussian_P(standardised(static_cast<double>(tests)) -
+                               tuning::two_sided_std_errors);
   };
-  const std::size_t tests = probability(least) >= wanted ? least : most_tests;
+  const std::size_t tests = probability(tuning::fewest_tests_in_turn) >= tuning::wanted_power
+                                ? tuning::fewest_tests_in_turn
+                                : tuning::most_advised_tests;
   for (std::size_t i = 0; i < tests; ++i)
     design.tests.push_back({setting.text[i % 2 == 0 ? ends.low : ends.high]});
   design.columns = {setting.column};
@@ -397,7 +389,9 @@ Design design_in_turn(const Search& search, const Cause& cause, double scatter) 
                     search.order.column.empty() ? "time" : search.order.column};
   design.probability = probability(tests);
   design.tests_needed = std::ceil(
-      std::pow((two_sided + gsl_cdf_ugaussian_Pinv(wanted)) / std::max(standardised(1), 1e-9), 2));
+      std::pow((tuning::two_sided_std_errors + gsl_cdf_ugaussian_Pinv(tuning::wanted_power)) /
+                   std::max(standardised(1), 1e-9),
+               2));
   return design;
 }
 

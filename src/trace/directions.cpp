@@ -5,6 +5,7 @@
 #include <set>
 
 #include "stats/projection.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -16,12 +17,12 @@ using Eigen::VectorXd;
 
 // Piecewise linear functions with seven knots: they span any form of the quantity.
 MatrixXd hat_functions(const VectorXd& x) {
-  constexpr int knot_count = 7;
   std::vector<double> sorted(x.data(), x.data() + x.size());
   std::sort(sorted.begin(), sorted.end());
   std::set<double> knots;
-  for (int i = 0; i < knot_count; ++i)
-    knots.insert(sorted[static_cast<std::size_t>(i) * (sorted.size() - 1) / (knot_count - 1)]);
+  for (int i = 0; i < tuning::knots_of_any_form; ++i)
+    knots.insert(sorted[static_cast<std::size_t>(i) * (sorted.size() - 1) /
+                        (tuning::knots_of_any_form - 1)]);
   MatrixXd columns(x.size(), static_cast<Index>(knots.size()));
   Index next = 0;
   for (const double knot : knots)
@@ -72,7 +73,6 @@ MatrixXd fitted_directions(const Campaign& campaign, const Rival& rival,
 }
 
 Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, double tau_scale_MPa) {
-  constexpr double step = 0.06;
   const std::size_t own = campaign.law.parameters.size();
   BlockColumns columns = campaign.candidates.by_symbol;
   columns["everywhere"] = VectorXd::Ones(campaign.measured.size());
@@ -95,10 +95,10 @@ Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, dou
                        return p.name == "e" + std::to_string(effects.size()) + "_a";
                      }) -
         law.parameters.begin());
-    at[amplitude] = step;
+    at[amplitude] = tuning::factor_step;
     const VectorXd up = on.predict(at);
-    at[amplitude] = -step;
-    return VectorXd((up - on.predict(at)) / (2 * step));
+    at[amplitude] = -tuning::factor_step;
+    return VectorXd((up - on.predict(at)) / (2 * tuning::factor_step));
   };
   Sensitivities all;
   all[on_mu] = change(effects::ActsOn::mu);

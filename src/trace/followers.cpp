@@ -8,6 +8,7 @@
 #include <gsl/gsl_cdf.h>
 
 #include "data/roles.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -15,8 +16,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-constexpr Index fewest_tests = 5;
 
 struct Looked {
   double p_value = 1, slope = 0;
@@ -76,7 +75,8 @@ Lead lead_of_follower(const data::Column& column, const VectorXd& x, const Looke
 
 std::vector<Lead> leads_that_may_follow(const Search& search, const Rival& rival) {
   std::vector<Lead> leads;
-  if (static_cast<Index>(search.blocks.experiments()) < fewest_tests) return leads;
+  if (static_cast<Index>(search.blocks.experiments()) < tuning::fewest_tests_for_followers)
+    return leads;
   const VectorXd& measured = search.campaign().measured;
   const double scale = 1e-3 * measured.cwiseAbs().mean();
   const VectorXd residual =

@@ -6,6 +6,7 @@
 
 #include "data/shares.h"
 #include "stats/projection.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -14,8 +15,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double least_ratio = 1e-3; // of the law's stress: least argument of the logarithm
 
 double median_of(std::vector<double> x) {
   const auto middle = x.begin() + static_cast<long>(x.size() / 2);
@@ -32,7 +31,6 @@ double squares_left(const VectorXd& y, const MatrixXd& columns) {
 } // namespace
 
 TestGains test_gains(const data::Dataset& data, std::span<const double> predicted) {
-  constexpr std::size_t most_parts = 10, rows_each = 5, least_parts = 3;
   const auto measured = data.values("tau_R_MPa");
   const std::size_t tests = data.experiments.size();
   TestGains out{VectorXd(static_cast<Index>(tests)), VectorXd(static_cast<Index>(tests))};
@@ -42,9 +40,9 @@ TestGains test_gains(const data::Dataset& data, std::span<const double> predicte
     const std::size_t rows = data.first_row[e + 1] - data.first_row[e];
     const auto ratio = [&](std::size_t i) {
       const double law = std::max(predicted[i], 1e-300);
-      return std::log(std::max(measured[i], least_ratio * law) / law);
+      return std::log(std::max(measured[i], tuning::smallest_gain_ratio * law) / law);
     };
-    const std::size_t wanted = std::min(most_parts, rows / rows_each);
+    const std::size_t wanted = std::min(tuning::most_gain_parts, rows / tuning::rows_per_gain_part);
     const auto first = data::equal_shares(data, e, std::max<std::size_t>(wanted, 1));
     const std::size_t parts = wanted < 1 ? 0 : first.size() - 1;
     double sum = 0, all = 0;
@@ -61,7 +59,7 @@ TestGains test_gains(const data::Dataset& data, std::span<const double> predicte
     }
     const auto at = static_cast<Index>(e);
     out.gain(at) = sum / all;
-    if (parts < least_parts) {
+    if (parts < tuning::fewest_gain_parts) {
       unknown.push_back(e);
       continue;
     }

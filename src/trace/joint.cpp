@@ -9,6 +9,7 @@
 #include "trace/order_search.h"
 #include "trace/shapes.h"
 #include "trace/terms.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -17,17 +18,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double farthest_factor = 5; // largest ratio between measured friction and the law's
-constexpr double same_site = 0.995;   // correlation of the derivatives at two sites
-constexpr double same_shape = 0.97;   // correlation of shapes of which only one is tried
-constexpr int walk_waves = 8;
-// Few terms are tried on more flips: cheap, and more precise p-values.
-constexpr std::size_t flips_of_terms = 500000, most_flips = 4999;
-// share of a column's information that the law's parameters must leave
-constexpr double least_own = 0.02;
-// share of the variance of a history's test means that states explain
-constexpr double imitated = 0.5;
 
 class Campaigner {
 public:
@@ -42,8 +32,9 @@ public:
     settings.seed = s_.input.seed;
     settings.units = s_.units;
     settings.take = s_.enough_units();
-    settings.flips = std::clamp(flips_of_terms / std::max<std::size_t>(causes_.size(), 1),
-                                settings.flips, most_flips);
+    settings.flips =
+        std::clamp(tuning::flips_times_terms / std::max<std::size_t>(causes_.size(), 1),
+                   settings.flips, tuning::most_flips);
     const JointPath path = search_jointly(data, offer_, settings);
     JointResult result;
     const JointChoice choice =
@@ -89,7 +80,8 @@ private:
       if (!(size > 0)) continue;
       own /= size;
       const auto alike = [&](const auto& other) {
-        return std::abs(own.dot(other.second)) > same_site * own.norm() * other.second.norm();
+        return std::abs(own.dot(other.second)) >
+               tuning::same_site_cosine * own.norm() * other.second.norm();
       };
       if (std::none_of(sites_.begin(), sites_.end(), alike)) sites_.emplace_back(site, own);
     }
@@ -158,7 +150,7 @@ private:
       x /= size;
       if (std::none_of(all.begin(), all.end(), [&](const SharpShape& other) {
             return std::abs(x.dot(other.basis.columns.col(0))) >
-                   same_shape * static_cast<double>(x.size());
+                   tuning::same_sharp_shape_cosine * static_cast<double>(x.size());
           }))
         all.push_back({{x, 1}, &shape.effect});
     }
@@ -200,13 +192,14 @@ private:
       const auto n = static_cast<double>(x.size()),
                  free = n - 1 - static_cast<double>(states.cols());
       imitated_.back() =
-          free < 1 || left.squaredNorm() / free < (1 - imitated) * x.squaredNorm() / (n - 1);
+          free < 1 || left.squaredNorm() / free <
+                          (1 - tuning::imitated_share_of_variance) * x.squaredNorm() / (n - 1);
     }
   }
 
   // Adds cosines of the order of tests at each site, the k-th with standard deviation 1/k.
   void add_walk() {
-    MatrixXd waves = order_functions(s_.candidates.order, walk_waves);
+    MatrixXd waves = order_functions(s_.candidates.order, tuning::walk_waves);
     for (Index k = 0; k < waves.cols(); ++k)
       waves.col(k) *= std::sqrt(static_cast<double>(waves.rows())) /
                       std::max(waves.col(k).norm(), 1e-300) / static_cast<double>(k + 1);
@@ -229,8 +222,11 @@ private:
   JointData make_data() {
     JointData data;
     const VectorXd ratio = s_.campaign().measured.cwiseQuotient(floor_);
-    data.response =
-        modes_.of(ratio.array().max(1 / farthest_factor).min(farthest_factor).log().matrix());
+    data.response = modes_.of(ratio.array()
+                                  .max(1 / tuning::largest_response_ratio)
+                                  .min(tuning::largest_response_ratio)
+                                  .log()
+                                  .matrix());
     MatrixXd law = MatrixXd::Ones(floor_.size(), 1);
     for (const MatrixXd* directions : {&s_.last().jacobian, &s_.trained(), &s_.campaign().nuisance})
       if (directions->cols() > 0)
@@ -266,7 +262,8 @@ private:
     }
     for (const JointSeen& one : from.seen)
       if (site_of_[one.term] == sites_.front().first)
-        all.seen.push_back({causes_[one.term], one.own > least_own, one.size});
+        all.seen.push_back(
+            {causes_[one.term], one.own > tuning::identifiable_share_of_information, one.size});
     if (settings.take && from.smallest_half > 0)
       all.smallest_seen = std::expm1(2 * from.smallest_half);
     return all;

@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/random.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -17,11 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t most_folds = 10;
-// standard deviations of each state within which tests have one setting
-constexpr double one_setting = 0.25;
-constexpr double pays_its_place = 1;              // standard errors of the score
-constexpr double freedom_of_score = 4;            // of Student's t
 constexpr std::uint64_t fold_stream = 0x666f6c64; // "fold"
 
 // Per test, the error and the score.
@@ -91,8 +87,8 @@ private:
       const auto& places = modes_.of_test(t);
       for (std::size_t k = 0; k < places.size(); ++k) {
         const double x = left(places[k]);
-        score -= 0.5 * (freedom_of_score + 1) *
-                 std::log1p(x * x / (freedom_of_score * variance_[Modes::class_of(k)]));
+        score -= 0.5 * (tuning::mode_score_t_freedom + 1) *
+                 std::log1p(x * x / (tuning::mode_score_t_freedom * variance_[Modes::class_of(k)]));
       }
       errors(at, 1) = score;
     }
@@ -135,7 +131,7 @@ private:
       }
       if (choice.kept.size() < 2) break;
       std::size_t least = 0;
-      double smallest = pays_its_place;
+      double smallest = tuning::worth_of_term_std_errors;
       for (std::size_t i = 0; i < worth.size(); ++i)
         if (worth[i] <= smallest && !is_parent(choice.kept, i)) {
           least = i;
@@ -206,7 +202,7 @@ std::vector<std::size_t> folds_of_settings(const std::vector<std::size_t>& units
     for (const std::size_t t : left) {
       if (taken[t] || group.size() >= most || states.cols() == 0) continue;
       const auto apart = states.row(static_cast<Index>(t)) - states.row(static_cast<Index>(first));
-      if (apart.cwiseAbs().maxCoeff() < one_setting) take(t);
+      if (apart.cwiseAbs().maxCoeff() < tuning::same_setting_std_deviations) take(t);
     }
     groups.push_back(std::move(group));
   }
@@ -227,7 +223,7 @@ JointChoice choose_jointly(const JointData& data, const Modes& modes, const Join
                            const JointSettings& settings, const JointPath& path,
                            const MatrixXd& states) {
   return Chooser(data, modes, offer, path)
-      .run(folds_of_settings(settings.units, states, std::min(most_folds, modes.tests()),
+      .run(folds_of_settings(settings.units, states, std::min(tuning::most_folds, modes.tests()),
                              settings.seed));
 }
 

@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include "core/parallel.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -16,15 +17,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// Sizes tried by a search and by a fit of the terms that are in, in ln of friction.
-constexpr double coarse_sizes[] = {0, 0.02, 0.1, 0.5};
-constexpr double fine_sizes[] = {0, 0.008, 0.015, 0.03, 0.06, 0.12, 0.25, 0.5, 1};
-constexpr double least_variance = 1e-9;
-// a class with fewer degrees of freedom takes the variance of the class before it
-constexpr double least_freedom = 3;
-constexpr double least_left = 1e-6; // least share of a class's squares that a term may leave
-constexpr double ridge = 1e-8;      // of the law's own directions, which may be collinear
 
 double sum_of(const ByClass& weight, const ByClass& value) {
   double sum = 0;
@@ -222,7 +214,7 @@ JointFit JointModel::solve(const std::vector<std::size_t>& terms,
   double log_sizes = 0;
   for (Index i = 0; i < coefficients; ++i)
     if (i < data_.law) {
-      penalty(i) = ridge * normal(i, i) + 1e-10;
+      penalty(i) = tuning::law_ridge * normal(i, i) + 1e-10;
     } else {
       const double sd = spread[static_cast<std::size_t>(i - data_.law)];
       penalty(i) = 1 / (sd * sd);
@@ -257,9 +249,10 @@ ByClass JointModel::estimated_noise(const JointFit& fit) const {
     const auto rows = static_cast<double>(data_.first[c + 1] - data_.first[c]);
     if (rows == 0) continue;
     const double free = rows - fit.used[c];
-    variance[c] = free < least_freedom && before > 0 && c > 1
-                      ? before
-                      : std::max(fit.squares[c] / std::max(free, 1.0), least_variance);
+    variance[c] =
+        free < tuning::fewest_class_freedom && before > 0 && c > 1
+            ? before
+            : std::max(fit.squares[c] / std::max(free, 1.0), tuning::smallest_class_variance);
     before = variance[c];
   }
   return variance;
@@ -272,7 +265,7 @@ JointFit JointModel::fit(const std::vector<std::size_t>& terms, const std::vecto
     if (!(variance[c] > 0))
       variance[c] = moments.squares[c] /
                         std::max(1.0, static_cast<double>(data_.first[c + 1] - data_.first[c])) +
-                    least_variance;
+                    tuning::smallest_class_variance;
   for (int round = 0; round < rounds; ++round)
     variance = estimated_noise(solve(terms, sizes, variance, moments));
   return solve(terms, sizes, variance, moments);
@@ -445,7 +438,7 @@ struct TermOnResponses {
       for (Index j = 0; j < count; ++j)
         left += coefficients.col(j).array() *
                 (turned.col(j).array() - 2 * along[c].col(begin + j).array());
-      gain -= 0.5 * free[c] * (left / before).max(least_left).log();
+      gain -= 0.5 * free[c] * (left / before).max(tuning::smallest_share_left).log();
     }
     return gain;
   }
@@ -490,15 +483,16 @@ std::vector<JointModel::Ratio> JointModel::ratios(const JointFit& fit, const Mom
   const Left left = left_along(with, moments);
   std::vector<Ratio> all;
   for (const std::size_t term : terms)
-    all.push_back(
-        likeliest(with, left, moments, term, counted(with, data_.terms[term]), coarse_sizes));
+    all.push_back(likeliest(with, left, moments, term, counted(with, data_.terms[term]),
+                            tuning::coarse_term_sizes));
   return all;
 }
 
 JointModel::Ratio JointModel::fine_ratio(const JointFit& fit, const Moments& moments,
                                          std::size_t term) const {
   const Beside with = beside(fit);
-  return likeliest(with, left_along(with, moments), moments, term, with.weight, fine_sizes);
+  return likeliest(with, left_along(with, moments), moments, term, with.weight,
+                   tuning::fine_term_sizes);
 }
 
 std::vector<JointModel::Information>
@@ -547,7 +541,8 @@ MatrixXd JointModel::ratios_of(const JointFit& fit, const MatrixXd& responses,
                         of_fit[c].middleRows(from, count) * of.turned.transpose();
       }
       some.add_up();
-      best.col(static_cast<Index>(i)).segment(from, count) = some.likeliest(coarse_sizes).gain;
+      best.col(static_cast<Index>(i)).segment(from, count) =
+          some.likeliest(tuning::coarse_term_sizes).gain;
     }
   });
   return best;

@@ -12,6 +12,7 @@
 #include "core/progress.h"
 #include "core/random.h"
 #include "stats/projection.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -21,30 +22,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t longest_look = 3, most_terms = 8, leads_shown = 12;
-// Levels of the two rounds in units of trace.alpha. Their sum exceeds 1, but findings must also
-// predict left-out tests, which keeps false alarms rarer than trace.alpha (docs/measurements.md).
-constexpr std::array<double, 2> shares_of_alpha = {1, 0.5};
-constexpr double of_look_ahead = 0.5; // in units of its round's level
-constexpr Index few_flips = 49;       // of a look-ahead, which ends here if its p-value
-constexpr double far_from_rare = 0.2; // exceeds this
-// multiple of the threshold above which the likelihood alone decides
-constexpr double rare_enough = 2;
-constexpr double walk_ratio = 2;   // log likelihood ratio above which a walk is part of the noise
-constexpr double near_share = 0.7; // of a log likelihood ratio
-constexpr std::size_t most_near = 12;
-constexpr std::size_t most_unsure = 6;
-constexpr double tail_freedom = 4; // of Student's t, of the modes of a test in one class
-constexpr int weight_rounds = 3;
-constexpr double free_size = 1;     // size for a coefficient with a weak penalty: friction doubles
-constexpr double found_with = 0.84; // standard errors above a threshold, for a probability of 80 %
+constexpr std::size_t leads_shown = 12;              // length of the list of leads
 constexpr std::uint64_t joint_stream = 0x6a6f696e74; // "joint"
-
-constexpr double same_ratio = 1e-6; // relative difference of ratios that differ by rounding
-
-// Weight of the theoretical tail of a likelihood ratio (mean excess 1), as a number of values added
-// to those observed.
-constexpr double theory_counts = 5;
 
 Rarity rarity_of(VectorXd values) {
   const auto n = static_cast<double>(values.size());
@@ -54,12 +33,14 @@ Rarity rarity_of(VectorXd values) {
   rarity.from = std::max(values(values.size() - count), 0.0);
   double above = 0, excess = 0; // with few tests many flips are equal up to rounding
   for (const double value : values)
-    if (value > rarity.from || (value > 0 && value > (1 - same_ratio) * rarity.from)) {
+    if (value > rarity.from ||
+        (value > 0 && value > (1 - tuning::same_ratio_tolerance) * rarity.from)) {
       ++above;
       excess += std::max(value - rarity.from, 0.0);
     }
   rarity.share = (above + 1) / (n + 1);
-  rarity.mean = (excess + theory_counts) / (above + theory_counts);
+  rarity.mean =
+      (excess + tuning::theoretical_tail_values) / (above + tuning::theoretical_tail_values);
   return rarity;
 }
 
@@ -193,7 +174,7 @@ private:
       fit = m_.fit(fit.terms, fit.sizes, fit.variance, moments, 2);
     }
     const JointModel::Ratio walk = m_.fine_ratio(fit, moments, *o_.walk);
-    if (walk.value < walk_ratio) return fit;
+    if (walk.value < tuning::walk_log_likelihood_ratio) return fit;
     fit.terms.insert(fit.terms.begin(), *o_.walk);
     fit.sizes.insert(fit.sizes.begin(), walk.size);
     return m_.fit(fit.terms, fit.sizes, fit.variance, moments, 2);
@@ -234,7 +215,8 @@ VectorXd root_weights(const JointData& data, const VectorXd& residual, const ByC
     }
     for (Index i = data.first[c]; i < data.first[c + 1]; ++i) {
       const auto& [squares, count] = of_test[data.test[static_cast<std::size_t>(i)]];
-      roots(i) = std::sqrt(std::min(1.0, (tail_freedom + count) / (tail_freedom + squares)));
+      roots(i) = std::sqrt(
+          std::min(1.0, (tuning::weight_t_freedom + count) / (tuning::weight_t_freedom + squares)));
     }
   }
   return roots;
@@ -247,14 +229,14 @@ public:
 
   JointPath run() {
     path_.weights = VectorXd::Ones(data_.response.size());
-    for (int round = 0; round < weight_rounds; ++round) {
+    for (int round = 0; round < tuning::weight_rounds; ++round) {
       model_ = std::make_unique<JointModel>(data_.weighted(path_.weights));
       path_.fit = walker().start();
       path_.weights = weights_of(path_.fit);
     }
     const Progress progress("searching columns", 0);
     for (std::size_t round = 0; round < 2; ++round)
-      while (count(path_.fit) < most_terms && step(round)) {
+      while (count(path_.fit) < tuning::most_terms_found && step(round)) {
       }
     for (JointStep& step : path_.steps)
       step.near = rivals_of(step.term);
@@ -336,19 +318,19 @@ private:
     const JointModel& m = *model_;
     const Walker walker = this->walker();
     const std::vector<std::size_t> terms = walker.open(fit, round);
-    if (terms.empty() || path_.unsure.size() > most_unsure) return false;
-    const double level = s_.alpha * shares_of_alpha[round];
+    if (terms.empty() || path_.unsure.size() > tuning::most_unsure_terms) return false;
+    const double level = s_.alpha * tuning::round_shares_of_alpha[round];
     draw(fit, terms);
     VectorXd largest;
     Footing footing = footing_of(terms, largest);
-    footing.enough = rare_enough * threshold_of(largest, level);
+    footing.enough = tuning::thresholds_for_ranking_by_likelihood * threshold_of(largest, level);
     Ahead path = walker.ahead(fit, m.of_data(), footing, round, 1, true);
     if (path.terms.empty()) return false;
     const double first = walker.rarity(footing, path.terms[0], path.ratios[0]);
     std::size_t take = first > threshold_of(largest, level);
     double p = rank_of(first, largest);
     if (!take && round == 0) {
-      Looked looked = look_ahead(fit, footing, of_look_ahead * level);
+      Looked looked = look_ahead(fit, footing, tuning::look_ahead_share_of_level * level);
       p = std::min(p, looked.p_value);
       if ((take = looked.take) > 0) path = std::move(looked.path);
     }
@@ -426,16 +408,18 @@ private:
   };
   Looked look_ahead(const JointFit& fit, const Footing& footing, double level) const {
     const Walker walker = this->walker();
-    const std::size_t depth = std::min(longest_look, most_terms - walker.count(fit));
+    const std::size_t depth =
+        std::min(tuning::look_ahead_terms, tuning::most_terms_found - walker.count(fit));
     Looked looked{walker.ahead(fit, model_->of_data(), footing, 0, depth, false), 0, 1};
     const Index most = std::min(flips_.cols(), static_cast<Index>(s_.look_ahead));
     MatrixXd gains(0, static_cast<Index>(depth));
-    for (const Index count : {std::min(few_flips, most), most}) { // few flips suffice to reject
+    for (const Index count :
+         {std::min(tuning::first_look_ahead_flips, most), most}) { // few flips suffice to reject
       const Index known = gains.rows();
       gains.conservativeResize(count, Eigen::NoChange);
       look_at(fit, footing, known, gains);
       judge(gains, level, looked);
-      if (looked.p_value <= far_from_rare) continue;
+      if (looked.p_value <= tuning::look_ahead_end_p_value) continue;
       looked.take = 0;
       break;
     }
@@ -496,12 +480,12 @@ private:
     const double own = m.ratios(fit, m.of_data(), {term}).front().value;
     std::vector<std::pair<double, std::size_t>> near;
     for (std::size_t i = 0; i < others.size(); ++i)
-      if (others[i] != term && ratios[i].value > near_share * own)
+      if (others[i] != term && ratios[i].value > tuning::near_rival_share_of_ratio * own)
         near.emplace_back(-ratios[i].value, others[i]);
     std::sort(near.begin(), near.end());
     std::vector<std::size_t> names;
     for (const auto& [ratio, other] : near)
-      if (names.size() < most_near) names.push_back(other);
+      if (names.size() < tuning::most_near_rivals) names.push_back(other);
     return names;
   }
 
@@ -578,7 +562,8 @@ private:
     std::vector<std::size_t> terms = from.terms;
     std::vector<TermSize> sizes = from.sizes;
     terms.push_back(term);
-    sizes.push_back({free_size, size.bent}); // with few tests an estimated size would shrink it
+    sizes.push_back({tuning::lead_coefficient_size,
+                     size.bent}); // with few tests an estimated size would shrink it
     const JointFit fit = model_->fit(terms, sizes, from.variance, model_->of_data(), 1);
     const JointTerm& own = model_->data().terms[term];
     VectorXd all = VectorXd::Zero(own.count);
@@ -601,8 +586,9 @@ private:
     for (std::size_t i = 0; i < terms.size(); ++i) {
       const double threshold = threshold_of_term(fit, footing, terms[i], rarity);
       // The noise is estimated too, so the distribution is a noncentral t.
-      needed.push_back(threshold + found_with * std::sqrt(1 + threshold * threshold /
-                                                                  (2 * freedom_of(fit, terms[i]))));
+      needed.push_back(threshold +
+                       tuning::std_errors_for_80_percent *
+                           std::sqrt(1 + threshold * threshold / (2 * freedom_of(fit, terms[i]))));
       const auto& [alone, beside] = information[i];
       path_.left.seen.push_back(
           {terms[i], alone > 0 ? beside / alone : 0, needed[i] / std::sqrt(beside)});

@@ -38,6 +38,7 @@
 #include <vector>
 
 #include "trace/joint_model.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -54,7 +55,7 @@ struct JointOffer {
 
 struct JointSettings {
   double alpha = 0.02; // family-wise, of all rounds
-  std::size_t flips = 999, look_ahead = 199;
+  std::size_t flips = tuning::fewest_flips, look_ahead = tuning::look_ahead_flips;
   std::uint64_t seed = 1;
   std::vector<std::size_t> units; // per test: tests of one unit change sign together
   bool take = true;               // false: nothing enters; only `left` is filled

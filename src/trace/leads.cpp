@@ -10,6 +10,7 @@
 #include "trace/delivery.h"
 #include "trace/design.h"
 #include "trace/followers.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -19,7 +20,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr std::size_t most_leads = 6, most_left = 3;
-constexpr double by_chance = 0.2; // p-value above which chance is the simplest explanation
 constexpr const char* speed = "v_rel_mm_s";
 
 bool is_listed(const Trace& trace, const Lead& lead) {
@@ -36,7 +36,7 @@ bool too_few_tests(const Trace& trace) {
 
 // Whether the lead is the strongest one, and chance is not its simplest explanation.
 bool deserves_design(const Trace& trace, const Lead& lead) {
-  return trace.leads.empty() && (lead.p_value < by_chance || too_few_tests(trace));
+  return trace.leads.empty() && (lead.p_value < tuning::chance_p_value || too_few_tests(trace));
 }
 
 void add_lead(Trace& trace, Lead lead, std::size_t most = most_leads) {

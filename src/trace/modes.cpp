@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "trace/tuning.h"
+
 namespace frictab::trace {
 
 namespace {
@@ -12,10 +14,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr std::size_t most_pieces = 12, least_pieces = 2;
-// of a campaign; with more tests, fewer per test are enough
-constexpr std::size_t most_modes = 6000;
 
 // First row: the mean; other rows: orthonormal cosines.
 MatrixXd waves_of(std::size_t pieces) {
@@ -38,7 +36,8 @@ std::size_t Modes::class_of(std::size_t mode) {
 Modes::Modes(const stats::Blocks& blocks)
     : first_block_(blocks.first), of_test_(blocks.experiments()) {
   const std::size_t most =
-      std::clamp(most_modes / std::max<std::size_t>(tests(), 1), least_pieces, most_pieces);
+      std::clamp(tuning::most_pieces_of_campaign / std::max<std::size_t>(tests(), 1),
+                 tuning::fewest_pieces_of_test, tuning::most_pieces_of_test);
   for (std::size_t pieces = 0; pieces <= most; ++pieces)
     waves_.push_back(waves_of(pieces));
   for (std::size_t c = 0; c < mode_classes; ++c) {

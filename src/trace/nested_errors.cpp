@@ -11,6 +11,7 @@
 #include "trace/choose_effect.h"
 #include "trace/joint_choice.h"
 #include "trace/rows_alike.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -20,9 +21,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double farthest = 1e3;    // largest ratio of a law and a measurement
-constexpr double score_freedom = 5; // of Student's t
-
 VectorXd relative_errors(const data::Dataset& data, const std::vector<double>& predicted) {
   const auto measured = data.values("tau_R_MPa");
   VectorXd errors(static_cast<Index>(data.experiments.size()));
@@ -30,7 +28,9 @@ VectorXd relative_errors(const data::Dataset& data, const std::vector<double>& p
     double sum = 0;
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
       const double ratio = measured[i] / std::max(predicted[i], 1e-300);
-      sum += data.row_weight(i) * std::abs(std::log(std::clamp(ratio, 1 / farthest, farthest)));
+      sum +=
+          data.row_weight(i) * std::abs(std::log(std::clamp(ratio, 1 / tuning::largest_error_ratio,
+                                                            tuning::largest_error_ratio)));
     }
     errors(static_cast<Index>(e)) = sum / static_cast<double>(data.source_rows(e));
   }
@@ -44,7 +44,8 @@ VectorXd scores(const data::Dataset& data, const std::vector<double>& predicted,
   stats::Blocks blocks = stats::make_blocks(data, fitted.most);
   blocks.usual_rows = fitted.usual_rows; // the noise model's white part refers to it
   const VectorXd measured = blocks.mean(data.values("tau_R_MPa"));
-  const VectorXd law = blocks.mean(predicted).cwiseMax(measured.cwiseAbs() / farthest);
+  const VectorXd law =
+      blocks.mean(predicted).cwiseMax(measured.cwiseAbs() / tuning::largest_error_ratio);
   MatrixXd residual = measured - law;
   const stats::Whitener whitener(noise, law, blocks);
   whitener.apply(residual);
@@ -53,8 +54,9 @@ VectorXd scores(const data::Dataset& data, const std::vector<double>& predicted,
     const auto size = static_cast<Index>(blocks.first[e + 1] - blocks.first[e]);
     const double squares =
         residual.col(0).segment(static_cast<Index>(blocks.first[e]), size).squaredNorm();
-    score(static_cast<Index>(e)) -=
-        0.5 * (score_freedom + static_cast<double>(size)) * std::log1p(squares / score_freedom);
+    score(static_cast<Index>(e)) -= 0.5 *
+                                    (tuning::law_score_t_freedom + static_cast<double>(size)) *
+                                    std::log1p(squares / tuning::law_score_t_freedom);
   }
   return score;
 }
@@ -201,12 +203,10 @@ NestedErrors::Gain NestedErrors::gain(std::size_t weights) const {
 }
 
 std::size_t NestedErrors::better_weights(bool with_effects) const {
-  // of the error; plain weights are used if theirs is below this share
-  constexpr double clearly = 0.98;
   const auto error = [&](std::size_t w) {
     return (with_effects ? weighted[w].all : weighted[w].none).relative.mean();
   };
-  return error(1) < clearly * error(0) ? 1 : 0;
+  return error(1) < tuning::plain_weights_share_of_error * error(0) ? 1 : 0;
 }
 
 NestedJudge::NestedJudge(const Search& search)

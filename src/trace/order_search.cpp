@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 
 #include "stats/projection.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -19,11 +20,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t order_permutations = 999;
-constexpr int nuisance_functions = 12;
-// number that may still resemble each other after removal of the slow functions
-constexpr std::size_t neighbours = 3;
-constexpr double share_of_alpha = 0.5; // level of the test along the order, in units of trace.alpha
 // Parts of names, and whole words between underscores.
 constexpr const char* of_environment[] = {"humid",    "ambient",  "room",   "weather", "climate",
                                           "dewpoint", "umgebung", "feucht", "klima",   "wetter"};
@@ -164,8 +160,8 @@ void remove_order_structure(Search& search, double p_value, std::size_t site) {
   search.order.reference = reference;
   const auto rank = ranks(search.candidates.order);
   for (std::size_t e = 0; e < rank.size(); ++e)
-    search.units[e] = rank[e] / neighbours;
-  MatrixXd functions = slow_directions(search, nuisance_functions, 5, site);
+    search.units[e] = rank[e] / tuning::neighbours_flipped_together;
+  MatrixXd functions = slow_directions(search, tuning::most_order_functions, 5, site);
   measure_structure(search, functions);
   search.campaign().nuisance = std::move(functions);
   search.fit_again();
@@ -181,7 +177,7 @@ OrderFound test_along_order(const Search& search) {
     tried.push_back(site);
   }
   const OrderTest test =
-      test_order(scores, search.candidates.order, order_permutations, search.input.seed);
+      test_order(scores, search.candidates.order, tuning::order_permutations, search.input.seed);
   return {test.p_value, tried[static_cast<std::size_t>(test.column)]};
 }
 
@@ -190,7 +186,7 @@ bool find_order(Search& search) {
     return false;
   const OrderFound found = test_along_order(search);
   search.order.p_value = found.p_value;
-  if (found.p_value > share_of_alpha * search.input.options.alpha) return false;
+  if (found.p_value > tuning::order_share_of_alpha * search.input.options.alpha) return false;
   remove_order_structure(search, found.p_value, found.site);
   return true;
 }
@@ -202,7 +198,7 @@ void reconsider_order(Search& search) {
   Rival with_order = search.last();
   search.fit_again();
   const double p = test_along_order(search).p_value;
-  if (p > share_of_alpha * search.input.options.alpha) {
+  if (p > tuning::order_share_of_alpha * search.input.options.alpha) {
     search.order = {};
     search.order.column = search.candidates.order_column;
     search.order.p_value = p;

@@ -9,6 +9,7 @@
 
 #include "core/random.h"
 #include "stats/projection.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -19,9 +20,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::uint64_t order_stream = 72;
-constexpr int slow_waves = 4;
-// maximum distance of tests that may be alike, as in a batch; nearer ones weigh more
-constexpr Index neighbourhood = 6;
 
 double wave(std::size_t rank, int number, std::size_t count) {
   return std::cos(std::numbers::pi * number * (static_cast<double>(rank) + 0.5) /
@@ -33,8 +31,8 @@ std::array<double, 3> structure(const VectorXd& z, const MatrixXd& waves) {
   std::array<double, 3> s{};
   double sum = 0, most = 0;
   for (Index i = 0; i < z.size(); ++i) {
-    for (Index lag = 1; lag <= std::min(i, neighbourhood); ++lag)
-      s[0] += z(i) * z(i - lag) * static_cast<double>(neighbourhood + 1 - lag);
+    for (Index lag = 1; lag <= std::min(i, tuning::largest_batch_distance); ++lag)
+      s[0] += z(i) * z(i - lag) * static_cast<double>(tuning::largest_batch_distance + 1 - lag);
     sum += z(i);
     most = std::max(most, std::abs(sum));
   }
@@ -94,9 +92,9 @@ OrderTest test_order(const MatrixXd& scores, std::span<const double> order,
   const std::size_t count = rank.size();
   if (count < 10) return {}; // too few to show any structure
   MatrixXd z = scores.rowwise() - scores.colwise().mean();
-  MatrixXd waves(z.rows(), slow_waves);
+  MatrixXd waves(z.rows(), tuning::order_test_waves);
   for (Index i = 0; i < z.rows(); ++i)
-    for (int w = 0; w < slow_waves; ++w)
+    for (int w = 0; w < tuning::order_test_waves; ++w)
       waves(i, w) = wave(static_cast<std::size_t>(i), w + 1, count);
   std::vector<std::size_t> at(count); // experiment at each rank
   for (std::size_t e = 0; e < count; ++e)

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "trace/tuning.h"
+
 namespace frictab::trace {
 
 namespace {
@@ -60,10 +62,9 @@ FactorRange factor_range(const effects::PlacedEffect& effect, const CandidateCol
   const auto corners = corners_of(effect);
   const std::size_t running = running_input(effect);
   const effects::EffectInput& x = effect.inputs[running];
-  constexpr int steps = 32;
   std::vector<double> positions;
-  for (int i = 0; i <= steps; ++i)
-    positions.push_back(x.low + (x.high - x.low) * i / steps);
+  for (int i = 0; i <= tuning::plausibility_intervals; ++i)
+    positions.push_back(x.low + (x.high - x.low) * i / tuning::plausibility_intervals);
   const auto& tested_at = x.column == column.name ? column.tested : positions;
   const auto at_corners = [&](double position, auto take) {
     for (std::vector<double> row : corners) {

@@ -12,6 +12,7 @@
 #include "stats/resampling.h"
 #include "trace/plausibility.h"
 #include "trace/shapes.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -22,9 +23,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double per_parameter = 2.5;       // cost of a parameter, in log likelihood
-constexpr double cost_per_complexity = 1.5; // cost of a step away from a recorded column
 
 void take_parameters(Rival& rival, std::size_t own) {
   std::size_t next = own;
@@ -135,9 +133,9 @@ void evaluate(Rival& rival, const Campaign& campaign) {
   rival.log_likelihood = by_experiment(residual.col(0), whitener, campaign.blocks.first);
   rival.total = rival.log_likelihood.sum();
   rival.freedom = freedom_of(rival, whitener);
-  double cost = per_parameter * rival.freedom;
+  double cost = tuning::parameter_cost * rival.freedom;
   for (const Cause& cause : rival.causes)
-    cost += cost_per_complexity * complexity(cause, campaign.candidates);
+    cost += tuning::rival_step_cost * complexity(cause, campaign.candidates);
   for (std::size_t i = 0; i < rival.effects.size(); ++i)
     cost +=
         implausibility(rival.effects[i], campaign.candidates.columns[rival.causes[i].columns[0]]);
@@ -180,12 +178,12 @@ std::vector<double> own_parameters(const Campaign& campaign, const Rival& from) 
 // Stopping rule of a fit: loose where a search is repeated for every fold, tight where the result
 // is delivered.
 FitEnd end_of_fit(const Campaign& campaign, NoiseSearch search) {
-  constexpr int few_steps = 12; // from the end of a fit to selected tests
   const bool chooses = campaign.quick || search == NoiseSearch::kept;
   // With many tests the cost is so large that a millionth of it is far less than a unit of log
   // likelihood, by which rivals are chosen.
   if (campaign.selection)
-    return chooses ? FitEnd{campaign.quick ? 1e-5 : 1e-6, few_steps} : FitEnd{1e-8};
+    return chooses ? FitEnd{campaign.quick ? 1e-5 : 1e-6, tuning::most_steps_from_selected}
+                   : FitEnd{1e-8};
   if (campaign.quick || campaign.of_selected) return {1e-5};
   return {search == NoiseSearch::kept ? 1e-8 : 1e-11};
 }
@@ -359,9 +357,8 @@ Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t i
 }
 
 std::vector<bool> indistinguishable_rivals(const std::vector<Rival>& rivals, std::uint64_t seed) {
-  constexpr std::size_t resamples = 500;
   const Index experiments = rivals.front().log_likelihood.size();
-  MatrixXd times(static_cast<Index>(resamples), experiments);
+  MatrixXd times(static_cast<Index>(tuning::rival_resamples), experiments);
   std::vector<double> counts(static_cast<std::size_t>(experiments));
   for (Index b = 0; b < times.rows(); ++b) {
     stats::resample(seed, static_cast<std::size_t>(b), counts);
@@ -373,7 +370,7 @@ std::vector<bool> indistinguishable_rivals(const std::vector<Rival>& rivals, std
     const VectorXd drawn = times * difference;
     const auto better = static_cast<double>((drawn.array() > 0).count());
     const double lead = 0.5 * (rival.criterion - rivals.front().criterion);
-    same.push_back(better < 0.95 * static_cast<double>(resamples) || lead < 2);
+    same.push_back(better < 0.95 * static_cast<double>(tuning::rival_resamples) || lead < 2);
   }
   return same;
 }

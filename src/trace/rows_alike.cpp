@@ -6,6 +6,7 @@
 
 #include "effects/extended_law.h"
 #include "trace/factor_band.h"
+#include "trace/tuning.h"
 #include "trace/uncertainty.h"
 
 namespace frictab::trace {
@@ -15,9 +16,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// standard errors below which the 95 % interval includes "no effect"
-constexpr double in_doubt = 1.96;
 
 double largest_ratio(const VectorXd& sizes, const VectorXd& errors) {
   double most = 0;
@@ -72,7 +70,7 @@ FittedAlike fit_rows_alike(const Campaign& campaign, const Rival& rival) {
   std::iota(found.kept.begin(), found.kept.end(), 0);
   while (!found.kept.empty()) {
     const LeastCertain least = least_certain(campaign, found.rival);
-    if (least.certainty > in_doubt) break;
+    if (least.certainty > tuning::doubtful_std_errors) break;
     found.rival = alike(less_effect(found.rival, least.effect));
     found.kept.erase(found.kept.begin() + static_cast<long>(least.effect));
   }

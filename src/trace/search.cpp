@@ -10,6 +10,7 @@
 #include "stats/noise_fit.h"
 #include "stats/projection.h"
 #include "trace/directions.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -21,12 +22,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// Shares of the information about a law's own parameters that tie them when effects are in
-// (tie_parameters): a tenth is negligible where the tests separate a parameter from an effect, and
-// decides where only other states would.
-constexpr double tied = 0.1, tied_by_one_factor = 1;
-constexpr double negligible_share = 1e-4; // of tau_R: largest residual of a law that is exact
 
 bool is_trained(const models::Law& law) {
   return models::is_trained(law.calibrated);
@@ -131,7 +126,8 @@ void Search::fit_base(const stats::NoiseModel* earlier) {
   const stats::NoiseModel noise = earlier ? *earlier : fit_campaign_noise(*campaign_, data);
   base = fit_rival(*campaign_, {}, {}, model.parameters, noise, NoiseSearch::again);
   one_factor = one_factor_at_a_time(state_means(candidates, blocks));
-  tie_parameters(*campaign_, base, one_factor ? tied_by_one_factor : tied);
+  tie_parameters(*campaign_, base,
+                 one_factor ? tuning::tied_share_by_one_factor : tuning::tied_share_of_information);
   move_to(base);
 }
 
@@ -177,7 +173,7 @@ bool Search::enough_units() const {
 bool Search::negligible() const {
   const VectorXd left = residual();
   return left.norm() / std::sqrt(static_cast<double>(left.size())) <
-         negligible_share * tau_scale_MPa;
+         tuning::exact_law_share_of_tau * tau_scale_MPa;
 }
 
 } // namespace frictab::trace

@@ -58,10 +58,6 @@ struct CauseFold {
   std::vector<effects::ActsOn> acts_on; // of each
 };
 
-// With fewer validation tests than this, they are searched together with the training tests: they
-// are too few for a veto, and their information is needed. Cross-validation judges instead.
-inline constexpr std::size_t enough_validation = 20;
-
 class Search {
 public:
   // Prepares candidates, their shapes and the law without effects. Columns that come from the model

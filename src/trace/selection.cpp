@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/random.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -16,8 +17,9 @@ constexpr std::uint64_t selection_stream = 91;
 std::vector<std::size_t> draw(std::size_t tests, std::uint64_t seed) {
   Random random(seed, selection_stream);
   std::vector<std::size_t> drawn;
-  for (std::size_t i = 0; i < selected_tests; ++i) {
-    const std::size_t begin = i * tests / selected_tests, end = (i + 1) * tests / selected_tests;
+  for (std::size_t i = 0; i < tuning::selected_tests; ++i) {
+    const std::size_t begin = i * tests / tuning::selected_tests,
+                      end = (i + 1) * tests / tuning::selected_tests;
     const auto step = static_cast<std::size_t>(random.uniform() * static_cast<double>(end - begin));
     drawn.push_back(std::min(begin + step, end - 1));
   }
@@ -47,7 +49,7 @@ stats::Blocks blocks_of(const stats::Blocks& all, const std::vector<std::size_t>
 
 std::shared_ptr<const Selection> select_tests(const stats::Blocks& blocks,
                                               const Candidates& candidates, std::uint64_t seed) {
-  if (blocks.experiments() <= selected_tests) return nullptr;
+  if (blocks.experiments() <= tuning::selected_tests) return nullptr;
   const std::vector<std::size_t> tests = draw(blocks.experiments(), seed);
   auto some = std::make_shared<Selection>();
   some->blocks = blocks_of(blocks, tests);

@@ -16,10 +16,6 @@ struct Selection {
   double share = 1;               // of all blocks
 };
 
-// As many as in the largest campaign that is not reduced. (200 tests determine a standard deviation
-// between tests to 1/sqrt(2 x 200) = 5 %, which changes no weight that matters.)
-inline constexpr std::size_t selected_tests = stats::uncut_experiments;
-
 // Selects evenly over the tests in their sorted order: from each of 200 runs of neighbours one,
 // drawn by `seed`. (Equal steps could hit the same level of a factorial design every time.) Returns
 // nullptr if the campaign has no more tests than that.

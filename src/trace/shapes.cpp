@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "data/quantity.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -151,10 +152,11 @@ struct Centred {
         rest(values.tail(values.size() - quarter).norm()) {}
 
   bool resembles(const Centred& other) const {
-    constexpr float alike = 0.999f, rounding = 1e-4f;
     const float begun = values.head(quarter).dot(other.values.head(quarter));
-    if (std::abs(begun) + rest * other.rest < alike - rounding) return false;
-    return std::abs(values.dot(other.values)) > alike;
+    if (std::abs(begun) + rest * other.rest <
+        tuning::same_shape_cosine - tuning::single_precision_slack)
+      return false;
+    return std::abs(values.dot(other.values)) > tuning::same_shape_cosine;
   }
 };
 

@@ -9,6 +9,7 @@
 #include <Eigen/QR>
 
 #include "effects/natural_spline.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -17,15 +18,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// ratio of largest to least value, from which on a column is taken in ln x
-constexpr double log_span = 4, log_span_from_zero = 8;
-// quantile of the positive values, added to a column that starts at 0
-constexpr double least_part = 0.05;
-constexpr std::size_t few_values = 6;
-constexpr std::size_t most_knots = 9;
-constexpr double least_gap = 0.01; // fraction of the range, between knots
-constexpr Index bends_of_pair = 3;
 
 double quantile(const std::vector<double>& sorted, double share) {
   const double at = share * static_cast<double>(sorted.size() - 1);
@@ -55,11 +47,11 @@ VectorXd coordinate(const VectorXd& x) {
   const std::vector<double> values = sorted_values(x);
   const double low = values.front(), high = values.back();
   VectorXd z = x;
-  if (low > 0 && high > log_span * low) {
+  if (low > 0 && high > tuning::ratio_for_log * low) {
     z = x.array().log();
-  } else if (low == 0 && values.size() > few_values) {
-    const double shift = quantile({values.begin() + 1, values.end()}, least_part);
-    if (high > log_span_from_zero * shift) z = (x.array() + shift).log();
+  } else if (low == 0 && values.size() > tuning::values_for_log_from_zero) {
+    const double shift = quantile({values.begin() + 1, values.end()}, tuning::log_shift_quantile);
+    if (high > tuning::ratio_for_log_from_zero * shift) z = (x.array() + shift).log();
   }
   standardise(z);
   return z;
@@ -69,13 +61,15 @@ VectorXd coordinate(const VectorXd& x) {
 // are.
 std::vector<double> knots_of(const VectorXd& z) {
   const std::vector<double> values = sorted_values(z);
-  if (values.size() <= most_knots) return values;
+  if (values.size() <= tuning::most_spline_knots) return values;
   std::vector<double> knots;
   const double range = values.back() - values.front();
-  for (std::size_t k = 0; k < most_knots; ++k) {
-    const double share = static_cast<double>(k) / static_cast<double>(most_knots - 1);
+  for (std::size_t k = 0; k < tuning::most_spline_knots; ++k) {
+    const double share =
+        static_cast<double>(k) / static_cast<double>(tuning::most_spline_knots - 1);
     const double knot = 0.5 * (quantile(values, share) + values.front() + share * range);
-    if (knots.empty() || knot - knots.back() > least_gap * range) knots.push_back(knot);
+    if (knots.empty() || knot - knots.back() > tuning::knot_gap_share_of_range * range)
+      knots.push_back(knot);
   }
   return knots;
 }
@@ -179,7 +173,8 @@ TermBasis TermMaker::of(const Cause& cause) const {
   if (!cause.is_joint()) return a;
   const TermBasis& b = of_column_[cause.columns[1]];
   const auto bends = [](const TermBasis& x) {
-    return x.columns.middleCols(x.straight, std::min(bends_of_pair, x.columns.cols() - x.straight));
+    return x.columns.middleCols(
+        x.straight, std::min(tuning::bent_columns_of_pair, x.columns.cols() - x.straight));
   };
   TermBasis both;
   both.columns.resize(a.columns.rows(), 0);

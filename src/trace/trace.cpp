@@ -23,6 +23,7 @@
 #include "trace/order_search.h"
 #include "trace/refit_traced.h"
 #include "trace/scatter.h"
+#include "trace/tuning.h"
 #include "trace/uncertainty.h"
 #include "trace/verdict.h"
 
@@ -275,7 +276,7 @@ Trace trace(const TraceInput& input) {
     return Reporter(sorted, *search).run();
   };
   const std::size_t few = input.validation.experiments.size();
-  if (few == 0 || few >= enough_validation || of_another_world(input))
+  if (few == 0 || few >= tuning::fewest_judging_validation_tests || of_another_world(input))
     return run(in_order_of_names(input.training), {});
   const data::Dataset both = data::together(input.training, input.validation);
   const data::Dataset sorted = in_order_of_names(both);

@@ -36,6 +36,7 @@
 //     aliases          columns that the design confounds with a state of the law
 //     verdict          the verdict and its sentences
 //   trace_file, trace_text   results as JSON and in words
+//   tuning             the constants of all these steps, with the reasons for their values
 #pragma once
 
 #include <optional>

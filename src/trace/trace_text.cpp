@@ -11,6 +11,7 @@
 #include "data/derived.h"
 #include "effects/change_text.h"
 #include "trace/candidates.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -353,21 +354,22 @@ std::string trace_in_short(const Trace& t) {
 
 std::string detectable_text(const Trace& t) {
   if (t.detectable.empty()) return "";
-  constexpr double wanted = 0.02; // of tau_R
   const auto experiments = static_cast<double>(t.noise_floor.n_experiments);
   std::string out = fmt::format(
       "\nSmallest effect on mu that this campaign would have shown (80 % of the time, straight\n"
       "line over the column's range; root mean square of tau_R), and how many experiments like\n"
       "these it takes to see {:g} %:\n",
-      100 * wanted);
+      100 * tuning::wanted_share_of_tau);
   std::vector<std::string> names;
   for (const Detectable& d : t.detectable)
     names.push_back(d.column);
   const std::size_t width = column_width(names, 20);
   for (const Detectable& d : t.detectable)
     out += d.identifiable
-               ? fmt::format("  {:<{}}{:#8.3g} MPa{:#8.3g} %{:8.0f}\n", d.column, width, d.size_MPa,
-                             100 * d.share, std::ceil(experiments * std::pow(d.share / wanted, 2)))
+               ? fmt::format(
+                     "  {:<{}}{:#8.3g} MPa{:#8.3g} %{:8.0f}\n", d.column, width, d.size_MPa,
+                     100 * d.share,
+                     std::ceil(experiments * std::pow(d.share / tuning::wanted_share_of_tau, 2)))
                : fmt::format("  {:<{}}  cannot be seen: the law's own parameters imitate it\n",
                              d.column, width);
   out +=

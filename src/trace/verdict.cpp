@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -24,8 +25,8 @@ bool scatters_more(const Trace& t) {
 // Few repeats determine the repeatability poorly, so that the scatter would hardly ever exceed it
 // significantly. So it must also be of about the same size.
 bool agrees_with_repeats(const Trace& t) {
-  constexpr double about = 1.2;
-  return t.repeatability && !scatters_more(t) && t.scatter_between <= about * *t.repeatability;
+  return t.repeatability && !scatters_more(t) &&
+         t.scatter_between <= tuning::repeatability_slack * *t.repeatability;
 }
 
 std::string scatter_sentence(const Trace& t) {

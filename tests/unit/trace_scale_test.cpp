@@ -17,6 +17,7 @@
 #include "trace/selection.h"
 #include "trace/trace.h"
 #include "trace/trace_file.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace_scale_test {
 
@@ -50,11 +51,11 @@ TEST(TraceScale, OneOfEachRunOfNeighboursIsSelected) {
       number(static_cast<Index>(b)) = static_cast<double>(e);
   candidates.by_symbol["number"] = number;
   const auto some = trace::select_tests(all, candidates, 1);
-  ASSERT_EQ(some->blocks.experiments(), trace::selected_tests);
+  ASSERT_EQ(some->blocks.experiments(), trace::tuning::selected_tests);
   ASSERT_EQ(some->blocks.count(), some->rows.size());
   const VectorXd& of = some->candidates.by_symbol.at("number");
   std::set<int> remainders;
-  for (std::size_t i = 0; i < trace::selected_tests; ++i) {
+  for (std::size_t i = 0; i < trace::tuning::selected_tests; ++i) {
     const std::size_t begin = some->blocks.first[i], end = some->blocks.first[i + 1];
     const auto test = static_cast<std::size_t>(of(static_cast<Index>(begin)));
     EXPECT_EQ(test / 5, i);
@@ -132,7 +133,7 @@ TEST(SlowTraceScale, NoiseOfSelectedTestsAgreesWithThatOfAll) {
   const MatrixXd none(count, 0), fitted = VectorXd::Constant(count, 100);
   const VectorXd tau = fitted.col(0);
   constexpr int campaigns = 4;
-  const double error = 1 / std::sqrt(2.0 * static_cast<double>(trace::selected_tests));
+  const double error = 1 / std::sqrt(2.0 * static_cast<double>(trace::tuning::selected_tests));
   double squares = 0;
   for (std::uint64_t seed = 1; seed <= campaigns; ++seed) {
     const VectorXd residual = foreign_residual(all, seed).col(0);
