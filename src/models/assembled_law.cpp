@@ -1,4 +1,4 @@
-// Writes the formulas of a model out.
+// Writes out the formulas of a calibrated model.
 #include "models/assembled_law.h"
 
 namespace frictab::models {

@@ -9,27 +9,27 @@
 
 namespace frictab::models {
 
-// Made once, where a model meets a table or data (a stage of the pipeline, a command), and handed
-// down: what samples, bounds, compares and prints a law takes its formulas from here and asks the
-// law for none. Expressions share their parts, so a copy is cheap.
+// Built once, where a model is combined with a table or data (a stage of the pipeline, a command),
+// and passed on: code that samples, bounds, compares or prints a law takes its formulas from here
+// instead of building them again. Expressions share their parts, so a copy is cheap.
 struct AssembledLaw {
   explicit AssembledLaw(Model model);
 
   Model model;
-  std::vector<std::string> inputs;     // states that tau_R depends on, as inputs(law) lists them
+  std::vector<std::string> inputs;     // states that tau_R depends on, as in inputs(law)
   std::vector<std::string> parameters; // their names, in the order of model.parameters
 
-  // Of states and parameters by name, each part stored once, as in a table that was read from its
-  // file: sources do not depend on where their table came from.
-  expr::Expr piece; // the smooth part that a table holds
+  // Formulas of states and parameters by name. Equal parts are stored once, as in a table read from
+  // a file, so that generated sources do not depend on where their table came from.
+  expr::Expr piece; // the smooth part, which a table samples
   expr::Expr
       combine; // tau_R from "value", states and parameters, with the model's gain and shear limit
   expr::Expr tau_R; // MPa: `combine` of `piece`
 
-  // The states that the piece depends on: a table of this law has an axis for each.
+  // States that the piece depends on: a table of this law has an axis for each.
   std::set<std::string> piece_inputs;
 
-  // An expression of this law with the numbers of its parameters in their place.
+  // Returns an expression of this law with its parameters replaced by their calibrated values.
   expr::Expr in_numbers(const expr::Expr& expression) const;
 };
 

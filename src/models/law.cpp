@@ -1,4 +1,4 @@
-// Formulas every law shares: k, the shear limit, the composition of piece and combination.
+// Formulas that all laws share: k, the shear limit, the composition of piece and combination.
 #include "models/law.h"
 
 #include <algorithm>
@@ -73,7 +73,7 @@ namespace {
 
 constexpr std::string_view traced_suffix = "_traced", quantile_mark = "_q";
 
-// Where the quantile begins; npos: there is none.
+// Returns the position of the quantile's mark; npos if the name has none.
 std::size_t quantile_in(std::string_view name) {
   const std::size_t at = name.rfind(quantile_mark), digits = at + quantile_mark.size();
   const bool found = at != name.npos && digits < name.size() &&
@@ -89,7 +89,7 @@ const std::string& Model::base() const {
 
 std::string Model::name() const {
   if (quantile == 0.5) return law->name;
-  const std::string digits = fmt::format("{}", quantile).substr(2); // behind "0."
+  const std::string digits = fmt::format("{}", quantile).substr(2); // digits after "0."
   return law->name + std::string(quantile_mark) + digits;
 }
 

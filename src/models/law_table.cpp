@@ -1,4 +1,4 @@
-// Tables as formulas.
+// Builds formulas from tables.
 #include "models/law_table.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 using expr::Expr;
 
-// Halves of halves: what is added in a row would be as deep as it is long.
+// Adds the terms pairwise, because the depth of a plain sum grows with its length.
 Expr balanced_sum(std::span<const Expr> terms) {
   if (terms.size() == 1) return terms.front();
   const std::size_t half = terms.size() / 2;
@@ -35,7 +35,7 @@ std::vector<Expr> ramps(const LawTableAxis& axis) {
   return ramps;
 }
 
-// The sum over the ramps of `axis` and those behind it; `values` belong to them, row-major.
+// Interpolates `values` (row-major) by the ramps of each axis: one sum per axis, nested.
 Expr interpolated(std::span<const std::vector<Expr>> ramps, std::span<const double> values) {
   if (ramps.empty()) return values.front();
   const std::size_t stride = values.size() / (ramps.front().size() + 1);

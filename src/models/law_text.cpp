@@ -1,4 +1,4 @@
-// From a user's text to a Law: names, formulas, and the two parts they fall into.
+// Builds a Law from a text: checks names, parses formulas and splits them into two parts.
 #include "models/law_text.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using expr::Op;
 namespace {
 
 constexpr const char* shear_yield_symbol = "k_MPa";
-constexpr const char* flow_stress_symbol = "sigma_f_over_k"; // of the registry's texts
+constexpr const char* flow_stress_symbol = "sigma_f_over_k"; // only in the registry's texts
 constexpr std::size_t longest_name = 40;
 
 // ---- the two parts ----
@@ -36,8 +36,8 @@ bool is_kink(Op op) {
   return op == Op::minimum || op == Op::maximum || op == Op::where_le;
 }
 
-// max(v_rel_mm_s, 10): a kink at one place of an axis, where the table gets a node; the other ends
-// of where() need not meet.
+// Returns axis and place of a kink such as max(v_rel_mm_s, 10), where the table gets a node. A
+// where() does not qualify, because its branches may differ there.
 std::optional<std::pair<std::string, double>> place_on_axis(const Expr& e) {
   if (e.op() != Op::minimum && e.op() != Op::maximum) return std::nullopt;
   for (const int state : {0, 1}) {
@@ -48,7 +48,7 @@ std::optional<std::pair<std::string, double>> place_on_axis(const Expr& e) {
   return std::nullopt;
 }
 
-// Factors of a product, those that it is divided by left aside.
+// Adds the factors of a product; divisors are skipped.
 void add_factors(const Expr& e, std::vector<Expr>& factors) {
   if (e.op() == Op::multiply) {
     for (const Expr& operand : e.operands())
@@ -70,7 +70,7 @@ bool has_pressure_factor(const Expr& e) {
   return std::any_of(factors.begin(), factors.end(), is_pressure);
 }
 
-// sigma_n_MPa times something: that something.
+// Removes the factor sigma_n_MPa from a product.
 Expr without_pressure(const Expr& e) {
   if (is_pressure(e)) return 1.0;
   const Expr &a = e.operands()[0], &b = e.operands()[1];
@@ -78,12 +78,12 @@ Expr without_pressure(const Expr& e) {
   return has_pressure_factor(a) ? without_pressure(a) * b : a * without_pressure(b);
 }
 
-// What may become the piece: a smooth part of the formula, as a stress or as a coefficient.
+// A part of the formula that may become the piece, as a stress or as a coefficient.
 struct Candidate {
   Expr part;              // a node of the formula
-  bool is_mu;             // the coefficient: `part`, or what stands beside sigma_n_MPa in it
-  bool beside_pressure;   // `part` is sigma_n_MPa times the piece
-  std::size_t states = 0; // that the piece depends on
+  bool is_mu;             // the piece is a coefficient
+  bool beside_pressure;   // `part` is sigma_n_MPa times the piece; false: it is the piece
+  std::size_t states = 0; // number of states that the piece depends on
   std::size_t operations = 0;
 };
 
@@ -92,7 +92,7 @@ public:
   Splitter(const Expr& formula, const std::vector<Parameter>& parameters) {
     for (const Parameter& p : parameters)
       names_.insert(p.name);
-    // A kink between parameters alone is none along any state; one on an axis gets a node.
+    // A kink between parameters alone moves with no state; a kink on an axis gets a node.
     inside_out(formula, [this](const Expr& e) {
       bool kinked = false, moves = e.op() == Op::symbol && !names_.count(e.name());
       for (const Expr& operand : e.operands()) {
@@ -104,7 +104,7 @@ public:
     });
   }
 
-  // From the outside in.
+  // Collects candidates from the root of the formula inwards.
   void look(const Expr& e, bool is_mu) {
     const auto& a = e.operands();
     const bool kinked = kinked_.count(e.id()) > 0;
@@ -147,13 +147,13 @@ private:
   }
 
   std::set<std::string> names_;
-  std::unordered_set<const Expr::Node*> moves_, kinked_; // with a state below; with a kink below
+  std::unordered_set<const Expr::Node*> moves_, kinked_; // nodes that contain a state, or a kink
   std::vector<Candidate> found_;
 };
 
-// ---- what the table may make use of ----
+// ---- properties that a table uses ----
 
-// Above zero for every state, as far as the structure says so.
+// Whether the structure of the formula guarantees positive values for every state.
 bool is_positive(const Expr& formula, const std::vector<Parameter>& parameters) {
   std::unordered_set<const Expr::Node*> positive;
   const auto is = [&](const Expr& e) { return positive.count(e.id()) > 0; };
@@ -194,7 +194,7 @@ bool is_positive(const Expr& formula, const std::vector<Parameter>& parameters) 
   return is(formula);
 }
 
-// A product of powers and exponentials: straight in its logarithm.
+// Whether a factor is a power or an exponential, so that ln of the product is nearly linear.
 bool is_product(const Expr& e) {
   std::vector<Expr> factors;
   add_factors(e, factors);
@@ -216,7 +216,7 @@ std::map<std::string, std::vector<double>> kinks_of(const Expr& piece) {
 
 // ---- names ----
 
-// What a parameter or a named part cannot be called, and why.
+// Returns the kind of thing that already has this name; empty if the name is free.
 std::string taken_by(const std::string& name) {
   static const std::set<std::string> functions = {
       "exp",  "log", "ln",   "sqrt", "sin",     "tanh", "atan",    "arctan", "arccos",
@@ -259,7 +259,7 @@ public:
   }
 
 private:
-  // Other faults of a job shall not say that the law is not there.
+  // Returns a placeholder, so that other checks of the job do not report the law as missing.
   Law name_alone() const {
     Law law;
     law.name = text_.name;
@@ -267,7 +267,7 @@ private:
   }
 
   void check_names() {
-    std::set<std::string> seen; // in small letters: Fortran knows no other
+    std::set<std::string> seen; // in lower case, because Fortran ignores case
     const auto check = [&](const std::string& name, const Place& place, const char* noun) {
       if (!expr::is_name(name) || name.size() > longest_name)
         faults_.add(place, fmt::format("{} '{}' of law {} is not a name", noun, name, text_.name),
@@ -279,8 +279,8 @@ private:
             "choose another name");
       else if (!seen.insert(lower_case(name)).second)
         faults_.add(place,
-                    fmt::format("'{}' stands twice in law {}, apart from upper and lower case", name,
-                                text_.name),
+                    fmt::format("'{}' stands twice in law {}, apart from upper and lower case",
+                                name, text_.name),
                     "choose another name: Fortran does not distinguish them");
     };
     for (const ParameterText& p : text_.parameters)
@@ -321,7 +321,7 @@ private:
 
   void add_constant(const std::string& name, double value) {
     constants_.emplace(name, value);
-    if (value > 0) // a state over that distance has it in its name
+    if (value > 0) // the name of a slip state contains its distance
       for (const auto& [family, rule] : data::slip_states())
         named_.emplace(family + name, Expr::symbol(data::slip_state_name(rule, value)));
   }
@@ -337,7 +337,7 @@ private:
                                lower, upper, p.settled_by});
   }
 
-  // Text to formula; what is not understood is told with its place in the job.
+  // Parses a formula and reports faults with their places in the job.
   Expr parse(const FormulaText& formula) {
     try {
       return expr::parse_expr(formula.text);
@@ -348,7 +348,7 @@ private:
     return 0.0;
   }
 
-  // A formula stands in one line behind its opening quote, or its place is that of the quote.
+  // Returns the column within a formula of one line; for longer formulas the opening quote.
   static Place place_in(const FormulaText& formula, std::size_t column) {
     Place place = formula.place;
     if (place.column > 0 && formula.text.find('\n') == formula.text.npos) place.column += column;
@@ -361,7 +361,7 @@ private:
     for (const auto& [name, number] : constants_)
       named_.emplace(name, number);
     named_.emplace("pi", std::numbers::pi);
-    for (auto& [name, part] : named_) // of constants
+    for (auto& [name, part] : named_) // replaces constants
       part = substitute(part, named_);
   }
 
@@ -381,7 +381,7 @@ private:
         faults_.add(text_.place, fmt::format("law {} has a formula and a quantity", text_.name),
                     "the quantity is that of a `piece`");
       const Expr tau = shared(formula_of(text_.formula));
-      if (!has_bearable_size(tau)) return {}; // what follows walks products as they are written
+      if (!has_bearable_size(tau)) return {}; // the next steps visit shared parts repeatedly
       const Parts parts = parts_of(tau, law_.parameters);
       law_.quantity = parts.quantity;
       return parts.formula;
@@ -400,9 +400,10 @@ private:
     return formula;
   }
 
-  // Parts within parts: each may be short, and what they stand for too long to be written.
+  // Limits the size after all named parts are inserted: short nested parts can expand to a huge
+  // formula.
   bool has_bearable_size(const Expr& tau) {
-    std::unordered_map<const Expr::Node*, double> terms; // written out
+    std::unordered_map<const Expr::Node*, double> terms; // number of terms when written out
     inside_out(tau, [&](const Expr& e) {
       double sum = 1;
       for (const Expr& operand : e.operands())
@@ -420,14 +421,14 @@ private:
     return false;
   }
 
-  // Each name is a parameter, a state, a history or a column; each parameter is there for
-  // something.
+  // Checks that each name is a parameter, a state, a history or a column, and that each parameter
+  // is used.
   void check_symbols(const Expr& tau) {
     const auto used = expr::symbols(tau);
     std::set<std::string> parameters;
     for (const Parameter& p : law_.parameters)
       parameters.insert(p.name);
-    std::set<std::string> distances; // parameters that stand in the name of a state
+    std::set<std::string> distances; // parameters named within a state's name
     for (const std::string& name : used)
       if (const auto state = data::slip_state(name); state && !state->parameter.empty()) {
         distances.insert(state->parameter);
@@ -452,19 +453,19 @@ private:
         faults_.add(place_of(name), fmt::format("law {} uses `value` outside combine", text_.name),
                     "`value` is the piece, and stands in `combine`");
       else if (quantity && !quantity->state)
-        faults_.add(
-            place_of(name),
-            fmt::format("law {} depends on {}, which is not a state of a contact", text_.name, name),
-            "states: " + join(state_names(), ", "));
+        faults_.add(place_of(name),
+                    fmt::format("law {} depends on {}, which is not a state of a contact",
+                                text_.name, name),
+                    "states: " + join(state_names(), ", "));
       else if (!quantity)
-        law_.places.emplace(name, place_of(name)); // a column, which the data have or not
+        law_.places.emplace(name, place_of(name)); // a column; data checks report a missing one
     }
     if (used.size() == parameters.size())
       faults_.add(text_.place, fmt::format("law {} depends on no state", text_.name),
                   "states: " + join(state_names(), ", "));
   }
 
-  // D_c of aging_state_over_D_c.
+  // Checks the distance within the name of a slip state: D_c of aging_state_over_D_c.
   void check_distance(const std::string& state, const std::string& distance) {
     const auto found = std::find_if(law_.parameters.begin(), law_.parameters.end(),
                                     [&](const Parameter& p) { return p.name == distance; });
@@ -486,7 +487,7 @@ private:
     return names;
   }
 
-  // Where a name stands first, as far as the text of the formulas tells.
+  // Returns the first place of a name in the texts of the formulas, or else the place of the law.
   Place place_of(const std::string& name) const {
     std::vector<const FormulaText*> formulas;
     for (const auto& [part, formula] : text_.where)
@@ -523,7 +524,7 @@ private:
     if (!text_.order) check_numbers(); // every law of the registry is tested
   }
 
-  // As it was written.
+  // Returns the formula as its author wrote it.
   std::string people_text() const {
     std::string out =
         text_.piece.text.empty()
@@ -539,7 +540,7 @@ private:
     return out;
   }
 
-  // In the middle of Table 1 of the paper, with the parameters that the search starts from.
+  // Evaluates the law in the middle of the paper's Table 1 at the start values of its parameters.
   void check_numbers() {
     const Expr tau = tau_formula(law_, {});
     const std::vector<std::string> names = inputs_of(tau, law_);
@@ -547,7 +548,7 @@ private:
     std::string state;
     for (const std::string& name : names) {
       const data::Quantity* quantity = data::find_quantity(name);
-      if (!quantity) return; // of a column nobody knows the range
+      if (!quantity) return; // the range of a column is unknown
       const auto range = quantity->paper_range.value_or(std::pair(100.0, 1000.0));
       row.push_back(std::sqrt(range.first * range.second));
       state += fmt::format("{}{} = {:.4g}", state.empty() ? "" : ", ", name, row.back());

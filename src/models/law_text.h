@@ -1,13 +1,13 @@
-// A friction law as a text: of a job file's [models.my_law], a file of laws, or templates/laws,
-// which has those of the registry too. Whoever wrote it, it is calibrated, proven, tabulated,
-// exported.
+// A friction law as a text: in a job file under [models.my_law], in a file of laws, or in
+// templates/laws, which includes the laws of the registry. All of them are calibrated, proven,
+// tabulated and exported in the same way.
 //
-// From one formula of tau_R follow the two parts that a Law has (law.h). Kinks - min, max, where -
-// are looked for from the outside in, as long as what holds them is a stress or a coefficient:
-// sums, products, further kinks. What lies below is smooth. The smooth part that depends on most
-// states becomes the piece that a table holds; everything else stays in `combine`, which is
-// evaluated exactly. Where a factor sigma_n_MPa stands in front of the piece, the piece is a
-// coefficient.
+// One formula of tau_R is split into the two parts of a Law (law.h). Kinks - min, max, where - are
+// searched for from the root of the formula inwards, through sums, products and further kinks, as
+// long as the enclosing operation gives a stress or a coefficient. Candidates for the tabulated
+// piece are the parts at which this search ends. A coefficient is preferred to a stress, then the
+// part that depends on most states, then the one with most operations. Everything else stays in
+// `combine`, which is evaluated exactly. A piece that has the factor sigma_n_MPa is a coefficient.
 #pragma once
 
 #include <cstdint>
@@ -25,15 +25,15 @@ struct ParameterText {
   std::string name;
   std::string unit = "1";
   std::string meaning;
-  std::optional<double> start;                    // absent: the middle of the range
+  std::optional<double> start;                    // absent: middle of the range
   std::optional<std::pair<double, double>> range; // of the search
-  std::optional<double> value;                    // a constant: neither start nor range
-  std::string settled_by;                         // as Parameter has it; registry alone
+  std::optional<double> value;                    // a constant without start and range
+  std::string settled_by;                         // as in Parameter; only in the registry
   Place place;
 };
 
 struct FormulaText {
-  std::string text; // empty: not given
+  std::string text; // empty if absent
   Place place;      // of its opening quote
 };
 
@@ -43,36 +43,36 @@ struct LawText {
   FormulaText formula;        // of tau_R in MPa; or piece, with or without combine
   FormulaText piece, combine; // combine absent: value*sigma_n_MPa
   std::string quantity;       // of the piece: "mu" or "tau_R"; empty: by `combine`
-  std::vector<std::pair<std::string, FormulaText>> where; // named parts, each of those before it
+  std::vector<std::pair<std::string, FormulaText>> where; // named parts; each may use earlier ones
   std::vector<ParameterText> parameters;
-  std::string table;         // instead of all formulas: the file of a table (models/law_table.h)
-  std::string interpolation; // between its nodes
-  std::vector<std::string> log_axes; // straight in ln x; of a formula: registry alone
+  std::string table;                 // file of a table (models/law_table.h), instead of formulas
+  std::string interpolation;         // between the table's nodes
+  std::vector<std::string> log_axes; // linear in ln x; with a formula only in the registry
   Place place;
 
-  // Of the registry's texts alone.
-  std::optional<std::uint64_t> order; // in listings; absent: behind the registry, as written
-  std::string people;                 // the formula as people write it; empty: as above
-  std::string calibrated;             // "fixed" or "mean"; empty: fitted
-  bool log_value = false;             // whatever the formula looks like
-  bool nodes_at_kinks = true;         // false: max() and min() bound what no table reaches
-  std::vector<std::string> revisions; // as Law has them
+  // Members that only the registry's texts use:
+  std::optional<std::uint64_t> order; // in listings; absent: after the registry
+  std::string people;         // the formula in the notation of papers; empty: the formulas above
+  std::string calibrated;     // "fixed" or "mean"; empty: fitted
+  bool log_value = false;     // true: regardless of the form of the formula
+  bool nodes_at_kinks = true; // false: max() and min() act only outside of tables
+  std::vector<std::string> revisions; // as in Law
 };
 
-// The place in listings of a law without an order.
+// Position in listings of a law without an order.
 constexpr int order_of_user_laws = 90;
 
-// In formulas stand parameters, named parts, states by their canonical names, k_MPa (the shear
-// yield stress by the job's convention), pi, and columns that the data record, by their names
-// (signs that are no letter or digit as _) or histories (data/derived.h). Functions: exp, ln, log
-// (natural), sqrt, sin, tanh, atan, arccos, abs, sign, min, max, where(a <= b, x, y); powers are
-// written **.
+// Builds a law from its text. Formulas may use parameters, named parts, states by their canonical
+// names, k_MPa (the shear yield stress by the job's convention), pi, recorded columns by their
+// names (with _ for characters other than letters and digits) and histories (data/derived.h).
+// Functions: exp, ln, log (natural), sqrt, sin, tanh, atan, arccos, abs, sign, min, max and
+// where(a <= b, x, y); powers are written **.
 //
 // Faults (an unknown function, an unused parameter, two meanings of one name, ...) are added with
-// their places within the formulas; then the law is of no use.
+// their places within the formulas; the law is then not usable.
 Law law_of_text(const LawText& text, FaultList& faults);
 
-// A formula of tau_R in its two parts; the quantity of the piece.
+// The two parts of a formula of tau_R, and the quantity of the piece.
 struct Parts {
   Formula formula;
   PieceQuantity quantity;

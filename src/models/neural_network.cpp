@@ -1,4 +1,4 @@
-// The neural network: sigma_N times a coefficient that an ensemble of small nets gives.
+// The neural network: sigma_N times the coefficient of an ensemble of small nets.
 #include "models/neural_network.h"
 
 #include <algorithm>
@@ -63,7 +63,7 @@ Law untrained() {
                   "architecture and training are ours";
   law.calibrated = Calibrated::train;
   law.may_use = {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "s_mm"};
-  // Before training the nets are zero and the law is Coulomb's.
+  // Before training the nets are zero, which gives Coulomb's law.
   law.parameters = {{"mu0", "1", "coefficient that the nets scale", 0.08, 0, 2}};
   law.build = [](const Conventions&) { return with_coefficient(Expr::symbol("mu0")); };
   return law;

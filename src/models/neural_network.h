@@ -1,5 +1,5 @@
-// The neural network as a friction law: mu = mu0 mean over members of exp(net(z)), each net one
-// hidden layer of tanh units. The architecture is ours; the benchmark prints none.
+// The neural network as a friction law: mu = mu0 mean over members of exp(net(z)). Each net has one
+// hidden layer of tanh units. The architecture is ours, because the benchmark publishes none.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace frictab::models {
 
-// How a state enters the nets: z = (u - centre)/scale with u = x, or u = ln(max(x, floor) + offset)
-// where the values span decades.
+// The scaling of a state before it enters the nets: z = (u - centre)/scale with u = x, or
+// u = ln(max(x, floor) + offset) if the values span decades.
 struct NetworkInput {
   std::string name; // canonical state
   bool log = false;
-  double floor = 0;  // below it a logarithm stays at its value there
-  double offset = 0; // what averaging over a bin of rows cannot resolve near zero
+  double floor = 0;  // values below it are clamped in a logarithm
+  double offset = 0; // resolution near zero of averages over bins of rows
   double centre = 0;
   double scale = 1;
 
@@ -23,7 +23,7 @@ struct NetworkInput {
   double z(double x) const { return (u(x) - centre) / scale; }
 };
 
-// An ensemble; exp keeps every mu above zero.
+// An ensemble of nets; exp keeps every mu positive.
 struct Network {
   std::vector<NetworkInput> inputs;
   std::size_t hidden = 0;
@@ -36,7 +36,7 @@ struct Network {
   }
 };
 
-// The registered law with its coefficient replaced by the ensemble's; parameter: mu0.
+// Returns the registered law with the ensemble's coefficient; its parameter is mu0.
 Law neural_network(const Network& network);
 
 } // namespace frictab::models

@@ -1,4 +1,4 @@
-// What the smooth piece of a law is, which its table holds.
+// The quantity of a law's smooth piece, which its table samples.
 #pragma once
 
 namespace frictab::models {
@@ -8,7 +8,7 @@ enum class PieceQuantity {
   tau_R // a frictional shear stress, MPa
 };
 
-// As tables, recipes and listings say it.
+// Name and unit in tables, recipes and listings.
 inline const char* quantity_name(PieceQuantity quantity) {
   return quantity == PieceQuantity::mu ? "mu" : "tau_R";
 }

@@ -81,7 +81,7 @@ Formula with_mu(const Expr& mu) {
   return {mu, state::value() * state::sigma_n()};
 }
 
-// P_0 .. P_3 of one state.
+// Returns P_0 .. P_3 of one state.
 std::vector<Expr> legendre_of(const PolynomialState& state) {
   const Expr held = minimum(maximum(Expr::symbol(state.name), state.low), state.high);
   const Expr u = state.log ? log(state.offset > 0 ? held + state.offset : held) : held;
@@ -90,8 +90,8 @@ std::vector<Expr> legendre_of(const PolynomialState& state) {
   return {1.0, z, 1.5 * square - 0.5, (2.5 * square - 1.5) * z};
 }
 
-// Sum of the terms from `from` to `to`, which agree in the states before `state`: without the
-// factors of those, which the caller takes out, so that no product of states is formed twice.
+// Sum of the terms from `from` to `to`, which have equal degrees in the states before `state`. The
+// factors of these earlier states are left to the caller, so that no product is formed twice.
 struct NestedSum {
   const std::vector<std::vector<Expr>>& basis;
   const std::map<PolynomialDegrees, double>& coefficients; // sorted by degrees
@@ -136,7 +136,7 @@ Law before_data() {
   law.reference = "ours";
   law.calibrated = Calibrated::regress;
   law.may_use = {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "s_mm"};
-  // Before data all b are zero and the law is Coulomb's.
+  // Without data all b are zero, which gives Coulomb's law.
   law.parameters = {
       {"mu0", "1", "geometric mean of the coefficient over the range of the data", 0.08, 0, 1e6}};
   law.log_value = true;

@@ -1,4 +1,4 @@
-// Which shear yield stress k a job means: papers on friction differ.
+// Conventions of the shear yield stress k; papers on friction use different ones.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ enum class ShearYield {
 inline constexpr std::array shear_yields{ShearYield::mises, ShearYield::tresca,
                                          ShearYield::flow_stress};
 
-// As job files, calibrations and tables say it.
+// Name of a convention in job files, calibrations and tables.
 constexpr const char* shear_yield_name(ShearYield convention) {
   switch (convention) {
   case ShearYield::tresca:
@@ -35,7 +35,7 @@ constexpr std::optional<ShearYield> find_shear_yield(std::string_view name) {
   return std::nullopt;
 }
 
-// k/sigma_f.
+// Returns k/sigma_f.
 constexpr double shear_yield_ratio(ShearYield convention) {
   switch (convention) {
   case ShearYield::tresca:
@@ -47,7 +47,7 @@ constexpr double shear_yield_ratio(ShearYield convention) {
   }
 }
 
-// sigma_f/k, not by way of its rounded inverse.
+// Returns sigma_f/k directly, because the inverse of k/sigma_f is rounded.
 constexpr double flow_stress_ratio(ShearYield convention) {
   switch (convention) {
   case ShearYield::tresca:

@@ -1,4 +1,4 @@
-// The states a law's formula is written in, in canonical units.
+// Symbols of the states in laws' formulas, in canonical units.
 #pragma once
 
 #include "models/law.h"
@@ -23,8 +23,8 @@ inline expr::Expr sliding_distance() {
 inline expr::Expr sigma_f() {
   return expr::Expr::symbol("sigma_f_MPa");
 }
-// sigma_n over a strength of the workpiece, sigma_f or k. Nothing over nothing is nothing: where a
-// melt neither presses nor resists there is no friction.
+// Returns sigma_n over a strength of the workpiece, sigma_f or k. 0/0 becomes 0, because a melt
+// with neither pressure nor strength has no friction.
 inline expr::Expr sigma_n_over(const expr::Expr& strength) {
   return sigma_n() / maximum(strength, 1e-100);
 }
