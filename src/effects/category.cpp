@@ -1,4 +1,4 @@
-// One factor per level of a text column: tool, batch, operator.
+// An effect with one factor per level of a text column: tool, batch, operator.
 #include <fmt/format.h>
 
 #include "effects/effect.h"
@@ -9,7 +9,7 @@ using expr::Expr;
 
 namespace {
 
-// 1 + a1, 1 + a2, ...; the first level is the reference.
+// Returns a1, a2, ... of the factors 1 + a1, 1 + a2, ...; the first level is the reference.
 std::vector<models::Parameter> parameters(const PlacedEffect& effect) {
   const auto& levels = effect.inputs[0].levels;
   std::vector<models::Parameter> all;

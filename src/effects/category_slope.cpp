@@ -1,4 +1,4 @@
-// Levels that react to a quantity each in its way: a coating that suffers from heat, one that does
+// An effect with one slope per level of a text column: one coating suffers from heat, another does
 // not.
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ std::vector<models::Parameter> parameters(const PlacedEffect& effect) {
   return all;
 }
 
-// 1 in the middle of where it was learned.
+// Returns the factor, which is 1 in the middle of the range of the data.
 Expr factor(const PlacedEffect& effect) {
   const EffectInput& y = effect.inputs[1];
   const double range = y.high > y.low ? y.high - y.low : 1.0;

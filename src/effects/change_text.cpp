@@ -14,10 +14,12 @@ namespace frictab::effects {
 
 namespace {
 
-constexpr std::size_t points = 101;     // along a quantity
-constexpr double worth_telling = 0.1;   // of the whole change: an extreme between the ends
-constexpr std::size_t levels_shown = 6; // of more, those with the least and the most friction
-constexpr double no_base = 0.05; // of the largest factor: a change from less is no percentage
+constexpr std::size_t points = 101; // along a quantity
+// Smallest extreme between the ends that is reported, as a fraction of the whole change.
+constexpr double worth_telling = 0.1;
+constexpr std::size_t levels_shown = 6; // of more, only those of lowest and highest friction
+// Smallest start value of a percentage, as a fraction of the end value or of 1 if that is larger.
+constexpr double no_base = 0.05;
 
 class Teller {
 public:
@@ -50,7 +52,7 @@ private:
     return factor;
   }
 
-  // Along one input, the others at these values.
+  // Evaluates along one input, with the others fixed at these values.
   Curve along(std::size_t input, const std::vector<double>& at) const {
     std::vector<std::vector<double>> columns;
     for (const double value : at)
@@ -80,7 +82,7 @@ private:
     return signed_text(100 * (to / from - 1)) + " %";
   }
 
-  // Two digits at least; what rounding left over is nothing.
+  // Prints at least two digits; rounding errors become +0.
   static std::string signed_text(double value) {
     constexpr double rounding = 1e-9;
     if (std::abs(value) < rounding) return "+0";
@@ -92,7 +94,7 @@ private:
     return fmt::format(" from {:.4g} to {:.4g}", x.low, x.high);
   }
 
-  // Between the ends, where friction is clearly higher or lower there than at both.
+  // Describes an extreme between the ends if it is clearly above or below both.
   std::string extreme(const Curve& curve) const {
     const auto [low, high] = std::minmax_element(curve.begin(), curve.end());
     const double enough = worth_telling * (*high - *low);
@@ -128,7 +130,7 @@ private:
     return what() + " against " + names[0] + ": " + join(changes, ", ") + more;
   }
 
-  // Along `input`, at each level or at the ends of `other`.
+  // Describes the change along `input` at each level or at both ends of `other`.
   std::string of_two(std::size_t input, std::size_t other) const {
     const auto from_to = [&](double value) {
       std::vector<double> at;

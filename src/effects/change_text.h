@@ -1,4 +1,4 @@
-// What an effect does, in one line for the owner of the columns.
+// One line that describes an effect's change of friction for people who know the columns.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace frictab::effects {
 
-// Over the range in which it was learned, at its fitted parameters:
+// Describes the change over the range of the data, at the fitted parameters:
 //   "friction -11 % from 0 to 20, lowest (-14 %) at 15"      one quantity
 //   "friction against A: B +12 %, C -8 %"                    levels, against the first
 //   "friction with T_tool_C from 20 to 120: A -3 %, B +20 %"                     by level
 //   "friction with v_rel_mm_s from 5 to 500: -3 % at s_mm = 0, -25 % at 20"      by another
-// In MPa where it is added to tau_R. Of three quantities the third stays in its middle.
+// Changes are in MPa if the effect is added to tau_R. A third quantity is fixed at mid-range.
 std::string change_text(const PlacedEffect& effect);
 
 } // namespace frictab::effects

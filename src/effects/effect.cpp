@@ -16,9 +16,10 @@ using expr::Expr;
 
 namespace {
 
-constexpr std::array<const char*, 4> acts_on_names = {"mu", "m", "tau", "mu+m"}; // as ActsOn
+constexpr std::array<const char*, 4> acts_on_names = {"mu", "m", "tau", "mu+m"}; // by ActsOn
 
-// Evenly spaced inside the 5 % .. 95 % part of a column's range: for thresholds, humps and steps.
+// Returns position i of `count`, spaced evenly over the central 90 % of a column's range, as a
+// place for thresholds, humps and steps.
 double position_to_try(const Spread& spread, std::size_t i, std::size_t count) {
   return spread.minimum +
          (spread.maximum - spread.minimum) *

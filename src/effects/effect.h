@@ -1,5 +1,5 @@
-// The form of an effect that a law may lack: a factor of one to three quantities, neutral
-// parameters give 1.
+// Forms of effects that a law may lack: factors of one to three quantities; neutral parameters
+// give 1.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace frictab::effects {
 
-// How a column's values are spread: what start values of shape parameters come from.
+// Distribution of a column's values, from which start values of shape parameters are computed.
 struct Spread {
   double minimum = 0;
   double low = 0; // 10 % quantile
@@ -22,25 +22,26 @@ struct Spread {
   double high = 1; // 90 % quantile
   double maximum = 1;
 
-  double span() const;     // high - low, or the nearest thing to it that is positive
-  double positive() const; // the median where it is positive, else span()
+  double span() const;     // high - low, or a positive substitute
+  double positive() const; // the median if positive, else span()
 };
 
-// Of the finite values; the default Spread where there are none.
+// Computes the spread of the finite values; returns the default Spread if there are none.
 Spread spread_of(std::span<const double> values);
 
-// How one shape parameter (a parameter behind the amplitude) is found from the spread of its input.
+// Rule that computes a shape parameter (any parameter after the amplitude) from its input's spread.
 using Measure = double (*)(const Spread&);
 struct Shape {
   Measure measure = nullptr;
-  double share = 1;   // of the measure: where a fit starts
-  bool fitted = true; // false: a reference point or scale, set once from the data and kept
-  // What a search over columns tries, instead of the start alone: near enough to each other that
-  // one of them finds what a fit would.
-  std::size_t positions = 0;             // so many places within the range
-  Measure tried_measure = nullptr;       // or
-  std::vector<double> tried_shares = {}; // of it
-  std::size_t input = 0;                 // whose spread it is: x (0), x2 (1) or x3 (2)
+  double share = 1;   // start value of a fit, as a multiple of the measure
+  bool fitted = true; // false: a reference or scale, set once from the data
+  // Values that a search over columns tries instead of the start, close enough to each other that
+  // one of them detects the effect that a fit would find: `positions` places within the range, or
+  // `tried_shares` times `tried_measure`.
+  std::size_t positions = 0;
+  Measure tried_measure = nullptr;
+  std::vector<double> tried_shares = {};
+  std::size_t input = 0; // input whose spread is measured: x (0), x2 (1) or x3 (2)
 
   double start(const Spread& spread) const { return share * measure(spread); }
 };
@@ -50,19 +51,19 @@ struct EffectForm;
 struct EffectInput {
   std::string column;              // recorded column or derived quantity (data/derived.h)
   std::vector<std::string> levels; // of a text column; the first is the reference
-  // Where it was learned; beyond, the factor is held at its value at the end.
+  // Range of the data that the effect was fitted to; values beyond it are clamped to its ends.
   double low = 0, high = 1;
-  std::vector<double> knots = {}; // of smooth forms: where their curves are given, ascending
+  std::vector<double> knots = {}; // of smooth forms: nodes of their curves, ascending
 };
 
-// Where an effect acts.
+// The part of a law that an effect acts on.
 enum class ActsOn {
   mu,   // the tabulated piece, before any limit
   m,    // the limit
   tau,  // added, in units of tau_scale_MPa
-  mu_m, // both mu and m, where a law has a limit of its own
+  mu_m, // both mu and m, if the law has its own limit
 };
-const char* acts_on_name(ActsOn acts_on); // "mu", "m", "tau", "mu+m", as jobs and files have it
+const char* acts_on_name(ActsOn acts_on); // in jobs and files: "mu", "m", "tau", "mu+m"
 std::optional<ActsOn> find_acts_on(std::string_view name);
 
 // One effect form with the columns it follows and the part of the law it acts on. The factor goes
@@ -72,17 +73,18 @@ struct PlacedEffect {
   const EffectForm* form = nullptr;
   std::vector<EffectInput> inputs; // as many as the form takes: x, x2, x3
   ActsOn acts_on = ActsOn::mu;
-  std::vector<double> parameters; // as parameters_of lists them
+  std::vector<double> parameters; // in the order of parameters_of
   double tau_scale_MPa = 1;
-  // What is added fades below this contact pressure: without pressure there is no friction. 0: not.
+  // Contact pressure below which an added effect fades, because friction vanishes without pressure;
+  // 0: never.
   double pressure_MPa = 0;
   double stiffness = 0; // of a penalised fit: weight of the form's roughness; 0: none
 };
 
-// Closed forms are rows of src/effects/forms.cpp, others have a file each. The factor is a formula
-// of "x" (and "x2", "x3" for forms of several quantities) and of the parameters; the amplitude
-// scales the whole effect: 0 is neutral, bit for bit. A form may have several amplitudes: it is
-// linear in them, all 0 is neutral.
+// An effect form. Closed forms are rows of forms.cpp, others have a file each. The factor is a
+// formula of "x" (and "x2", "x3" for forms of several quantities) and of the parameters; the
+// amplitude scales the whole effect; an amplitude of 0 is neutral, bit for bit. A form with several
+// amplitudes is linear in them and neutral if all are 0.
 struct EffectForm {
   std::string name;
   int order = 0;
@@ -90,58 +92,59 @@ struct EffectForm {
   std::string formula; // for people
   std::vector<models::Parameter>
       parameters;            // the amplitude first; the others have units of x, x2 or x3
-  std::vector<Shape> shapes; // one per parameter behind the amplitude
+  std::vector<Shape> shapes; // one per parameter after the amplitude
   std::size_t columns = 1;
-  bool categorical = false;         // the first input is a text column: numbers of its levels
-  std::optional<expr::Expr> factor; // absent where `build` stands for it
-  // Forms whose parameters depend on levels or knots: all of them are amplitudes, `parameters`
-  // above holds one that stands for them.
+  bool categorical = false;         // the first input is a text column, given by level numbers
+  std::optional<expr::Expr> factor; // absent if `build` is set
+  // For forms whose parameters depend on levels or knots: all are amplitudes, and `parameters`
+  // above has one entry that represents them.
   std::vector<models::Parameter> (*parameters_of)(const PlacedEffect&) = nullptr;
-  expr::Expr (*build)(const PlacedEffect&) = nullptr; // of x, x2, x3 and their names
-  // Their values at an amplitude of 1: what a synthetic campaign plants.
+  // Builds the formula of x, x2, x3 and the parameters' names.
+  expr::Expr (*build)(const PlacedEffect&) = nullptr;
+  // Amplitudes that a synthetic campaign plants for an effect of size 1.
   std::vector<double> (*pattern)(const PlacedEffect&) = nullptr;
-  // Smooth forms: knots per input (0: none), and the roughness of the amplitudes, symmetric, row by
-  // row, without negative eigenvalues; nullptr for closed forms.
+  // For smooth forms: the number of knots per input (0: none), and the roughness matrix of the
+  // amplitudes, row-major, symmetric and positive semidefinite; nullptr for closed forms.
   std::vector<int> knots;
   std::vector<double> (*penalty)(const PlacedEffect&) = nullptr;
-  // For people, with numbers; nullptr: the formula and its parameters.
+  // Readable text with numbers; nullptr: the formula and its parameters.
   std::string (*text)(const PlacedEffect&) = nullptr;
-  // What a search tries where shape parameters depend on each other; nullptr: all that `shapes`
-  // say.
+  // Values that a search tries if shape parameters depend on each other; nullptr: all combinations
+  // of the values from `shapes`.
   std::vector<std::vector<double>> (*grid)(const Spread&) = nullptr;
 };
 
-// Gives every input the knots that its form asks for; `values` of one column each.
+// Sets the knots of every input that its form requires; `values`: one column per input.
 void set_knots(PlacedEffect& effect, const std::vector<std::span<const double>>& values);
 
-// The value of a text column's level, whose number is x.
+// Returns the formula that selects the value of level number x of a text column.
 expr::Expr value_by_level(const expr::Expr& x, std::span<const expr::Expr> values);
-// Amplitudes of a planted effect of levels: they grow in equal steps up to 1.
+// Returns amplitudes of a planted effect of levels, which grow in equal steps up to 1.
 std::vector<double> growing_pattern(const PlacedEffect& effect);
 
-// All parameters of a form that is placed, and how many of them, in front, it is linear in.
+// Returns all parameters of an effect, amplitudes first, and the number of its amplitudes.
 std::vector<models::Parameter> parameters_of(const PlacedEffect& effect);
 std::size_t amplitudes_of(const PlacedEffect& effect);
-// The input that a parameter of a form is a value of, as its unit x, x2 or x3 says; nullptr: none.
+// Returns the input whose unit a parameter has, by its unit x, x2 or x3; nullptr for other units.
 const EffectInput* input_of(const models::Parameter& parameter, const PlacedEffect& effect);
-// Its unit: that input's, empty where nobody has said it (a recorded column that is no canonical
-// quantity); of a parameter that is no value of an input, its own.
+// Returns the unit of a parameter: the unit of its input (empty if unknown, for a recorded column
+// that is not a canonical quantity), or else its own.
 std::string unit_of(const models::Parameter& parameter, const PlacedEffect& effect);
-// 1 + ..., of x, x2, x3 and the names of the parameters.
+// Returns the factor, 1 + ..., as a formula of x, x2, x3 and the names of the parameters.
 expr::Expr formula_of(const PlacedEffect& effect);
-// x, x2, x3: as many as the form takes.
+// Returns x, x2, x3, as many as the form takes.
 std::vector<std::string> input_symbols(const EffectForm& form);
 
-// Start values of all parameters but the amplitude, which is 0; one spread per column.
+// Returns start values of all parameters except the amplitude, which is 0; one spread per column.
 std::vector<double> start_values(const EffectForm& form, const std::vector<Spread>& spreads);
 
-// Values of the shape parameters that a search over columns with these spreads should try.
+// Returns values of the shape parameters for a search over columns with these spreads.
 std::vector<std::vector<double>> shapes_to_try(const EffectForm& form,
                                                const std::vector<Spread>& spreads);
 
-// In listing order.
+// Returns all forms in listing order.
 const std::vector<EffectForm>& all_effects();
-const EffectForm* find_effect(std::string_view name); // nullptr where there is none
+const EffectForm* find_effect(std::string_view name); // nullptr if not found
 std::vector<std::string> effect_names();
 
 } // namespace frictab::effects

@@ -1,4 +1,4 @@
-// Puts effects into a law's formula.
+// Inserts effects into a law's formula.
 #include "effects/extended_law.h"
 
 #include <algorithm>
@@ -28,15 +28,15 @@ bool is_fitted(const EffectForm& form, std::size_t parameter) {
   return form.parameters_of || parameter == 0 || form.shapes[parameter - 1].fitted;
 }
 
-// A column's value, held at the ends of the range in which the effect was learned. Numbers of
-// levels need no holding: each is one that was seen.
+// Returns a column's value, clamped to the range of the data that the effect was fitted to. Numbers
+// of levels are not clamped, because unknown levels have no number.
 Expr clamped_input(const EffectInput& input) {
   const Expr x = Expr::symbol(symbol_of(input.column));
   return input.levels.empty() ? minimum(maximum(x, input.low), input.high) : x;
 }
 
-// What an effect that is added is multiplied with: below the lowest pressure tested it fades in
-// proportion to the pressure, since without load there is no friction.
+// Returns the multiplier of an added effect: below the lowest pressure tested the effect fades in
+// proportion to the pressure, because friction vanishes without load.
 Expr pressure_fading(const PlacedEffect& effect) {
   return effect.pressure_MPa > 0
              ? minimum(Expr(1.0), Expr::symbol("sigma_n_MPa") / effect.pressure_MPa)
@@ -52,7 +52,7 @@ bool uses_parameter(const Expr& formula, const std::string& name) {
   return expr::symbols(formula).count(name) > 0;
 }
 
-// The law's own limit parameter inside `combine`, or none.
+// Whether `combine` contains the law's own limit parameter.
 bool own_limit(const Law& law, const models::Formula& formula) {
   return std::any_of(law.parameters.begin(), law.parameters.end(),
                      [](const Parameter& p) { return p.name == "m"; }) &&
@@ -99,7 +99,7 @@ models::Formula with_factors(models::Formula formula, const Law& law,
   return formula;
 }
 
-// Names that formulas use themselves.
+// Whether formulas reserve this name.
 bool is_taken(const std::string& symbol) {
   static const std::set<std::string> taken = [] {
     std::set<std::string> names = {"value",  "exp",     "log",     "sqrt",  "sin",      "tanh",

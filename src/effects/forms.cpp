@@ -1,4 +1,4 @@
-// Effects of closed form: a row each.
+// Effects of closed form, one row each.
 #include <algorithm>
 
 #include "effects/effect.h"
@@ -9,7 +9,7 @@ namespace {
 
 using models::Parameter;
 
-// ---- what shapes are measured by ----
+// ---- measures of shape parameters ----
 
 double median(const Spread& s) {
   return s.median;
@@ -55,7 +55,7 @@ Shape at_positions(std::size_t count, Shape shape = fitted(median)) {
   return shape;
 }
 
-// ---- parameters that come again: an amplitude, a value of x or x2, a distance along it ----
+// ---- common parameters: an amplitude, a value of x or x2, a distance along it ----
 
 struct ShapeRow {
   Parameter parameter;
@@ -89,7 +89,7 @@ const char* const second_scale = "scale of the second quantity";
 
 // ---- grids of shapes that depend on each other ----
 
-// Wavelengths from twice the range to a fifteenth of it, with two phases each.
+// Tries wavelengths from twice the range to a fifteenth of it, with two phases each.
 std::vector<std::vector<double>> waves(const Spread& s) {
   std::vector<std::vector<double>> shapes;
   for (int i = 0; i < 24; ++i) {
@@ -100,9 +100,10 @@ std::vector<std::vector<double>> waves(const Spread& s) {
   return shapes;
 }
 
-constexpr double half_turn = 180; // degrees after which a lay that has no arrow repeats
+constexpr double half_turn = 180; // period in degrees of a lay without direction
 
-// Half turns and whole ones, in sixteenths of half of them: the other half is minus the first.
+// Tries periods of half a turn and of a turn, with phases over half a period in steps of 1/16; the
+// other half only changes the sign.
 std::vector<std::vector<double>> turns(const Spread&) {
   std::vector<std::vector<double>> shapes;
   for (const double turn : {half_turn, 2 * half_turn})
@@ -117,7 +118,7 @@ struct Row {
   const char* name;
   int order;
   const char* title;
-  const char* people; // the formula as people write it
+  const char* people; // the formula in the notation of papers
   const char* factor; // of x, x2, x3 and the parameters
   Parameter amplitude;
   std::vector<ShapeRow> shapes;
@@ -126,7 +127,7 @@ struct Row {
 
 std::vector<Row> rows() {
   return {
-      // 0 to a negative power would be infinite: a thousandth of the reference is where it stops.
+      // x stops at a thousandth of the reference, because 0 to a negative power is infinite.
       {"power",
        1,
        "power of x",
@@ -149,7 +150,7 @@ std::vector<Row> rows() {
        "1 + a*((x - x0)/w)",
        amplitude("relative change over w"),
        {reference(), scale()}},
-      // Rate effects act over decades; the logarithm stops where the power does.
+      // Rate effects act over decades; x stops at the same value as in the power.
       {"logarithmic",
        4,
        "logarithm of x",
@@ -157,7 +158,7 @@ std::vector<Row> rows() {
        "1 + a*log(max(x/x0, 0.001))",
        amplitude("relative change per e-fold"),
        {positive_reference()}},
-      // It stops one kelvin above absolute zero.
+      // The temperature stops one kelvin above absolute zero.
       {"arrhenius",
        5,
        "thermal activation, x in degC",
@@ -231,7 +232,7 @@ std::vector<Row> rows() {
        amplitude("relative change over w and w2"),
        {reference(), scale(), reference("y0", "x2", second_reference),
         scale("w2", "x2", 1, second_scale)}},
-      // Least, or most, friction at an optimum.
+      // Lowest or highest friction at an optimum.
       {"parabola",
        14,
        "U-shape about an optimum",
@@ -239,8 +240,8 @@ std::vector<Row> rows() {
        "1 + a*((x - x0)/w*((x - x0)/w))",
        amplitude("relative change at a distance of w"),
        {{place("x0", "x", "optimum"), at_positions(5)}, scale()}},
-      // x is the load over its peak so far, 1 while loading: asperities that were flattened stay
-      // flat, lubricant that was trapped stays trapped.
+      // x is the load over its peak so far, 1 while loading: flattened asperities stay flat, and
+      // trapped lubricant stays trapped.
       {"hysteresis",
        15,
        "direction of load: another friction below the peak pressure so far",
@@ -262,9 +263,8 @@ std::vector<Row> rows() {
          trying(fitted(one, 0.5), one, {-1, -0.4, 0.4, 1})},
         {place("y0", "x2", second_reference), kept(median)},
         scale("w2", "x2", 1, second_scale)}},
-      // What a stop before the slide has changed, and sliding wears off again: a lubricant film
-      // that
-      // comes back, an oxide that grows, a junction that ages.
+      // A change during a pause before the slide, which sliding wears off again: a lubricant film
+      // that recovers, an oxide that grows, a junction that ages.
       {"recovery",
        18,
        "recovery over a pause, lost again by sliding",

@@ -1,5 +1,5 @@
-// Splines by one tridiagonal solve over the knots; their pieces are cubes of clamped coordinates,
-// which add up without cancelling, however unevenly the knots lie.
+// Computes splines by tridiagonal solves over the knots. Their pieces are cubes of clamped
+// coordinates, whose sum does not cancel even for very uneven knots.
 #include "effects/natural_spline.h"
 
 #include <algorithm>
@@ -14,9 +14,9 @@ using expr::Expr;
 
 namespace {
 
-constexpr double least_distance = 1.0 / 200; // of knots, in parts of their range
+constexpr double least_distance = 1.0 / 200; // between knots, as a fraction of their range
 
-// Distances of neighbouring knots, in parts of their range.
+// Returns the distances of neighbouring knots as fractions of their range.
 std::vector<double> distances(std::span<const double> knots) {
   std::vector<double> h;
   for (std::size_t i = 0; i + 1 < knots.size(); ++i)
@@ -24,8 +24,8 @@ std::vector<double> distances(std::span<const double> knots) {
   return h;
 }
 
-// Second derivatives at the knots of the spline through `values`: 0 at both ends, between them
-// (Thomas) h0 m0 + 2 (h0 + h1) m1 + h1 m2 = 6 ((v2 - v1)/h1 - (v1 - v0)/h0).
+// Returns the second derivatives at the knots of the spline through `values`: 0 at both ends; the
+// others solve (Thomas) h0 m0 + 2 (h0 + h1) m1 + h1 m2 = 6 ((v2 - v1)/h1 - (v1 - v0)/h0).
 std::vector<double> second_derivatives(const std::vector<double>& h,
                                        std::span<const double> values) {
   const std::size_t n = values.size();
@@ -42,7 +42,7 @@ std::vector<double> second_derivatives(const std::vector<double>& h,
   return m;
 }
 
-// Row by row, what each value adds to each second derivative.
+// Returns the matrix, by rows, that maps values to second derivatives.
 std::vector<std::vector<double>> bending(std::span<const double> knots) {
   const std::size_t n = knots.size();
   const auto h = distances(knots);
@@ -82,7 +82,8 @@ std::vector<double> spline_knots(std::span<const double> values, int count) {
   std::vector<double> different = sorted;
   different.erase(std::unique(different.begin(), different.end()), different.end());
   const auto wanted = static_cast<std::size_t>(count);
-  const auto& from = different.size() <= wanted ? different : sorted; // all of few, else quantiles
+  // Few values all become knots; otherwise quantiles do.
+  const auto& from = different.size() <= wanted ? different : sorted;
   const std::size_t last = std::min(wanted, from.size()) - 1;
   for (std::size_t i = 1; i < last; ++i)
     if (const double at = from[i * (from.size() - 1) / last];
@@ -97,7 +98,7 @@ NaturalSpline::NaturalSpline(const Expr& x, std::span<const double> knots) {
   const auto h = distances(knots);
   bending_ = bending(knots);
   for (std::size_t j = 0; j < h.size(); ++j) {
-    // Ends in this order: at a knot the derivative is that of the piece behind it alone.
+    // The order of the operands matters: at a knot only the piece above it has a slope.
     const Expr t = minimum(1.0, maximum((x - knots[j]) / (knots[j + 1] - knots[j]), 0.0));
     const Expr rest = 1.0 - t;
     const double bend = h[j] * h[j] / 6;
@@ -124,7 +125,7 @@ std::vector<double> spline_roughness(std::span<const double> knots) {
   if (n < 3) return matrix;
   const auto h = distances(knots);
   const auto rows = bending(knots);
-  // The second derivative is straight between knots.
+  // The second derivative is linear between knots.
   for (std::size_t j = 0; j + 1 < n; ++j)
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b < n; ++b)

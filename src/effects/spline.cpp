@@ -1,4 +1,4 @@
-// A smooth curve without a named form: what a column can explain at best.
+// A smooth curve without a named form, as the upper limit of what a column can explain.
 #include <fmt/format.h>
 
 #include "effects/effect.h"

@@ -1,4 +1,5 @@
-// A smooth curve per level of a text column: a tool, a batch that reacts to a quantity in its way.
+// An effect with one smooth curve per level of a text column, for tools or batches that react
+// differently to a quantity.
 #include <fmt/format.h>
 
 #include "effects/effect.h"
@@ -25,7 +26,7 @@ std::vector<models::Parameter> parameters(const PlacedEffect& effect) {
   return all;
 }
 
-// The value at each knot is the level's own, so that there is one spline to evaluate.
+// Selects the level's value at each knot, so that only one spline is evaluated.
 Expr factor(const PlacedEffect& effect) {
   const std::size_t levels = effect.inputs[0].levels.size();
   std::vector<Expr> values;
@@ -49,14 +50,14 @@ std::string text(const PlacedEffect& effect) {
   return text;
 }
 
-// Levels do not know of each other: no roughness between them.
+// Adds roughness along x2 only, because levels have no order.
 std::vector<double> penalty(const PlacedEffect& effect) {
   const std::size_t levels = effect.inputs[0].levels.size();
   return scaled_penalty(tensor_roughness(
       {std::vector<double>(levels * levels, 0.0), spline_roughness(effect.inputs[1].knots)}));
 }
 
-// Grows from level to level.
+// Returns a pattern that grows from level to level.
 std::vector<double> pattern(const PlacedEffect& effect) {
   const double last = static_cast<double>(effect.inputs[0].levels.size() - 1);
   std::vector<double> values;

@@ -1,4 +1,4 @@
-// A smooth surface over two quantities: whatever they do together.
+// A smooth surface over two quantities, for any interaction of them.
 #include <fmt/format.h>
 
 #include "effects/effect.h"
@@ -24,7 +24,7 @@ std::vector<models::Parameter> parameters(const PlacedEffect& effect) {
   return all;
 }
 
-// Splines along x2, one per knot of x; through their values the one along x.
+// Builds splines along x2, one per knot of x, and a spline along x through their values.
 Expr factor(const PlacedEffect& effect) {
   const auto &x = effect.inputs[0].knots, &y = effect.inputs[1].knots;
   const NaturalSpline along_x2(Expr::symbol("x2"), y);
