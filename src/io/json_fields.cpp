@@ -1,4 +1,4 @@
-// JSON by description: what is the same for every record.
+// JSON by description: the parts common to all records.
 #include "io/json_fields.h"
 
 #include "core/no_value.h"

@@ -1,15 +1,15 @@
-// JSON by description: one list of fields writes a record to a file, and reads and checks it.
+// JSON by description: one list of fields both writes a record and reads and checks it.
 //
 //   void describe(io::Fields& f, Share& share) {
 //     f("law", share.law);
 //     f("share", share.share);
 //   }
 //
-// A Fields is one value of the file, either written from a record or read into it; the file has the
-// keys in the order of the description. f(key, member) calls describe() for the member: those below
-// for numbers, texts and lists, for a record the function beside it, which stands in the namespace
-// of the record's type because it is looked up there. A description changes its record only where
-// f.reads(). Faults are thrown as exceptions of the library, which read_record() catches.
+// A Fields is one value of the file, either written from a record or read into it; keys are written
+// in the order of the description. f(key, member) calls describe() for the member. Numbers, texts
+// and lists have theirs below; a record needs its own in the namespace of its type, so that
+// argument-dependent lookup finds it. A description may change its record only if f.reads(). Faults
+// are thrown as exceptions of nlohmann/json, which read_record() catches.
 #pragma once
 
 #include <concepts>
@@ -30,22 +30,23 @@ namespace frictab::io {
 class Fields {
 public:
   using Json = nlohmann::ordered_json;
-  // What is read: the file, and the keys that lead to the value at hand: "models/0/validation".
+  // The file that is read, and the path to the current value: "models/0/validation".
   struct Source {
     std::string file, path;
   };
 
-  // Without a source the value is written.
+  // Writes the value if `source` is null, else reads it.
   explicit Fields(Json& value, Source* source = nullptr) : value_(value), source_(source) {}
 
   bool reads() const { return source_; }
   Json& json() { return value_; }
-  const std::string& file() const { return source_->file; } // where reads()
+  const std::string& file() const { return source_->file; } // if reads()
 
   template <class T> void operator()(const char* key, T& member) { described(at(key), member); }
-  // An element of a list, each in turn.
+  // Describes an element of a list; elements are described in order.
   template <class T> void item(std::size_t i, T& member) { described(at(i), member); }
-  // As the library has it: lists and maps of numbers, and numbers of which none may be null.
+  // Uses the library's conversion, for lists and maps of numbers and for numbers that may not be
+  // null.
   template <class T> void known(const char* key, T& member) {
     Fields inner = at(key);
     if (reads())
@@ -54,14 +55,15 @@ public:
       inner.value_ = member;
     inner.leave();
   }
-  // What nobody reads back, or what is read in another way.
+  // Writes a value that is not read back, or is read by other code.
   void only_written(const char* key, Json value);
-  // An object that is no record of its own.
+  // Describes an object without a record type.
   void within(const char* key, const std::function<void(Fields&)>& fields);
-  // A list of `size` of them.
+  // Describes a list of `size` objects without a record type.
   void each(const char* key, std::size_t size,
             const std::function<void(Fields&, std::size_t)>& fields);
-  // A list of records that need more than describe(); read, it gets as many as the file has.
+  // Describes a list of records by `fields` instead of describe(). Reading appends one record per
+  // element of the file.
   template <class T, class Describe>
   void list(const char* key, std::vector<T>& records, const Describe& fields) {
     each(key, reads() ? value_.at(key).size() : records.size(), [&](Fields& f, std::size_t i) {
@@ -69,24 +71,26 @@ public:
     });
   }
 
-  // Whether a field that may be absent is there: `wanted` where it is written.
+  // Whether an optional field is present in the file that is read; when writing, `wanted`.
   bool has(const char* key, bool wanted) const { return reads() ? value_.contains(key) : wanted; }
-  // Absent where it is what it begins as.
+  // Omits the field if the member has its default value.
   template <class T> void unless_default(const char* key, T& member) {
     if (has(key, member != T{})) (*this)(key, member);
   }
-  // Absent where there is none: a record, or what known() takes.
+  // Omits the field if the member is empty: a record here, a type of known() in if_known().
   template <class T> void if_there(const char* key, std::optional<T>& member) {
     if (has(key, member.has_value())) (*this)(key, reads() ? member.emplace() : *member);
   }
   template <class T> void if_known(const char* key, std::optional<T>& member) {
     if (has(key, member.has_value())) known(key, reads() ? member.emplace() : *member);
   }
-  // Whether this value is null: `nothing` where it is written, which makes it null.
+  // Whether the value that is read is null; when writing, returns `nothing` and, if true, writes
+  // null.
   bool null(bool nothing);
   void null_if_empty(const char* key, std::string& text);
 
-  // By name. Another name is a fault, or what `any_other` says.
+  // Describes an enumerator by its name. Another name is read as `any_other`, or is a fault without
+  // it.
   template <class E>
   void one_of(const char* key, E& member, std::initializer_list<std::pair<const char*, E>> names,
               std::optional<E> any_other = {}) {
@@ -108,7 +112,8 @@ private:
   Fields at(const char* key);
   Fields at(std::size_t i);
   Fields inside(Json& value, const std::string& step);
-  void leave() { // not where an exception passes: read_record() gives its path
+  // Is not called when an exception passes, because read_record() reports the path.
+  void leave() {
     if (reads()) source_->path.resize(outer_path_);
   }
   template <class T> static void described(Fields inner, T& member) {
@@ -118,7 +123,7 @@ private:
 
   Json& value_;
   Source* source_;
-  std::size_t outer_path_ = 0; // length of the path to what holds this value
+  std::size_t outer_path_ = 0; // length of the path to the enclosing value
 };
 
 void describe(Fields& f, bool& value);
@@ -134,7 +139,7 @@ template <std::unsigned_integral T> void describe(Fields& f, T& count) {
     f.json() = count;
 }
 
-// null where there is none.
+// Describes an optional value, which is null if empty.
 template <class T> void describe(Fields& f, std::optional<T>& value) {
   if (!f.null(!value)) describe(f, f.reads() ? value.emplace() : *value);
 }
@@ -146,16 +151,16 @@ template <class T> void describe(Fields& f, std::vector<T>& list) {
     f.item(i, f.reads() ? list.emplace_back() : list[i]);
 }
 
-// A record for a description that writes it.
+// Passes a constant record to a description that only writes it.
 template <class T> T& to_write(const T& record) {
   return const_cast<T&>(record);
 }
 
-// The file's text: `schema` ("frictab/model/1"), the version of the program, then the fields.
+// Returns the file's text: `schema` ("frictab/model/1"), the version of the program, the fields.
 std::string record_text(const char* schema, const std::function<void(Fields&)>& fields);
 
-// Throws InputError where the file is of another schema or a field is missing or mistyped: with
-// the file, the path to the field and what `mends` it.
+// Reads the fields. Throws InputError with the file, the path to the field and the hint `mends` if
+// the file has another schema, or a field is missing or has the wrong type.
 void read_record(std::string_view text, const std::string& file, const char* schema,
                  const std::string& mends, const std::function<void(Fields&)>& fields);
 
