@@ -1,4 +1,4 @@
-// Calibrations and models to JSON and back.
+// Converts calibrations and models to JSON and back.
 #include "calibrate/calibration_file.h"
 
 #include <cmath>
@@ -73,7 +73,7 @@ static void describe(Fields& f, BandCheck& band) {
   f("validation_experiments", band.experiments);
 }
 
-// As the file has it: "levanov: needs sigma_f_MPa".
+// Describes a skipped law as one text: "levanov: needs sigma_f_MPa".
 static void describe(Fields& f, LeftOut& left) {
   std::string text = left.text();
   describe(f, text);
@@ -110,7 +110,7 @@ void describe_conventions(Fields& f, models::Conventions& c) {
   c.shear_yield = *known;
 }
 
-// Text that reads back to the same bits.
+// Describes the formula as text that reads back to the same bits.
 void describe_formula(Fields& f, Law& law, const models::Conventions& conventions) {
   models::Formula formula;
   if (!f.reads()) formula = law.build(conventions);
@@ -136,7 +136,8 @@ void describe_table(Fields& f, Law& law) {
   if (f.reads()) law.calibrated = calibrated ? Calibrated::fit : Calibrated::fixed;
 }
 
-// A law whose formula is not the registry's; one with a name of its own says all.
+// Describes a law whose formula is not the registry's; under a name outside the registry with all
+// its members.
 void describe_made_law(Fields& f, Law& law, const models::Conventions& conventions) {
   describe_formula(f, law, conventions);
   f.known("log_axes", law.log_axes);
@@ -155,7 +156,7 @@ void describe_made_law(Fields& f, Law& law, const models::Conventions& conventio
   });
 }
 
-// Files of 0.1 leave to the registered law that was extended what it says of its table.
+// Returns the registered law that a law extends, because files of 0.1 lack the table's properties.
 Law law_of_base(Fields& fit, const std::string& base) {
   if (!models::find_law(base))
     throw InputError({fit.file(), 0, 0},
@@ -167,7 +168,7 @@ Law law_of_base(Fields& fit, const std::string& base) {
   return law;
 }
 
-// What describe_made_law() reads is not in it yet.
+// Reads a law whose name is not registered, except for the members that describe_made_law() reads.
 Law law_with_name_of_its_own(Fields& fit) {
   const Fields::Json& made = fit.json().at("law");
   Law law = made.contains("quantity") ? Law() : law_of_base(fit, made.at("base"));
@@ -197,7 +198,8 @@ std::shared_ptr<const Law> read_law(Fields& fit) {
   return models::unregistered_law(std::move(law));
 }
 
-// Counts from 1; 0 of a law that has its formula with it, or always had this one.
+// Returns the number of the formula's revision, from 1; 0 if the file contains the formula or the
+// formula never changed.
 int revision_of(const models::Model& model) {
   if (!models::is_registered(*model.law)) return 0;
   const std::string convention = models::shear_yield_name(model.conventions.shear_yield);
@@ -205,7 +207,8 @@ int revision_of(const models::Model& model) {
   return static_cast<int>(std::count(revised.begin(), revised.end(), convention));
 }
 
-// Parameters of a registered law mean what its formula said when they were calibrated.
+// Throws InputError if the law's formula has changed, because parameters are valid only with the
+// formula that they were calibrated with.
 void check_parameters(const models::Model& model, const Fields::Json& fit,
                       const std::string& file) {
   const Law& law = *model.law;
@@ -240,7 +243,8 @@ void describe_parameters(Fields& f, ModelFit& fit) {
   });
 }
 
-// How long the fit took; half a second less than its bound is written the same again.
+// Describes the time of the fit as an upper bound. Reading gives half a second less, which is
+// written as the same bound again.
 void describe_seconds(Fields& f, double& seconds) {
   f.only_written("wall_time_below_s", whole_seconds_above(seconds));
   if (!f.reads()) return;
@@ -248,8 +252,8 @@ void describe_seconds(Fields& f, double& seconds) {
   seconds -= 0.5;
 }
 
-// Texts of what the law computes, in the names of its inputs and parameters, for whoever reads the
-// file without frictab. `law` has the piece already where it is there.
+// Writes the law's formulas, in the names of its inputs and parameters, for readers without
+// frictab. The key `law` of an unregistered law already contains the piece.
 void write_expressions(Fields& f, const models::Model& model) {
   const models::AssembledLaw law(model);
   f.within("expressions", [&](Fields& texts) {
@@ -265,10 +269,13 @@ void write_law(Fields& f, const models::Model& model) {
   write_expressions(f, model);
 }
 
-// What a file says of a fit: models/NAME.json; calibration.json; there of a law fitted to all
-// experiments. None is left that could judge the latter: what is called validation of the others is
-// cross-validation here.
-enum class Part { model, calibrated, delivered };
+// Kinds of fits in files. No experiment is left to validate a delivered fit, so its errors are
+// written as cross-validation.
+enum class Part {
+  model,      // models/NAME.json
+  calibrated, // a law of calibration.json
+  delivered   // that law fitted to all experiments
+};
 
 void describe_fit(Fields& f, ModelFit& fit, Part part,
                   const std::vector<std::string>& experiments = {});
@@ -320,9 +327,9 @@ void describe_fit(Fields& f, ModelFit& fit, Part part,
   f.if_there("polynomial", fit.polynomial);
   if (!f.reads()) write_law(f, model);
   bool candidate = !fit.reference;
-  if (f.has("candidate", fit.reference)) f("candidate", candidate); // none: files of 0.1
+  if (f.has("candidate", fit.reference)) f("candidate", candidate); // not in files of 0.1
   if (f.reads()) fit.reference = !candidate;
-  if (f.has("fitted_to", fit.fitted_to_all)) // none: files of 0.1.0
+  if (f.has("fitted_to", fit.fitted_to_all)) // not in files of 0.1.0
     f.one_of("fitted_to", fit.fitted_to_all, {{"all", true}, {"training", false}}, {false});
   if (calibrated) describe_delivered(f, fit);
   if (part == Part::delivered) f("cross_validation", fit.validation);

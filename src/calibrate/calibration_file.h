@@ -8,14 +8,15 @@
 
 namespace frictab::calibrate {
 
-// calibration.json: every law with parameters, errors, termination. The wall time is given as the
-// next of 10, 60, 600, 3600 seconds above it, so that the same job gives the same bytes.
+// Returns calibration.json: every law with parameters, errors and termination. The wall time is
+// rounded up to 10, 60, 600 or 3600 seconds, so that the same job gives the same bytes.
 std::string calibration_json(const Calibration& calibration);
 Calibration parse_calibration(std::string_view text, const std::string& file);
 
-// models/<name>.json: one law, complete.
+// Returns models/<name>.json: one complete law.
 std::string model_json(const ModelFit& fit, const Calibration& calibration);
-// Model, standard errors and what the data reached; a model file holds no errors of prediction.
+// Reads the model, its standard errors and the ranges of the data; a model file has no prediction
+// errors.
 ModelFit parse_model_fit(std::string_view text, const std::string& file);
 models::Model parse_model(std::string_view text, const std::string& file);
 

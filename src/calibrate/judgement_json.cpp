@@ -1,4 +1,4 @@
-// What validation says, to JSON and back.
+// Converts results of validation to JSON and back.
 #include "calibrate/judgement_json.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Start values, and the way from few rows to all of them.
+// Finds start values and refines fits from few rows to all rows.
 #include "calibrate/law_problem.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t few_rows = 256;     // enough to distinguish minima
 constexpr std::size_t coarse_rows = 2800; // enough to come within a standard error of the optimum
-constexpr std::size_t orowan_breaks = 12; // places of the kink from which other losses start
+constexpr std::size_t orowan_breaks = 12; // places of the kink where other losses start
 
 std::vector<double> default_start(const FitProblem& problem) {
   std::vector<double> start;
@@ -40,7 +40,7 @@ std::vector<double> halton_start(const FitProblem& problem, std::size_t index) {
   return start;
 }
 
-// Global search over the bounds by NLopt's DIRECT-L.
+// Searches globally within the bounds by NLopt's DIRECT-L.
 std::vector<double> direct_start(const FitProblem& problem, const LossFunction& loss) {
   const std::size_t size = problem.parameters.size();
   std::vector<double> lower, upper, x = default_start(problem);
@@ -122,7 +122,7 @@ void refine(FitResult& fit, const FitProblem& problem, const LossFunction& loss,
   fit.evaluations += before;
 }
 
-// L1 smoothed over `share` of the residuals' scale.
+// Returns L1 smoothed over `share` of the residuals' scale.
 LossFunction rounded(double scale, double share) {
   return {Loss::l1, share * scale, 6 * share * scale};
 }
@@ -161,7 +161,7 @@ LawProblem::LawProblem(const models::Law& law, const models::Conventions& conven
   levels_.push_back(std::move(all));
 }
 
-// Orowan's loss has several minima, and the least of the squares is known exactly.
+// Returns starts for Orowan, whose loss has several minima but an exact least-squares optimum.
 LawProblem::Starts LawProblem::law_starts() const {
   if (law_.name != "orowan" || !law_.base.empty()) return {};
   const auto column = [&](const char* name) {
@@ -316,7 +316,7 @@ void LawProblem::add_uncertainty(LawFit& fit, Loss kind, double huber_delta_MPa,
   result.evaluations += settled.evaluations;
   if (settled.cost > here * (1 + 1e-9)) return;
   result.parameters = settled.parameters;
-  // for the moved parameters: one that was at a bound may have left it
+  // Moved parameters need new errors, because they may have left a bound.
   fit.uncertainty = uncertainty();
 }
 

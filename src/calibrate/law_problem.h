@@ -1,4 +1,4 @@
-// A law and the rows it is fitted to: all rows, and thinned copies of them.
+// A law and the rows that it is fitted to: all rows and thinned copies of them.
 #pragma once
 
 #include <deque>
@@ -52,7 +52,7 @@ private:
   std::vector<FitResult> search(const Level& level, const Starts& offered,
                                 LossFunction& loss) const;
 
-  // Start values by an algorithm for this law; empty if there is none and the law is searched.
+  // Returns start values from an algorithm for this law; empty for laws that need a search.
   Starts law_starts() const;
 
   const models::Law& law_;

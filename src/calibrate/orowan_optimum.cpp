@@ -1,4 +1,4 @@
-// The wedges of Orowan's sum of squares, one after the other.
+// Minimises Orowan's sum of squares wedge by wedge.
 #include "calibrate/orowan_optimum.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace frictab::calibrate {
 
 namespace {
 
-// Row numbers in the order of sigma_N/k. A first pass deals them into buckets of equal width, so
-// that each sort is short; ratios that all fall into one bucket only make it slower.
+// Returns row numbers in the order of sigma_N/k. A first pass deals them into buckets of equal
+// width, so that each sort is short; ratios that all fall into one bucket only make it slower.
 std::vector<std::uint32_t> in_order(const std::vector<double>& ratio) {
   const auto [least, most] = std::minmax_element(ratio.begin(), ratio.end());
   const double low = *least, high = *most;
@@ -55,14 +55,15 @@ struct Best {
   }
 };
 
-// Rows with ratios up to `last` under Coulomb friction, from `next` on under shear friction.
+// Offers the optimum of a wedge: Coulomb friction for ratios up to `last`, shear friction from
+// `next`.
 void offer_wedge(const Quadratic& coulomb, const Quadratic& shear, double last, double next,
                  Best& best) {
   const OrowanPoint p{coulomb.lowest(), shear.lowest()};
   if (p.mu * last <= p.m && p.mu * next >= p.m) best.offer(p, coulomb.at(p.mu) + shear.at(p.m));
 }
 
-// The border of two wedges: the kink m = ratio mu.
+// Offers the optimum on the border of two wedges, where the kink is m = ratio mu.
 void offer_border(const Quadratic& coulomb, const Quadratic& shear, double ratio, Best& best) {
   const Quadratic along{coulomb.gg + ratio * ratio * shear.gg, coulomb.gt + ratio * shear.gt};
   const double mu = std::min(along.lowest(), ratio > 1 ? 1 / ratio : 1); // m <= 1
@@ -82,7 +83,7 @@ std::vector<OrowanPoint> orowan_optimum(const OrowanRows& rows, std::size_t brea
   }
   const auto order = in_order(ratio);
   Best best;
-  if (shear.lowest() <= ratio[order[0]]) // shear friction everywhere: mu is anything
+  if (shear.lowest() <= ratio[order[0]]) // shear friction everywhere: mu has no effect
     best.offer({1, shear.lowest()}, shear.at(shear.lowest()));
   std::vector<OrowanPoint> points(1);
   double last = 0;
@@ -99,7 +100,8 @@ std::vector<OrowanPoint> orowan_optimum(const OrowanRows& rows, std::size_t brea
     shear.add(rows.k[row], rows.tau[row], -weight(row));
     last = ratio[row];
   }
-  // Without shear friction m is anything; as good as a kink at the last row, and preferred to it.
+  // Without shear friction m has no effect. Such a point is preferred to an equally good kink at
+  // the last row.
   const double mu = coulomb.lowest();
   if (mu * last <= 1 && coulomb.at(mu) <= best.cost + 1e-13 * std::abs(best.cost))
     best.point = {mu, 1};
