@@ -1,4 +1,4 @@
-// Traces to JSON and back.
+// Converts traces to JSON and back.
 #include "trace/trace_file.h"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ void describe_input(Fields& f, effects::EffectInput& input) {
   if (f.has("knots", !input.knots.empty())) f.known("knots", input.knots);
 }
 
-// As many columns, knots, levels and parameters as the form asks for.
+// Throws InputError unless columns, knots, levels and parameters match the form.
 void check_placed(const effects::PlacedEffect& p, const std::string& file) {
   const auto ascend = [](const std::vector<double>& knots) {
     return !knots.empty() &&
@@ -88,7 +88,7 @@ void describe_gain(Fields& f, calibrate::Difference& gain) {
 }
 
 void describe_scatter(Fields& f, Trace& t) {
-  const bool old = f.reads() && f.json().contains("noise_floor"); // as versions to 0.1.0 wrote
+  const bool old = f.reads() && f.json().contains("noise_floor"); // written up to version 0.1.0
   f.within(old ? "noise_floor" : "scatter_by_noise_model", [&](Fields& floor) {
     floor("mae_MPa", t.noise_floor.mae_MPa);
     floor("rmse_MPa", t.noise_floor.rmse_MPa);
@@ -135,7 +135,7 @@ static void describe(Fields& f, EffectCurve& c) {
   f("point_factor", c.point_factor);
 }
 
-// null: there is nothing to settle, or nothing that would settle it.
+// Describes the proposed tests; null if nothing is open or no test would settle it.
 static void describe(Fields& f, Design& d) {
   if (f.null(d.tests.empty())) return;
   f("settles", d.settles);

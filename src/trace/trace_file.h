@@ -1,4 +1,4 @@
-// trace.json: traces as JSON and back.
+// Conversion of traces to trace.json and back.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace frictab::trace {
 
-// Schema frictab/trace/1 of the first trace; further traced laws are its `others`.
+// Returns the first trace in schema frictab/trace/1; traces of further laws are its `others`.
 std::string trace_json(const std::vector<Trace>& traces, bool synthetic);
-// Everything but curves' points and the extended fits, which calibration.json holds.
+// Reads all except the points of curves and the extended fits, which are in calibration.json.
 std::vector<Trace> parse_traces(std::string_view text, const std::string& file);
 
 } // namespace frictab::trace
