@@ -24,7 +24,7 @@ double best_p_value(const calibrate::Comparisons& comparisons, const std::string
   return i < comparisons.best_p_values.size() ? comparisons.best_p_values[i] : no_value;
 }
 
-// A trained law has none: its numbers are part of its formula.
+// Returns no parameters for a trained law, because its numbers are part of its formula.
 std::vector<FittedParameter> parameters_of(const calibrate::ModelFit& fit) {
   const models::Law& law = *fit.model.law;
   std::vector<FittedParameter> parameters;

@@ -22,10 +22,10 @@ struct FittedParameter {
 struct LawResult {
   std::string law;
   bool fitted = false; // has fitted parameters, in contrast to constants of the literature
-  double mae_MPa = 0, rmse_MPa = 0, bias_MPa = 0; // on tests that were not trained on
+  double mae_MPa = 0, rmse_MPa = 0, bias_MPa = 0; // on tests outside the training
   calibrate::Interval mae_interval;               // 95 %, whole tests resampled
   double best_p_value = 0; // of "no law has a smaller MAE"; NaN: laws were not compared
-  std::optional<double> band_low, band_high; // factors below which 5 % and 95 % of new tests are
+  std::optional<double> band_low, band_high; // 5 % and 95 % quantiles of factors of new tests
   std::vector<FittedParameter> parameters;
 };
 
@@ -53,7 +53,7 @@ void add_effects(CampaignResult& result, const std::vector<trace::Trace>& traces
 
 // `key`: 16 hex digits.
 std::string result_json(const CampaignResult& result, const std::string& key);
-// Throws InputError where the text was not written by result_json.
+// Throws InputError if the text was not written by result_json.
 CampaignResult parse_result(std::string_view text, const std::string& file);
 
 } // namespace frictab::study
