@@ -43,7 +43,7 @@ std::string proof_text(const DriftRecord& record) {
              : "not proven: " + record.not_proven;
 }
 
-// Of the rows, how many lie outside the range.
+// Describes the number of rows outside the range as a share of all rows.
 void describe_share_outside(Fields& f, DriftRecord& r) {
   const auto rows = static_cast<double>(r.n_rows);
   double share = r.n_rows == 0 ? 0 : static_cast<double>(r.n_outside) / rows;
