@@ -1,4 +1,4 @@
-// The keys of a law that is a text (models/law_text.h): [models.NAME], or one of the registry.
+// The keys of a law given as a text (models/law_text.h): [models.NAME], or a law of the registry.
 #include <algorithm>
 
 #include "job/key_builder.h"
@@ -34,7 +34,8 @@ std::vector<std::string> conventions_of_k() {
   return names;
 }
 
-// A key of a law, by a member of its text; of the program's texts, which need no explanation.
+// Returns a key that sets a member of a law's text and that only the program's texts use, so that
+// it needs no explanation.
 template <auto member> auto registry_key(const char* key) {
   using T = std::remove_cvref_t<decltype(models::LawText{}.*member)>;
   return named<T>(

@@ -1,4 +1,4 @@
-// Makes laws from the texts in the program.
+// Builds laws from the texts in the program.
 #include "job/literature.h"
 
 #include <sstream>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view folder = "laws/";
 
-// All of templates/laws, read once.
+// Returns all laws of templates/laws, read once.
 const models::Laws& laws_of_texts() {
   static const models::Laws laws = [] {
     JobReader reader;

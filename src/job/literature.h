@@ -1,6 +1,6 @@
 // Laws that come with the program as texts: templates/laws/*.toml, each table a law in the form of
 // a job's [models.NAME]. Those with an `order` belong to the registry (models::all_laws) and are
-// calibrated by default. The others are laws of the literature, which a job gets by naming them
+// calibrated by default. The others are laws of the literature, which a job requests by name
 // (models.use), because the best of many candidates looks too good by chance.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace frictab::job {
 // registry.
 const models::Laws& literature();
 
-// Returns the law as lines of a job, to be changed there: [models.NAME] and its keys. Empty where
+// Returns the law as lines of a job, to be changed there: [models.NAME] and its keys. Empty if
 // `name` is not a law of the literature.
 std::string literature_text(const std::string& name);
 
