@@ -11,11 +11,6 @@ namespace frictab::calibrate {
 
 using io::Fields;
 
-void describe(Fields& f, Interval& i) {
-  f.item(0, i.low);
-  f.item(1, i.high);
-}
-
 void describe(Fields& f, Metrics& m) {
   f("mae_MPa", m.mae_MPa);
   f("rmse_MPa", m.rmse_MPa);

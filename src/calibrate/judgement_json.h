@@ -2,14 +2,10 @@
 #pragma once
 
 #include "calibrate/judgement.h"
-
-namespace frictab::io {
-class Fields;
-}
+#include "io/json_fields.h"
 
 namespace frictab::calibrate {
 
-void describe(io::Fields& f, Interval& interval); // [low, high]
 void describe(io::Fields& f, Metrics& metrics);
 void describe(io::Fields& f, Determination& determination);
 void describe(io::Fields& f, Influence& influence);

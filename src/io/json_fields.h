@@ -139,6 +139,17 @@ template <std::unsigned_integral T> void describe(Fields& f, T& count) {
     f.json() = count;
 }
 
+// An interval, as [low, high].
+template <class T>
+requires requires(T& interval) {
+  { interval.low } -> std::same_as<double&>;
+  { interval.high } -> std::same_as<double&>;
+}
+void describe(Fields& f, T& interval) {
+  f.item(0, interval.low);
+  f.item(1, interval.high);
+}
+
 // Describes an optional value, which is null if empty.
 template <class T> void describe(Fields& f, std::optional<T>& value) {
   if (!f.null(!value)) describe(f, f.reads() ? value.emplace() : *value);

@@ -20,7 +20,6 @@
 
 namespace frictab::proof {
 
-using table::Interpolation;
 using table::Probe;
 using table::StateRange;
 using table::Table;
@@ -78,8 +77,9 @@ public:
   CellBounder(const models::AssembledLaw& law, const Table& table,
               const std::vector<StateRange>& ranges)
       : ranges_(ranges), table_(table), function_(table), law_(law, table::names_of(ranges)),
-        monomials_(table.axes.size(),
-                   table.interpolation == Interpolation::cubic ? degree_cubic : degree_linear),
+        monomials_(table.axes.size(), table.interpolation == table::Interpolation::cubic
+                                          ? degree_cubic
+                                          : degree_linear),
         piece_(piece_of(law, table), axis_names(table), monomials_), interpolant_(table),
         rewriting_(monomials_), deviation_(monomials_, interpolant_.support()),
         combine_(

@@ -9,7 +9,6 @@
 
 namespace frictab::proof {
 
-using table::Interpolation;
 using table::SplineAxis;
 using table::Table;
 using table::TableAxis;
@@ -37,7 +36,7 @@ double binomial(std::size_t n, std::size_t k) {
 } // namespace
 
 CellPolynomials::CellPolynomials(const Table& table)
-    : support_(table.interpolation == Interpolation::cubic ? 4 : 2) {
+    : support_(table.interpolation == table::Interpolation::cubic ? 4 : 2) {
   std::vector<SplineAxis> splines;
   for (const TableAxis& axis : table.axes) {
     Axis out{axis.nodes.size(), {}, {}};

@@ -96,8 +96,8 @@ static void describe(Fields& f, DriftRecord& r) {
   f("outside", r.beyond);
   f.known("max_abs_outside_MPa", r.max_abs_outside_MPa);
   f("n_refused", r.n_refused);
-  f.unless_default("n_rows_not_posed", r.n_rows_not_posed);
-  f.unless_default("n_points_not_posed", r.n_points_not_posed);
+  f.unless_default("n_rows_not_posed", r.n_rows_not_representable);
+  f.unless_default("n_points_not_posed", r.n_points_not_representable);
   f.unless_default("n_not_refused", r.n_not_refused);
   f.known("worst_case_MPa", r.worst_case_MPa);
   f.known("worst_case_at", r.worst_state);
