@@ -84,7 +84,7 @@ verify::VerifyInput verify_input(const Run& run, const models::AssembledLaw& law
   return input;
 }
 
-Table direct_form(const models::AssembledLaw& law, const Table& table) {
+Table direct_with_tolerance(const models::AssembledLaw& law, const Table& table) {
   Table direct = table::direct_form(law, table);
   direct.record.tolerance_MPa = table.record.tolerance_MPa;
   direct.record.tolerance_from = table.record.tolerance_from;

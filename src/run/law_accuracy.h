@@ -31,6 +31,6 @@ verify::VerifyInput verify_input(const Run& run, const models::AssembledLaw& law
 
 // The law in the form from which solvers' own tables are made: sampling a table instead would add
 // that table's drift to theirs. Keeps the table's tolerance.
-table::Table direct_form(const models::AssembledLaw& law, const table::Table& table);
+table::Table direct_with_tolerance(const models::AssembledLaw& law, const table::Table& table);
 
 } // namespace frictab::run

@@ -64,7 +64,7 @@ void export_sources(Run& run) {
   FaultList faults; // of all targets: one may accept what another refuses
   std::set<const codegen::Exporter*> refused;
   for (const Table& table : run.tables) {
-    const Table direct = direct_form(law_of(run, table), table);
+    const Table direct = direct_with_tolerance(law_of(run, table), table);
     for (const codegen::Exporter* exporter : targets) {
       if (refused.count(exporter)) continue; // every table would fail for the same reason
       const bool of_law =

@@ -40,7 +40,7 @@ std::vector<verify::GeneratedSource> sources_of(Run& run, const Table& table, co
 
 std::vector<verify::DriftRecord> records_of(Run& run, const Table& table) {
   const models::AssembledLaw law = law_of(run, table);
-  const Table direct = direct_form(law, table);
+  const Table direct = direct_with_tolerance(law, table);
   verify::VerifyInput input =
       verify_input(run, law, table, run.job.directory + "/tables/" + table.model + ".h5");
   const auto known = run.drift_of_tables.find(table.model);

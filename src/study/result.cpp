@@ -130,7 +130,7 @@ std::string result_json(const CampaignResult& result, const std::string& key) {
 
 CampaignResult parse_result(std::string_view text, const std::string& file) {
   CampaignResult result;
-  io::read_record(text, file, schema, "remove its folder: `frictab study run` makes it anew",
+  io::read_record(text, file, schema, "remove its folder: `frictab study run` rebuilds it",
                   [&](Fields& f) { describe(f, result); });
   return result;
 }
