@@ -108,9 +108,6 @@ void print_ratios(const Times& times) {
     print_pair(times, ("2-D bicubic " + f + " to GSL").c_str(), "cubic/arbitrary/value/33x33/" + f,
                "cubic/arbitrary/value/33x33/gsl", "");
   }
-  for (const char* other : {"file, one by one", "memory"})
-    print_pair(times, fmt::format("values on disk, all states in one call, to {}", other).c_str(),
-               "stored/210681/file", fmt::format("stored/210681/{}", other), "");
   const double nested = time_of(times, "linear/uniform/nested/210681/O2");
   if (nested == 0) return;
   const double speed = nested / quoted_nested;

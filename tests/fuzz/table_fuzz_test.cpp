@@ -22,25 +22,21 @@ enum Outcome : char { read_well = 'w', refused = 'r', unsound = 'u', other_error
 
 // What read_table promises.
 bool is_sound(const table::Table& table) {
-  std::vector<double> values(table.nodes());
-  if (table.stored)
-    table.stored->read(0, values);
-  else if (table.value.size() != table.nodes())
-    return false;
+  if (table.value.size() != table.nodes()) return false;
   const table::TableFunction function(table);
   std::vector<double> state;
   for (const std::string& name : function.inputs())
     state.push_back(table.range(name).value_or(std::pair{1.0, 2.0}).second);
   function(state);
-  for (const double value : table.stored ? values : table.value)
+  for (const double value : table.value)
     if (!std::isfinite(value)) return false;
   return true;
 }
 
-Outcome read(const std::string& file, std::size_t in_memory) {
+Outcome read(const std::string& file) {
   try {
     table::info_text(table::read_description(file), file);
-    return is_sound(table::read_table(file, in_memory)) ? read_well : unsound;
+    return is_sound(table::read_table(file)) ? read_well : unsound;
   } catch (const InputError& error) {
     return error.faults().empty() ? other_error : refused;
   } catch (const std::exception&) {
@@ -61,8 +57,7 @@ std::string damaged(std::string bytes, Random& random) {
 }
 
 // In a child process, so that a crash names its case and does not end the tests.
-std::string outcomes_in_child(const std::vector<std::string>& cases, const std::string& file,
-                              std::size_t in_memory) {
+std::string outcomes_in_child(const std::vector<std::string>& cases, const std::string& file) {
   int ends[2] = {};
   if (pipe(ends) != 0) return "";
   const pid_t child = fork();
@@ -70,7 +65,7 @@ std::string outcomes_in_child(const std::vector<std::string>& cases, const std::
     alarm(240); // an endless loop is a fault too
     for (const std::string& bytes : cases) {
       std::ofstream(file, std::ios::binary) << bytes;
-      const char outcome = read(file, in_memory);
+      const char outcome = read(file);
       if (::write(ends[1], &outcome, 1) != 1) _exit(1);
     }
     _exit(0);
@@ -97,11 +92,10 @@ TEST(TableFuzz, DamagedFileGivesASoundTableOrAnInputError) {
       if (sample.table.is_direct()) continue; // is no file
       table::write_table(sample.table, file, storage);
       const std::string valid = io::read_file(file);
-      const std::size_t in_memory = storage.chunked() ? 0 : table::most_bytes_in_memory;
       std::vector<std::string> cases(8);
       for (std::string& bytes : cases)
         bytes = damaged(valid, random);
-      const std::string told = outcomes_in_child(cases, file, in_memory);
+      const std::string told = outcomes_in_child(cases, file);
       ASSERT_EQ(told.size(), cases.size()) << sample.name << ": died in case " << told.size();
       for (std::size_t i = 0; i < told.size(); ++i) {
         ASSERT_TRUE(told[i] == read_well || told[i] == refused)

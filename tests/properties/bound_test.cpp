@@ -4,11 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
+#include "core/text.h"
 #include "models/law.h"
+#include "proof/bound.h"
 #include "support/law_parameter.h"
 #include "support/polynomial_model.h"
 #include "support/sample_data.h"
-#include "proof/bound.h"
 
 namespace frictab::bound_test {
 
@@ -17,7 +18,6 @@ using models::Model;
 using proof::bound_drift;
 using proof::DriftBound;
 using table::Interpolation;
-using rounded_up;
 
 namespace {
 

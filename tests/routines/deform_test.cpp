@@ -272,7 +272,7 @@ TEST_F(SlowDeform, StopsWithAnErrorCodeBeyondAnErrorSideAndNamesStateAndValue) {
       {"gfortran", "-shared", "-fPIC", "-std=legacy", "-o", "@{out}", "@{dir}/frictab_usrbcc.f"},
       {},
       0};
-  const TemporaryDirectory work;
+  const frictab::TemporaryDirectory work;
   const Library own(codegen::compile_library(deform().generate(asked), variant, work.path()));
   void* function = Library::address(own.handle(), "usrbcc_");
   *own.find<Ufhcom>("ufhcom_") = {20, 20, 50, 1000};

@@ -6,6 +6,7 @@
 #include "fuzz/target.h"
 #include "fuzz/temporary_file.h"
 #include "job/job.h"
+#include "run/stage.h"
 #include "run/stage_record.h"
 #include "trace/trace_file.h"
 #include "verify/verify.h"
@@ -69,8 +70,8 @@ void read_stages(std::string_view text) {
         return run::StageRecord(job, file.directory());
       },
       [](const run::StageRecord& made) {
-        for (const std::string& name : run::stage_names())
-          made.stale(name, "0");
+        for (const run::Stage& stage : run::all_stages())
+          made.stale(stage.name, "0");
         return made.json();
       });
 }
