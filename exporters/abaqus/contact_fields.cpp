@@ -25,10 +25,11 @@ const char* const source_of_signature =
 } // namespace
 
 ExportOption contact_fields_option() {
-  return {fields_key,
-          {"none", "vufield", "vufield_windows"},
-          "contour plots: a VUFIELD next to the routine gives the coefficient, the frictional shear "
-          "stress and the increments outside the range at the nodes as field variables 1 to 3"};
+  return {
+      fields_key,
+      {"none", "vufield", "vufield_windows"},
+      "contour plots: a VUFIELD next to the routine gives the coefficient, the frictional shear "
+      "stress and the increments outside the range at the nodes as field variables 1 to 3"};
 }
 
 bool has_contact_fields(const ExportRequest& request) {

@@ -100,7 +100,7 @@ void check_parameters(const models::Law& law, const Dataset& data, const Place& 
 
 // Reports that the data lack columns of a law that was requested.
 void report_missing(const models::Law& law, const std::vector<std::string>& missing,
-                  const CalibrationInput& input, FaultList& faults) {
+                    const CalibrationInput& input, FaultList& faults) {
   const LeftOut left{law.name, join(missing, ", ")};
   const auto named = law.places.find(missing.front());
   const bool is_named = named != law.places.end(); // in a user's formula
@@ -150,8 +150,8 @@ Metrics errors_on(const Dataset& data, const std::vector<double>& predicted,
   return metrics(data, predicted, options.bootstrap, options.seed);
 }
 
-void remark_rows_outside_range(ModelFit& fit, const models::AssembledLaw& law, const InputColumns& columns,
-                      const CalibrationInput& input) {
+void remark_rows_outside_range(ModelFit& fit, const models::AssembledLaw& law,
+                               const InputColumns& columns, const CalibrationInput& input) {
   const auto add = [&](const InputColumns& of, const Dataset& data, const char* called) {
     RowsBeyond beyond;
     beyond.add(*law.model.law, law.inputs, of, data);

@@ -193,9 +193,10 @@ private:
         std::vector<std::string> values{value_text(a), value_text(b)};
         fit_.determination.not_determined.push_back(
             {{name(a), name(b)},
-             fmt::format("{}: these tests hardly distinguish one from the other (correlation {:.3f}): "
-                         "tests that vary what one depends on, and not what the other does, would",
-                         join(values, ", "), correlation(a, b))});
+             fmt::format(
+                 "{}: these tests hardly distinguish one from the other (correlation {:.3f}): "
+                 "tests that vary what one depends on, and not what the other does, would",
+                 join(values, ", "), correlation(a, b))});
       }
   }
 

@@ -224,7 +224,8 @@ Explanation about_table_layout() {
        "and constants; a long one goes on in extension_2, extension_3, ...",
        {}},
       {"/: range_low_STATE, range_high_STATE",
-       "range of a state of combine that is not an axis, for verify; a name that is not a canonical state is an "
+       "range of a state of combine that is not an axis, for verify; a name that is not a "
+       "canonical state is an "
        "input only where these are there",
        {}},
       {"/: units_STATE, long_name_STATE, levels_STATE",

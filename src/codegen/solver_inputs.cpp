@@ -259,7 +259,7 @@ std::vector<SolverInput> solver_inputs(const ExportRequest& request, const Solve
 }
 
 table::HeldStates declared_constants(const ExportRequest& request,
-                                 const std::vector<SolverInput>& inputs) {
+                                     const std::vector<SolverInput>& inputs) {
   table::HeldStates held;
   for (const SolverInput& input : inputs) {
     const auto said = request.inputs.find(input.argument.name);

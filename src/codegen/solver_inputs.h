@@ -105,7 +105,7 @@ using FurtherProperties = std::vector<FurtherProperty>;
 
 // Returns the inputs that the job makes constants, [export.inputs] NAME = "constant:VALUE".
 table::HeldStates declared_constants(const ExportRequest& request,
-                                 const std::vector<SolverInput>& inputs);
+                                     const std::vector<SolverInput>& inputs);
 
 std::size_t property_count(const std::vector<SolverInput>& inputs);
 bool uses(const std::vector<SolverInput>& inputs, Source source);

@@ -110,7 +110,8 @@ void absorb(Dataset& all, const Dataset& more) {
 
 constexpr const char* only_same_columns =
     "all files of a list need the same columns: one that a file lacks may stand in `constants` or "
-    "`labels` of its [[data.files]]; data.bystanders says which are read in addition to the quantities";
+    "`labels` of its [[data.files]]; data.bystanders says which are read in addition to the "
+    "quantities";
 
 void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& faults) {
   for (const std::string& name : more.experiments)

@@ -273,7 +273,7 @@ void read_again(std::span<const Dataset* const> all, const TakeRows& take) {
 }
 
 std::pair<double, double> source_range(const Dataset& data, const std::string& name,
-                                      std::span<const double> held) {
+                                       std::span<const double> held) {
   if (!data.condensed) return ends_of(held);
   std::vector<double> ends;
   for (const RowsOfExperiment& one : data.condensed->experiments)

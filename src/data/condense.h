@@ -41,6 +41,6 @@ RatioSum ratio_sum(std::span<const double> above, std::span<const double> below)
 // Smallest and largest value of a column or a history over the source rows; over the rows in memory
 // if the data are not condensed. NaN without any value.
 std::pair<double, double> source_range(const Dataset& data, const std::string& name,
-                                      std::span<const double> held);
+                                       std::span<const double> held);
 
 } // namespace frictab::data

@@ -564,14 +564,14 @@ private:
 
   static std::string text_of(const std::string& name, double sign, const std::string& factor,
                              double sign_of_factor, double share) {
-    return fmt::format(
-        "tau_R_MPa goes as {}{}{}{} in addition to the states ({:.1g} % or less of what they leave is "
-        "left)",
-        sign > 0 ? "" : "1/", name,
-        factor.empty()       ? ""
-        : sign_of_factor > 0 ? "*"
-                             : "/",
-        factor, std::max(100 * share, 0.01));
+    return fmt::format("tau_R_MPa goes as {}{}{}{} in addition to the states ({:.1g} % or less of "
+                       "what they leave is "
+                       "left)",
+                       sign > 0 ? "" : "1/", name,
+                       factor.empty()       ? ""
+                       : sign_of_factor > 0 ? "*"
+                                            : "/",
+                       factor, std::max(100 * share, 0.01));
   }
 
   // True if c is the reading and w only a factor of it (a radius, an area).

@@ -29,7 +29,7 @@ double mean_of_ratio(const RatioSum& ratio) {
 
 // Overview from the stored summary of its source rows.
 TestOverview overview_of_source(const Dataset& data, const std::string& name,
-                             const RowsOfExperiment& rows) {
+                                const RowsOfExperiment& rows) {
   TestOverview test{name, rows.rows, {}, mean_of_ratio(rows.over_pressure), {}};
   for (const Quantity& quantity : quantities())
     if (data.has(quantity.name))
@@ -44,7 +44,8 @@ std::vector<TestOverview> overview(const Dataset& data) {
   std::vector<TestOverview> tests;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     if (data.condensed) {
-      tests.push_back(overview_of_source(data, data.experiments[e], data.condensed->experiments[e]));
+      tests.push_back(
+          overview_of_source(data, data.experiments[e], data.condensed->experiments[e]));
       continue;
     }
     const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;

@@ -40,8 +40,8 @@ constexpr ReadingRule all_rules[] = {
      not_a_cause, by_roles, of_columns},
 
     {"rows", "sliding", "under load and in motion", "fitted", by_rows, not_measured},
-    {"rows", "rest", "speed is 0, or below 2 % of the test's and cannot be distinguished from 0", left_out,
-     by_rows, of_rows},
+    {"rows", "rest", "speed is 0, or below 2 % of the test's and cannot be distinguished from 0",
+     left_out, by_rows, of_rows},
     {"rows", "turning", "where a stroke ends: slow, or the force still builds up", left_out,
      by_rows, of_rows},
     {"rows", "closing", "the load builds up while it slides", fitted, by_rows, not_measured},

@@ -378,7 +378,8 @@ void report_zero_errors(Dataset& data, ForceZero said) {
     if (why == DirectionsDiffer::by_friction)
       text += ": it is in proportion to the load, so friction";
     if (why == DirectionsDiffer::cannot_tell)
-      text += ". Is it? These loads cannot distinguish a zero error from friction that depends on the direction "
+      text += ". Is it? These loads cannot distinguish a zero error from friction that depends on "
+              "the direction "
               "(data.force_zero = \"remove\" or \"keep\" says which)";
   }
   tell(data, std::move(text));

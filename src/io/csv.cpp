@@ -356,7 +356,8 @@ struct RaggedLine {
 };
 
 // Reports ragged lines, once per number of cells.
-void report_ragged_lines(const std::vector<RaggedLine>& ragged, const CsvTable& table, FaultList& faults) {
+void report_ragged_lines(const std::vector<RaggedLine>& ragged, const CsvTable& table,
+                         FaultList& faults) {
   std::map<std::size_t, std::size_t> count;
   for (const RaggedLine& one : ragged)
     ++count[one.cells];

@@ -22,8 +22,8 @@ nlohmann::ordered_json parse_json(std::string_view text, const std::string& file
 std::uint64_t count_of(const nlohmann::ordered_json& value);
 
 // Runs `read`, which takes values out of parsed JSON. A missing or mistyped key becomes an
-// InputError that names the file, the `path` of keys that `read` had reached, and, from `mends`, the
-// remedy.
+// InputError that names the file, the `path` of keys that `read` had reached, and, from `mends`,
+// the remedy.
 void read_json(const std::string& file, const std::string& mends, const std::function<void()>& read,
                const std::string& path = "");
 

@@ -206,12 +206,13 @@ TEST_F(Judgement, OfOneTestErrorsAreOfTheFitAndEveryTextSaysSo) {
   const std::string out = calibrate({"--no-bystanders", "--profile", "varied"}, {two_laws});
   ASSERT_EQ(exit_code, 0) << error;
   EXPECT_THAT(
-      out, testing::StartsWith(
-               "Data: 400 rows of 1 experiment, no other to judge the laws by - SYNTHETIC data\n"
-               "  if they are of several tests, data.experiment names the column that distinguishes "
-               "them\n\n"
-               "Laws by mean absolute error on the ONE experiment they are fitted to; no other was "
-               "seen (tau_R, MPa):\n"));
+      out,
+      testing::StartsWith(
+          "Data: 400 rows of 1 experiment, no other to judge the laws by - SYNTHETIC data\n"
+          "  if they are of several tests, data.experiment names the column that distinguishes "
+          "them\n\n"
+          "Laws by mean absolute error on the ONE experiment they are fitted to; no other was "
+          "seen (tau_R, MPa):\n"));
   EXPECT_THAT(out, Not(HasSubstr("on new tests expect")));
   const auto json = calibration();
   EXPECT_EQ(json.at("judged_by"), "fit");

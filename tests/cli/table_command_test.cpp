@@ -173,8 +173,9 @@ TEST_F(TableCommand, StateThatIsNoAxisMayLieBeyondTheVerifiedRangeAndThatIsSaid)
                                            "--along", "v_rel_mm_s", "--points", "2"};
   const CommandResult result = run(arguments);
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err, "note: sigma_n_MPa = 3000 is not an axis and lies outside 500 .. 2500, for which "
-                        "the table was verified\n");
+  EXPECT_EQ(result.err,
+            "note: sigma_n_MPa = 3000 is not an axis and lies outside 500 .. 2500, for which "
+            "the table was verified\n");
   EXPECT_THAT(result.out, HasSubstr("\n3000,1,10,800,300\n"));
 }
 

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/template.h"
 #include "core/random.h"
+#include "core/template.h"
 
 namespace frictab::template_fuzz_test {
 

@@ -81,8 +81,8 @@ void expect_law(const models::Model& model, bool by_language = false) {
 
 class SlowDirectFormOfEveryFormula : public testing::TestWithParam<std::string> {};
 
-// What stands around the formula is not a law's own: one law goes through every target, with those of
-// SlowDirectForm.
+// What stands around the formula is not a law's own: one law goes through every target, with those
+// of SlowDirectForm.
 TEST_P(SlowDirectFormOfEveryFormula, IsTheLawTo1e12InEveryLanguage) {
   const bool by_language = GetParam() != "log_coulomb";
   expect_law(test::plausible_model(*models::find_law(GetParam())), by_language);

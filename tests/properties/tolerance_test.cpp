@@ -5,9 +5,9 @@
 
 #include "core/error.h"
 #include "models/law.h"
+#include "proof/bound.h"
 #include "support/law_parameter.h"
 #include "support/sample_data.h"
-#include "proof/bound.h"
 
 namespace frictab::tolerance_test {
 

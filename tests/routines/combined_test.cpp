@@ -291,7 +291,8 @@ TEST(CombinedText, RefusesNamesByWhichNoSolverCalls) {
   EXPECT_THAT(refusal("abaqus_vfric", {"it's"}), HasSubstr("'it's' is not a name of the *SURFACE"));
   EXPECT_THAT(refusal("abaqus_vfric", {std::string(51, 'x')}), HasSubstr("has 51 characters"));
   EXPECT_EQ(refusal("abaqus_vfric", {std::string(50, 'x'), "a b-c"}), "accepted");
-  EXPECT_THAT(refusal("marc_ufric", {"DIE"}), HasSubstr("'DIE' is not a number of the contact body"));
+  EXPECT_THAT(refusal("marc_ufric", {"DIE"}),
+              HasSubstr("'DIE' is not a number of the contact body"));
   EXPECT_THAT(refusal("marc_ufric", {"2", "02"}), HasSubstr("'02' is not a number"));
   EXPECT_EQ(refusal("abaqus_vfric", std::vector<std::string>(28, "x")).find("error: 28 laws"), 0u);
 }

@@ -118,8 +118,8 @@ TEST_F(StudyReport, CountsAResultThatIsDamagedAsFailedAndSaysWhatMendsIt) {
   EXPECT_EQ(tally.counts.failed, 2u);
   const std::string text = study::report_text(all, tally);
   EXPECT_THAT(text, HasSubstr("failed: twin-2: its result cannot be read: this is not valid JSON"));
-  EXPECT_THAT(
-      text, HasSubstr(study::key_text(all.keys[1]) + ", and `frictab study run` rebuilds it\n"));
+  EXPECT_THAT(text,
+              HasSubstr(study::key_text(all.keys[1]) + ", and `frictab study run` rebuilds it\n"));
   EXPECT_THAT(text, HasSubstr("failed: twin-3: its result cannot be read: "));
   EXPECT_EQ(tally.laws.at("coulomb").campaigns, 1u);
 }

@@ -52,8 +52,9 @@ TEST(Aliases, ALabelAtOnePressureEachCannotBeToldFromIt) {
   EXPECT_EQ(found[0].column, "batch");
   EXPECT_EQ(found[0].state, "sigma_n_MPa");
   EXPECT_GT(found[0].share, 0.99);
-  EXPECT_EQ(found[0].text, "batch cannot be distinguished from sigma_n_MPa: A only at 800, B only at 1500; "
-                           "one test of A at 1500 would");
+  EXPECT_EQ(found[0].text,
+            "batch cannot be distinguished from sigma_n_MPa: A only at 800, B only at 1500; "
+            "one test of A at 1500 would");
   trace::TraceOptions ignored;
   ignored.ignore = {"batch"};
   EXPECT_THAT(aliases(data, ignored), IsEmpty());
@@ -70,8 +71,9 @@ TEST(Aliases, NumbersAreToldAsLevelsOrAsALine) {
   add_setting(line, "stroke_speed", per_test([&](std::size_t e) { return 3 * c.speed[e] + 0.1; }));
   const auto found = aliases(line);
   ASSERT_THAT(found, SizeIs(1));
-  EXPECT_THAT(found[0].text, HasSubstr("stroke_speed cannot be distinguished from v_rel_mm_s: they change "
-                                       "together; one test with stroke_speed "));
+  EXPECT_THAT(found[0].text,
+              HasSubstr("stroke_speed cannot be distinguished from v_rel_mm_s: they change "
+                        "together; one test with stroke_speed "));
 }
 
 TEST(Aliases, AreNoneOfWhatIsCrossedOrNamesTestsOrVariesWithin) {
@@ -121,7 +123,8 @@ TEST(Aliases, StandBesideNothingWasFound) {
   trace::Trace t;
   t.model = "wzl";
   t.cannot_tell = trace::find_aliases(data, fit.model, {});
-  EXPECT_THAT(trace::trace_brief(t), HasSubstr("\n  batch cannot be distinguished from sigma_n_MPa: A"));
+  EXPECT_THAT(trace::trace_brief(t),
+              HasSubstr("\n  batch cannot be distinguished from sigma_n_MPa: A"));
   EXPECT_THAT(trace::trace_in_short(t),
               HasSubstr("wzl: nothing was found; batch cannot be distinguished from sigma_n_MPa;"));
 }

@@ -330,9 +330,8 @@ TEST_F(CondensedLoad, SeveralFilesAreOneCampaign) {
 
 TEST_F(CondensedLoad, ScatteredRowsAreRefusedAtTheirLine) {
   const std::string text = tests(2); // 80 rows below the header
-  EXPECT_THAT(
-      condensed_fault(text + "t0,9,500,10,3,40\n"),
-      HasSubstr("a.csv:82: error: experiment 't0' comes again, after rows of another one"));
+  EXPECT_THAT(condensed_fault(text + "t0,9,500,10,3,40\n"),
+              HasSubstr("a.csv:82: error: experiment 't0' comes again, after rows of another one"));
   EXPECT_THAT(fault(text + "t0,9,500,10,3,40\n"), "no fault"); // rows that are held are gathered
 }
 

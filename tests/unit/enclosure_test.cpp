@@ -15,9 +15,9 @@ namespace frictab::enclosure_test {
 
 using expr::Bounds;
 using expr::Expr;
-using proof::Monomials;
 using expr::Op;
 using expr::parse_expr;
+using proof::Monomials;
 using proof::TaylorProgram;
 
 namespace {

@@ -232,9 +232,9 @@ TEST_F(LawTables, OfScatteredPointsOrTooManyNodesAreRefused) {
   std::string scattered = "v_rel_mm_s,psi,mu\n", large = "v_rel_mm_s,mu\n";
   for (int i = 1; i <= 100; ++i)
     scattered += fmt::format("{},{},0.1\n", i, 1 + i * 0.01);
-  EXPECT_THAT(
-      read(scattered).faults,
-      testing::StartsWith("FILE:1: error: is not a full grid: 100 rows for 100 x 100 = 10000 nodes"));
+  EXPECT_THAT(read(scattered).faults,
+              testing::StartsWith(
+                  "FILE:1: error: is not a full grid: 100 rows for 100 x 100 = 10000 nodes"));
   for (std::size_t i = 1; i <= models::most_law_nodes + 1; ++i)
     large += fmt::format("{},0.1\n", i);
   EXPECT_THAT(read(large).faults,

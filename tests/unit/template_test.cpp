@@ -8,7 +8,6 @@
 
 namespace frictab::template_test {
 
-
 namespace {
 
 TemplateValues text(std::map<std::string, std::string> names) {
@@ -101,7 +100,7 @@ TEST(Template, CountsAValueAsUsedThatOnlyABranchNotTakenNames) {
 
 TEST(Template, InsertsNamesIntoOneLineAndLeavesTheOthersUnused) {
   EXPECT_EQ(insert_names("x(@{index}) = press@{convert}",
-                                  {{"index", "2"}, {"convert", "/1.0D6"}, {"field", "7"}}),
+                         {{"index", "2"}, {"convert", "/1.0D6"}, {"field", "7"}}),
             "x(2) = press/1.0D6");
   EXPECT_THROW(insert_names("@{nowhere}", {}), std::logic_error);
 }
@@ -165,8 +164,7 @@ TEST(Template, RefusesALoopVariableTwice) {
 }
 
 TEST(Template, FindsEmbeddedFilesAndThrowsForOthers) {
-  EXPECT_THAT(std::string(embedded_template("frictab_kernel.h")),
-              HasSubstr("ft_linear_##N"));
+  EXPECT_THAT(std::string(embedded_template("frictab_kernel.h")), HasSubstr("ft_linear_##N"));
   EXPECT_THAT(std::string(embedded_template("c/frictab_tau_R.c")), HasSubstr("@{kernel}"));
   EXPECT_THROW(embedded_template("c/none"), std::logic_error);
 }

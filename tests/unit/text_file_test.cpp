@@ -82,8 +82,7 @@ TEST_F(TextFile, InUtf16HoldsZeroBytes) {
 }
 
 TEST_F(TextFile, ThatIsNotThereIsNamedAsTheJobNamesIt) {
-  EXPECT_THAT(fault_of(directory.path("none.csv")),
-              HasSubstr("data.csv: error: no such file"));
+  EXPECT_THAT(fault_of(directory.path("none.csv")), HasSubstr("data.csv: error: no such file"));
 }
 
 } // namespace

@@ -65,7 +65,8 @@ const char* const notes =
     "by motion, pressure and temperature. Speed is |DGAM|/DTIME: a static step needs times that "
     "mean seconds, or the law is asked at wrong speeds. Use *STEP, UNSYMM=YES: without it DDTDDP "
     "is ignored and convergence suffers. A model without temperatures passes TEMP = 0 (recalled), "
-    "which cannot be distinguished from 0 degC: set [export.inputs] T_contact_C = property or constant:20 "
+    "which cannot be distinguished from 0 degC: set [export.inputs] T_contact_C = property or "
+    "constant:20 "
     "there. Surface expansion and flow stress are not known to the solver: [export.inputs] says "
     "constant:VALUE, property or field:N. DEPVAR=15: accumulated slip, friction work per area, "
     "peak pressure, increments outside the range, elastic slip, coefficient, and their values at "
@@ -111,8 +112,7 @@ private:
     out["properties"] = recipe_properties(inputs, critical_slip(request, inputs));
     out["compile"] = {"abaqus job=<job> user=frictab_fric.f",
                       fortran::fixed_form_check("frictab_fric.f")};
-    out["compile_note"] =
-        "the last line only checks the source, with an aba_param.inc of your own";
+    out["compile_note"] = "the last line only checks the source, with an aba_param.inc of your own";
     out["input_deck"] = input_deck(request, inputs);
   }
 

@@ -113,8 +113,7 @@ private:
     out["properties"] = recipe_properties(inputs);
     out["compile"] = {"abaqus job=<job> user=frictab_fric_coef.f",
                       fortran::fixed_form_check("frictab_fric_coef.f")};
-    out["compile_note"] =
-        "the last line only checks the source, with an aba_param.inc of your own";
+    out["compile_note"] = "the last line only checks the source, with an aba_param.inc of your own";
     out["input_deck"] = input_deck(request, inputs);
   }
 
