@@ -181,7 +181,7 @@ std::string recipe(const Exporter& self, const ExportRequest& request,
   return io::json_text(out);
 }
 
-const char* const notes =
+const char* const target_notes =
     "One .c and one .h file, no allocation, no input or output (except for the values of a large "
     "table, see the option), safe from any thread. "
     "Arguments the law does not use are ignored. Compile with -ffp-contract=off and without "
@@ -194,7 +194,7 @@ public:
                      .order = 10,
                      .title = "C99 function",
                      .signature_source = "verified: ours, fixed by frictab's contract",
-                     .notes = notes,
+                     .notes = target_notes,
                      .options = {values_option(), prefix_option()}}) {}
 
   SourceBundle generate(const ExportRequest& request) const override {

@@ -159,7 +159,7 @@ std::string recipe(const Exporter& self, const ExportRequest& request,
   return io::json_text(out);
 }
 
-const char* const notes =
+const char* const target_notes =
     "One free-form file with the module frictab_law: tau_R for numbers and arrays, and with C "
     "names frictab_tau_R, its derivatives, many states at once, and which axes are left. For "
     "programs of your own, and for solvers whose routine you write yourself; those with a target "
@@ -173,7 +173,7 @@ public:
              .order = 15,
              .title = "Fortran 2008 module",
              .signature_source = "verified: ours, the C interface fixed by frictab's contract",
-             .notes = notes,
+             .notes = target_notes,
              .options = {values_option(), prefix_option()}}) {}
 
   SourceBundle generate(const ExportRequest& request) const override {

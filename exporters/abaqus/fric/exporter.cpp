@@ -58,7 +58,7 @@ const char* const source_of_signature =
     "slip tolerance. STDB_ABQERR (only where outside = error, and of several laws) is called as "
     "public routines do";
 
-const char* const notes =
+const char* const target_notes =
     "For *FRICTION, USER in Abaqus/Standard: contact pairs and contact elements. The routine gives "
     "the whole shear interaction: elastic stick up to a critical elastic slip (last property; 0: "
     "0.005*CHRLNGTH), then slip along the trial direction under tau_R, with consistent derivatives "
@@ -86,7 +86,7 @@ public:
              .order = 24,
              .title = "Abaqus/Standard FRIC, stress with derivatives",
              .signature_source = source_of_signature,
-             .notes = notes,
+             .notes = target_notes,
              .options = {abaqus::coefficient_option(), values_option(), outside_summary_option()}},
             "fric", abaqus::interaction(abaqus::Solver::standard, "ciname", "fgh")) {}
 

@@ -54,7 +54,7 @@ const char* const source_of_signature =
     "KSTEP and KINC number increments and a cutback keeps the number). STDB_ABQERR (only where "
     "outside = error, and of several laws) is called as public routines do";
 
-const char* const notes =
+const char* const target_notes =
     "For *FRICTION, USER=COEFFICIENT in Abaqus/Standard: contact pairs and general contact; stick "
     "and slip are the solver's own. The argument list changed after 2020: set [export.options] "
     "abaqus_release to 2024 or 2020, by whether the manual of your release names slipData or "
@@ -79,7 +79,7 @@ public:
              .order = 26,
              .title = "Abaqus/Standard FRIC_COEF, coefficient with derivatives",
              .signature_source = source_of_signature,
-             .notes = notes,
+             .notes = target_notes,
              .options =
                  {{"abaqus_release",
                    {"2024", "2020"},

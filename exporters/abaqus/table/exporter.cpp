@@ -72,7 +72,7 @@ const char* const source_of_signature =
     "against your release: the slip rate varies fastest, linear between lines, constant beyond "
     "the ends";
 
-const std::string notes =
+const std::string target_notes =
     std::string("Columns for slip rate, pressure, temperature, and field variables where "
                 "[export.inputs] says field:N (up to 4, counted from 1); every other state of the "
                 "law ") +
@@ -90,7 +90,7 @@ public:
              .order = 70,
              .title = "Abaqus *FRICTION data lines, no user routine",
              .signature_source = source_of_signature,
-             .notes = notes},
+             .notes = target_notes},
             {.file = file_name,
              .entry = "*FRICTION",
              .input_deck =

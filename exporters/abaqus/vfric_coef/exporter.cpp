@@ -96,7 +96,7 @@ const char* const source_of_signature =
     "guide). Recalled: fCoefDeriv(nBlock,3), nTemp = 1 where temperatures exist. XPLB_ABQERR "
     "(only where outside = error, and of several laws) is called as public routines do";
 
-const char* const notes =
+const char* const target_notes =
     "For GENERAL contact with *FRICTION, USER=COEFFICIENT: Abaqus itself decides between stick and "
     "slip, the routine says how large the coefficient is. The argument list is RECALLED: check "
     "against your release; abaqus_vfriction gives the same friction with a verified one. fCoef = "
@@ -118,7 +118,7 @@ public:
                        .order = 22,
                        .title = "Abaqus/Explicit VFRIC_COEF, general contact, coefficient only",
                        .signature_source = source_of_signature,
-                       .notes = notes,
+                       .notes = target_notes,
                        .options = {values_option(), speed_scale_option()}},
                       "vfric_coef",
                       abaqus::of_general_contact(

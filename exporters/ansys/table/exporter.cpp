@@ -50,7 +50,7 @@ const char* const source_of_signature =
     "reference). recalled, check against your release: linear between, constant beyond the "
     "ends; TAUMAX is real constant 9 of the contact elements";
 
-const std::string notes =
+const std::string target_notes =
     std::string("Fields for pressure, sliding velocity, sliding distance, temperature, and UF0N "
                 "where [export.inputs] says field:N (1 to 9); every other state of the law ") +
     native_held_states +
@@ -67,7 +67,7 @@ public:
              .order = 80,
              .title = "ANSYS MAPDL TB,FRIC with TBFIELD, no user routine",
              .signature_source = source_of_signature,
-             .notes = notes},
+             .notes = target_notes},
             {.file = file_name,
              .entry = "TB,FRIC",
              .input_deck =

@@ -68,7 +68,7 @@ const char* const source_of_signature =
     "(springforc_f2f.f, springstiff_f2f.f and their n2f twins, resultsmech.f, e_c3d.f, "
     "frictionheating.f)";
 
-const char* const notes =
+const char* const target_notes =
     "*FRICTION of CalculiX knows one number. frictab_hook.sh, next to the routine, puts nine lines "
     "into the source of 2.20 that ask USRMU instead: mu = tau_R/p, below 0.001 MPa that of 0.001 "
     "MPa; the law's shear limit holds as mu falls with pressure. *FRICTION has to be in the deck "
@@ -91,7 +91,7 @@ public:
                        .order = 56,
                        .title = "CalculiX CrunchiX 2.20, calls put into its source",
                        .signature_source = source_of_signature,
-                       .notes = notes,
+                       .notes = target_notes,
                        .options = {values_option()}},
                       "usrmu",
                       {.meaning = "USRMU is called with numbers of the contact "

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* file_name = "frictab_frcfac.key";
 constexpr const char* friction_option = "deform_friction";
 
-const std::vector<ExportOption> options = {
+const std::vector<ExportOption> table_options = {
     {friction_option,
      {"coulomb", "shear"},
      "what DEFORM multiplies: coulomb = mu, by pressure (FricType 2); shear = m, by the shear "
@@ -54,7 +54,7 @@ const char* const source_of_signature =
     "against your release: linear between and constant beyond the ends (the manual does not "
     "say), lines that start with * are comments, numbers are separated by blanks";
 
-const std::string notes =
+const std::string target_notes =
     std::string("Pressure, temperature and surface stretch are all this table knows, in 2-D as in "
                 "3-D; every other state of the law, sliding speed and distance among them, ") +
     native_held_states +
@@ -72,8 +72,8 @@ public:
              .order = 85,
              .title = "DEFORM FRCFAC table of friction, 2-D and 3-D, no user routine",
              .signature_source = source_of_signature,
-             .notes = notes,
-             .options = options},
+             .notes = target_notes,
+             .options = table_options},
             {.file = file_name,
              .entry = "FRCFAC",
              .input_deck =

@@ -94,7 +94,7 @@ const char* const source_of_signature =
     "release: STRCH is the surface expansion, EFSTS the flow stress, DTMAXC the step's time "
     "increment; the signs of PRESS and PRESR(2)";
 
-const char* const notes =
+const char* const target_notes =
     "deform_friction says what VARIABLE is: \"coulomb\" mu = tau_R/p, \"shear\" m = tau_R/k, "
     "\"constant\" tau_R itself; the friction type of FRCFAC has to be the same. The die has to be "
     "an ELASTIC (meshed) object: for rigid ones DEFORM computes neither SLDVEL nor PRESS, and with "
@@ -116,7 +116,7 @@ public:
              .order = 52,
              .title = "DEFORM-2D USRBCC",
              .signature_source = source_of_signature,
-             .notes = notes,
+             .notes = target_notes,
              .options = {{"deform_friction",
                           {"coulomb", "shear", "constant"},
                           "the friction type of FRCFAC: mu, m, or tau_R (2-D routine only)"},

@@ -60,7 +60,7 @@ const char* const source_of_signature =
     "of the keywords). recalled, check against your release: the curves stand directly after "
     "*DEFINE_TABLE in the order of its values, linear between, constant beyond the ends";
 
-const std::string notes =
+const std::string target_notes =
     std::string("Velocity and pressure are all this table knows; every other state of the law ") +
     native_held_states +
     "The shear limit is part of the table, at the held flow stress. Table and curves are numbered "
@@ -76,7 +76,7 @@ public:
              .title =
                  "LS-DYNA *DEFINE_TABLE of friction over velocity and pressure, no user routine",
              .signature_source = source_of_signature,
-             .notes = notes},
+             .notes = target_notes},
             {.file = file_name,
              .entry = fmt::format("*DEFINE_TABLE {}", table_id),
              .input_deck = input_deck(),

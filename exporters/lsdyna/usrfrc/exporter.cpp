@@ -88,7 +88,7 @@ const char* const source_of_signature =
     "cards of *USER_INTERFACE_FRICTION, and that FS has to be above 0; what MPP and mortar "
     "contacts call";
 
-const char* const notes =
+const char* const target_notes =
     "LS-DYNA leaves the friction FORCE to this routine: changing FRIC1..4 would change nothing. "
     "The force that would hold the node (old force plus stiffness times relative displacement, its "
     "tangential part) is cut down to tau_R times the node's area, and to 0 without pressure. "
@@ -117,7 +117,7 @@ public:
              .order = 54,
              .title = "LS-DYNA USRFRC, SMP",
              .signature_source = source_of_signature,
-             .notes = notes,
+             .notes = target_notes,
              .options = {values_option(), speed_scale_option(), outside_summary_option()}},
             "usrfrc",
             {.argument = "nosl",

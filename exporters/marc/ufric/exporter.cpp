@@ -52,7 +52,7 @@ const char* const source_of_signature =
     "public text of Volume D shows them; check against your release. Verified: public user "
     "routines call QUIT(1234) (only where outside = error, and of several laws)";
 
-const char* const notes =
+const char* const target_notes =
     "marc_friction says what FRIC is: \"coulomb\" mu = tau_R/p, \"shear\" m = "
     "tau_R/(YIEL/sqrt(3)). The friction model of the job has to be of the same kind. FN is a "
     "stress in stress-based models only; with marc_normal = \"force\" a law is refused whose "
@@ -73,7 +73,7 @@ public:
              .order = 50,
              .title = "Marc and Simufact Forming UFRIC",
              .signature_source = source_of_signature,
-             .notes = notes,
+             .notes = target_notes,
              .options =
                  {{"marc_friction", {"coulomb", "shear"}, "what UFRIC gives back: mu or m"},
                   {"marc_normal",

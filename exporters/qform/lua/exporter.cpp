@@ -100,7 +100,7 @@ const char* const source_of_signature =
     "the stress, parameter(name, default) gives a number of the user's (QForm documentation). "
     "recalled, check against your release: the names of the arguments of FrictionStress";
 
-const char* const notes =
+const char* const target_notes =
     "frictab_tau_R holds law, table and interpolation and is what is verified; FrictionStress "
     "only calls it, with argument names that you have to check against your release. Pressure, "
     "sliding speed and temperature are taken from its arguments, every other state is a "
@@ -117,7 +117,7 @@ public:
              .order = 90,
              .title = "QForm friction subroutine in Lua",
              .signature_source = source_of_signature,
-             .notes = notes,
+             .notes = target_notes,
              .several_laws = "QForm loads a file for each lubricant: export each law by itself"}) {}
 
   SourceBundle generate(const ExportRequest& as_given) const override {
