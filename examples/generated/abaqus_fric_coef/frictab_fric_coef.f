@@ -14,7 +14,7 @@ C     ARGUMENT LIST OF RELEASE 2024.
 C     Verified: the list of the 2024 reference and of 3DEXPERIENCE,
 C       where fCoefDeriv is (nBlock,20,2) and slipData (nBlock,6). Up to
 C       about 2020 it was another one of as many arguments, which no
-C       compiler tells apart; which release changed it is not known.
+C       compiler distinguishes; which release changed it is not known.
 C       Look into the manual of yours: a page that names slipRate
 C       instead of slipData needs [export.options] abaqus_release =
 C       "2020".

@@ -16,7 +16,7 @@
  *       verified there)
  *
  * Outside the range the table's value at the nearest edge is used, while stress and flow
- * stress enter the formula above unchanged; frictab_outside tells which axes are
+ * stress enter the formula above unchanged; frictab_outside shows which axes are
  * concerned.
  * NaN in an argument that is used gives NaN. Thread-safe.
  */
