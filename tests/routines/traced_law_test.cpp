@@ -123,7 +123,7 @@ TEST(TracedLaw, ModelFileOfAnUnknownLawIsRefused) {
             "  hint: did you mean 'log_coulomb'?");
   EXPECT_THAT(
       refusal(R"({"schema": "frictab/model/1", "name": "mine", "law": {"base": "log_colomb"}})"),
-      HasSubstr("law 'mine' extends 'log_colomb', which is no friction law\n"
+      HasSubstr("law 'mine' extends 'log_colomb', which is not a friction law\n"
                 "  hint: did you mean 'log_coulomb'?"));
 }
 

@@ -101,7 +101,7 @@ TEST(JsonFields, AFaultNamesFilePathAndWhatMendsIt) {
   ASSERT_EQ(fault_of(good), "was taken");
   const std::vector<std::tuple<const char*, nlohmann::ordered_json, const char*>> damages = {
       {"/name", 5, "name: type must be string, but is number"},
-      {"/count", -1, "count: -1 is no count"},
+      {"/count", -1, "count: -1 is not a count"},
       {"/known", nullptr, "known: type must be number, but is null"},
       {"/factor", "x", "factor: type must be number, but is string"},
       {"/ends/1", {{"side", "above"}}, "ends/1: key 'value' not found"},

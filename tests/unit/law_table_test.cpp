@@ -211,7 +211,8 @@ TEST_F(LawTables, AreRefusedWithThePlace) {
        "FILE:1: error: psi has one value alone, 1\n"
        "  hint: an axis has at least two; leave the column out"},
       {"v_rel_mm_s [K],mu\n1,0.1\n2,0.1\n", "FILE:1: error: v_rel_mm_s cannot be in 'K'"},
-      {"F_N_N,mu\n1,0.1\n2,0.1\n", "FILE:1: error: F_N_N is not a state of a contact, and no axis"},
+      {"F_N_N,mu\n1,0.1\n2,0.1\n",
+       "FILE:1: error: F_N_N is not a state of a contact and not an axis"},
       {"v_rel_mm_s,mu,tau_R_MPa\n1,0.1,1\n2,0.1,1\n",
        "FILE:1: error: has more than one column mu or tau_R_MPa"},
   };

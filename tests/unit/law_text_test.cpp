@@ -148,7 +148,7 @@ TEST(LawText, APartMayUseThePieceWhereCombineDoes) {
   EXPECT_EQ(fault_of("[models.mine]\npiece = \"mu\"\ncombine = \"load/(1 + load)\"\n" + rest),
             "no fault");
   EXPECT_THAT(fault_of("[models.mine]\nformula = \"mu*load\"\n" + rest),
-              HasSubstr("job.toml:6:20: error: law mine uses `value` outside combine"));
+              HasSubstr("job.toml:6:19: error: law mine uses `value` outside combine"));
 }
 
 TEST(LawText, KeysOfTheRegistryAreUnknownInAJob) {

@@ -166,7 +166,8 @@ TEST_F(LoadFiles, AreToldWhereAPatternDoesNotFitThem) {
   options.files[0].from_name = R"((?<run>\d*)a)";
   EXPECT_THAT(fault_of({"a.csv"}), HasSubstr("finds run in no name, as in 'a.csv'"));
   options.files[0].from_name = "(?<run>a";
-  EXPECT_THAT(fault_of({"a.csv"}), HasSubstr("no regular expression: missing closing parenthesis"));
+  EXPECT_THAT(fault_of({"a.csv"}),
+              HasSubstr("not a regular expression: missing closing parenthesis"));
   options.files[0].from_name = R"((?<run>(a+)+)$)";
   const std::string letters(200, 'a');
   file(letters + ".csv", rows);

@@ -143,7 +143,8 @@ TEST(TableFile, WithoutTheFormulaThatASideNeedsIsAFault) {
       << fault();
   table.extension = expr::Expr::symbol("s_mm");
   write_table(table, directory.path("t.h5"));
-  EXPECT_NE(fault().find("extension uses 's_mm', which is no axis"), std::string::npos) << fault();
+  EXPECT_NE(fault().find("extension uses 's_mm', which is neither an axis"), std::string::npos)
+      << fault();
 }
 
 TEST(RowsBeyond, AreCountedByAxisAndSideWithTheLargestExcess) {

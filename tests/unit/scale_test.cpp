@@ -213,7 +213,7 @@ TEST(Scale, ComparesNormalStressesWithTheFlowStress) {
   data.assumed = {{"sigma_n_MPa", "Normalkraft", "N", ""}};
   const Implausible found = found_in(data).at("flow_stress");
   EXPECT_TRUE(found.most());
-  EXPECT_THAT(found.what, HasSubstr("sigma_n_MPa is 0.598 to 1.81 beside"));
+  EXPECT_THAT(found.what, HasSubstr("sigma_n_MPa is 0.598 to 1.81 at a flow stress"));
   EXPECT_THAT(found.hint, AllOf(HasSubstr("'Normalkraft'"), HasSubstr("in kN 598 to 1,810")));
   Dataset above = campaign(rigs()[0], 1);
   scale(above, "sigma_f_MPa", 1e-3);

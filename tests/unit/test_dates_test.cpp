@@ -43,7 +43,7 @@ TEST(TestDates, WhoseDayNothingTellsFromTheMonthAreNoOrder) {
 
 TEST(TestDates, OfWhichOneIsNoneAreNoOrder) {
   EXPECT_THAT(sort_dates({"2024-09-01", "later"}).fault, HasSubstr("'later' is not a date"));
-  EXPECT_THAT(sort_dates({"2024-13-45"}).fault, HasSubstr("no dates"));
+  EXPECT_THAT(sort_dates({"2024-13-45"}).fault, HasSubstr("not dates"));
 }
 
 TEST(TestDates, TextsThatAreNoDatesSortAsTexts) {
