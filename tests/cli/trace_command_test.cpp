@@ -97,7 +97,7 @@ TEST_F(TraceCommand, SaysThatNothingWasFoundAndWhatItCouldHaveSeen) {
   // Nothing is missing only beside what the rig is known to repeat.
   const auto known = run_frictab({"trace", job, "--set", "trace.repeatability=0.05"});
   ASSERT_EQ(known.exit_code, 0) << known.err;
-  EXPECT_THAT(known.out, HasSubstr("nothing is missing: what is left is no more than the rig "));
+  EXPECT_THAT(known.out, HasSubstr("nothing is missing: the remaining scatter is within the rig"));
   EXPECT_EQ(trace().at("verdict"), "nothing_missing");
 }
 
