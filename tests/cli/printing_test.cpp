@@ -54,12 +54,12 @@ TEST_F(Printing, OfANumberThatDoesNotFitAnOptionIsRefusedWithItsRange) {
   for (const char* seed : {"-1", "99999999999999999999", "9223372036854775808", "1.5", "1e3", ""}) {
     const CommandResult result = frictab({"calibrate", "job.toml", "--seed", seed});
     EXPECT_EQ(result.exit_code, 2) << seed;
-    EXPECT_THAT(result.err, HasSubstr("no whole number from 0 to 9223372036854775807")) << seed;
+    EXPECT_THAT(result.err, HasSubstr("not a whole number from 0 to 9223372036854775807")) << seed;
   }
   for (const char* threads : {"-1", "100000000", "4294967297", "two"}) {
     const CommandResult result = frictab({"list", "models", "-j", threads});
     EXPECT_EQ(result.exit_code, 2) << threads;
-    EXPECT_THAT(result.err, HasSubstr("no whole number from 0 to 1024")) << threads;
+    EXPECT_THAT(result.err, HasSubstr("not a whole number from 0 to 1024")) << threads;
   }
   EXPECT_EQ(frictab({"calibrate", "job.toml", "--seed", "9223372036854775807"}).exit_code, 0);
 }
