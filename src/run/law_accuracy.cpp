@@ -39,16 +39,19 @@ table::Tolerance tolerance_of(const Run& run, const models::Model& model) {
 
 } // namespace
 
-models::AssembledLaw law_of(const Run& run, const Table& table) {
+models::Model model_of(const Run& run, const Table& table) {
   for (const ModelFit& fit : run.calibration->fits) {
     models::Model model = fit.delivered().model;
     model.quantile = table.quantile();
     if (model.name() == table.model)
-      return models::AssembledLaw(
-          calibrate::at_quantile(fit.delivered().model, table.quantile(), run.job.table.place));
+      return calibrate::at_quantile(fit.delivered().model, table.quantile(), run.job.table.place);
   }
   throw InputError({run.job.file, 0, 0}, "law '" + table.model + "' is not in calibration.json",
                    "calibrate it, or tabulate again");
+}
+
+models::AssembledLaw law_of(const Run& run, const Table& table) {
+  return models::AssembledLaw(model_of(run, table));
 }
 
 const data::Dataset& fitted_tests(const Run& run, const models::Model& model) {

@@ -11,8 +11,10 @@
 
 namespace frictab::run {
 
-// Returns the law of a table of this run, at the table's quantile. Throws InputError if the
+// Returns the model of a table of this run, at the table's quantile. Throws InputError if the
 // calibration does not have it.
+models::Model model_of(const Run& run, const table::Table& table);
+// The same with its formulas written out.
 models::AssembledLaw law_of(const Run& run, const table::Table& table);
 
 // The tests that the delivered law was fitted to; its tables take their ranges from them.

@@ -56,8 +56,8 @@ public:
         plan.stages.push_back(stage_before(stage, command));
       plan.stages.push_back({command, Action::run, "", writes(command)});
     }
-    if (job_.exports.targets.empty())
-      std::erase_if(plan.stages, [](const PlannedStage& one) { return one.name == "export"; });
+    std::erase_if(plan.stages,
+                  [&](const PlannedStage& one) { return !stage_named(one.name).applies_to(job_); });
     return plan;
   }
 

@@ -48,6 +48,7 @@ const std::vector<Stage>& all_stages() {
        .needs = {"calibrate", "tabulate"},
        .sections = {"export"},
        .results = {"export/"},
+       .applies = [](const job::Job& job) { return !job.exports.targets.empty(); },
        .made_first = "there were no routines: they were written first",
        .is_there =
            [](const ResultDirectory& d, const StageRecord& record) {
@@ -120,10 +121,8 @@ void make_present(Run& run, const Stage& stage, std::string_view wanted_by) {
 void run_stage(Run& run, std::string_view name) {
   const Stage& stage = stage_named(name);
   load_data(run);
-  // A job without targets has no routines to verify.
   for (const std::string& needed : stage.needs)
-    if (needed != "export" || !run.job.exports.targets.empty())
-      make_present(run, stage_named(needed), name);
+    if (stage_named(needed).applies_to(run.job)) make_present(run, stage_named(needed), name);
   stage.run(run);
 }
 

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "job/job.h"
+
 namespace frictab::run {
 
 class ResultDirectory;
@@ -20,7 +22,9 @@ struct Stage {
   std::vector<std::string> sections = {}; // sections of the job; empty: results are not recorded
   // Files that later stages read, and pages that only people read; "models/" is a whole folder.
   std::vector<std::string> results = {}, pages = {};
-  bool optional = false;       // not running it leaves no gap
+  bool optional = false; // not running it leaves no gap
+  // False if the job leaves nothing to do for it, so that no stage needs it. Null: always true.
+  bool (*applies)(const job::Job&) = nullptr;
   std::string made_first = {}; // note to the user, if another stage had to run it first
 
   // True if an earlier run has left its results. Null for stages that no other stage needs.
@@ -31,6 +35,7 @@ struct Stage {
   // Computes its values from those of earlier stages, stores them in the Run and writes its files.
   void (*run)(Run&) = nullptr;
 
+  bool applies_to(const job::Job& job) const { return !applies || applies(job); }
   bool is_recorded() const { return !sections.empty(); }
   std::vector<std::string> writes() const; // results, then pages
 };

@@ -1,5 +1,6 @@
 // Stage export: generates the routines of the tables, or of the laws themselves.
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -64,14 +65,15 @@ void export_sources(Run& run) {
   FaultList faults; // of all targets: one may accept what another refuses
   std::set<const codegen::Exporter*> refused;
   for (const Table& table : run.tables) {
-    const Table direct = direct_with_tolerance(law_of(run, table), table);
+    std::optional<Table> direct; // made for the first target that takes the law itself
     for (const codegen::Exporter* exporter : targets) {
       if (refused.count(exporter)) continue; // every table would fail for the same reason
       const bool of_law =
           run.job.exports.form == codegen::ExportForm::direct || !exporter->is_routine();
+      if (of_law && !direct) direct = direct_with_tolerance(law_of(run, table), table);
       try {
         write_sources(run, *exporter,
-                      export_request(run.job, exporter->name, of_law ? direct : table),
+                      export_request(run.job, exporter->name, of_law ? *direct : table),
                       export_directory(run, exporter->name, table));
       } catch (const InputError& error) {
         refused.insert(exporter);

@@ -63,7 +63,7 @@ void verify_tables(Run& run) {
       verify::Verification{0, {}, run.job.verify.require_proof, run.job.verify.require_run});
   for (const Table& table : run.tables)
     verification.max_drift_MPa =
-        std::max(verification.max_drift_MPa, drift_allowed(run, law_of(run, table).model).MPa);
+        std::max(verification.max_drift_MPa, drift_allowed(run, model_of(run, table)).MPa);
   workspace.begin("verify", run.data_fingerprint());
   const std::vector<verify::DriftRecord> kept = kept_records(run);
   Progress progress("verifying", run.tables.size());
