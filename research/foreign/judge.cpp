@@ -9,7 +9,7 @@
 #include "calibrate/calibration.h"
 #include "core/text.h"
 #include "data/derived.h"
-#include "trace/delivery.h"
+#include "trace/advise/leads.h"
 #include "trace/trace_text.h"
 #include "trace_results.h"
 

@@ -112,7 +112,7 @@ std::string nothing_left_to_add(const Calibration& c) {
                      all);
 }
 
-// Names laws with effects that are not refitted (trace/refit_traced.h).
+// Names laws with effects that are not refitted (trace/judge/refit_traced.h).
 std::string traced_words(const Calibration& c) {
   std::vector<std::string> names;
   for (const ModelFit& fit : c.fits)

@@ -15,17 +15,17 @@
 #include "core/progress.h"
 #include "core/text.h"
 #include "data/append.h"
-#include "trace/aliases.h"
-#include "trace/delivery.h"
-#include "trace/design.h"
-#include "trace/effect_curve.h"
-#include "trace/leads.h"
-#include "trace/order_search.h"
-#include "trace/refit_traced.h"
-#include "trace/scatter.h"
+#include "trace/advise/design.h"
+#include "trace/advise/effect_curve.h"
+#include "trace/advise/leads.h"
+#include "trace/columns/aliases.h"
+#include "trace/judge/delivery.h"
+#include "trace/judge/refit_traced.h"
+#include "trace/judge/scatter.h"
+#include "trace/judge/uncertainty.h"
+#include "trace/judge/verdict.h"
+#include "trace/search/order_search.h"
 #include "trace/tuning.h"
-#include "trace/uncertainty.h"
-#include "trace/verdict.h"
 
 namespace frictab::trace {
 
@@ -53,9 +53,9 @@ public:
     add_effects(trace);
     const Progress progress("what would have been seen", 0);
     add_scatter(trace, search_, delivery_.rival);
-    add_leads(trace, search_, delivery_.rival);
+    add_leads(trace, search_, delivery_);
     trace.cannot_tell = find_aliases(in_.training, in_.fit.model, in_.options);
-    add_verdict(trace, search_, delivery_.contradicted);
+    add_verdict(trace, search_, delivery_.contradicted());
     return trace;
   }
 
@@ -208,13 +208,7 @@ private:
     const Cause& cause = finding.rival.causes.back();
     effect.order_confounded = may_stand_for_time(search_, cause);
     if (effect.order_confounded && effect.design.tests.empty())
-      effect.design = design_in_turn(search_, cause, gains_scatter());
-  }
-
-  // Relative scatter between tests.
-  double gains_scatter() const {
-    const Eigen::VectorXd& gain = search_.gains;
-    return std::sqrt((gain.array() - gain.mean()).square().mean());
+      effect.design = design_in_turn(search_, cause);
   }
 
   std::size_t experiments() const { return in_.training.experiments.size(); }

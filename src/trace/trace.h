@@ -1,42 +1,41 @@
 // Trace stage: finds out whether the residual of a calibrated law has structure, which recorded
 // quantity it follows, in which form, and how much better the law predicts with that effect.
 //
-// Files, in the order in which a trace runs (docs/tracing.md explains the method):
-//   trace.cpp          the stage: sorts the data by name, searches, delivers, reports
-//   input of a search
-//     blocks           rows of an experiment as at most 40 block means
+// Rooms, each of which knows only those before it (docs/tracing.md explains the method):
+//   columns   what an effect may follow (a Cause): columns, histories and pairs of them
+//     candidates       the list of them; test_dates: the order of tests from time stamps
+//     shapes, terms    forms of an effect of a cause; curves, factors and products as columns
+//     factor_band      the factor of an effect over rows, with its uncertainty
+//     order_test       whether test means have structure along the order of tests
+//     aliases          columns that the design confounds with a state of the law
+//   search    what the residual of the law follows more than by chance
+//     law_on_blocks    a law on blocks: predictions, derivatives, weighted fits
 //     selection        200 tests that represent a larger campaign
-//     candidates       columns, histories and pairs that an effect may follow (a Cause)
-//     shapes           forms of an effect of a cause, before it is fitted
-//     law_on_blocks    a law on blocks: predictions, derivatives, weighted fits (gram: J'J)
-//     noise, noise_fit the covariance of residuals, and its fit
-//     rivals           a law with some effects, fitted together with the noise (a Rival)
+//     rivals           a law with some effects, fitted with the noise (a Rival); plausibility
 //     directions       derivatives of tau_R: by fitted parameters, by an effect's factor
-//     projection       orthonormal bases that take fitted directions out of tested ones
-//   the search
 //     search           its state
 //     search_effects   the recipe: one search, then structure along the order of tests
 //     joint            response, law and terms of a campaign; findings as causes
-//     modes, terms     tests as means and cosines; curves, factors and products as columns
+//     modes            tests as means and cosines
 //     joint_model      one penalised mixed model with all terms
 //     joint_search     terms that the residual follows more than by chance
 //     joint_choice     terms that improve predictions of left-out tests
-//     choose_effect    the cause among those near a finding, and its form, with smooth and
-//                      plausibility
-//     order_search     structure along the order of tests, with order_test
-//   its results
+//     choose_effect    the cause among those near a finding, and its form
+//     order_search     structure along the order of tests
+//   judge     what a finding is worth on tests that the search has not seen
 //     nested_errors    errors on tests that neither a search nor a fit has seen
-//     delivery         findings that are delivered with the law
-//     leads, design    the other findings, and the tests that would settle them, with
-//                      candidate_tests; followers: columns that may follow from friction
+//     delivery         findings that are delivered with the law; rows_alike: under equal weights
 //     refit_traced     the law with the effects, fitted again to all experiments
 //     uncertainty      standard errors of its parameters
-//     scatter          unexplained scatter
-//     effect_curve     curves for plots
-//     aliases          columns that the design confounds with a state of the law
+//     gains, scatter   how far tests as a whole lie from a law; unexplained scatter
 //     verdict          the verdict and its sentences
-//   trace_file, trace_text   results as JSON and in words
-//   tuning             the constants of all these steps, with the reasons for their values
+//   advise    what to look at and which tests to run next
+//     leads            effects that may exist; followers: columns that may follow from friction
+//     design           tests that would settle a question, among candidate_tests
+//     effect_curve     curves for plots
+// trace.cpp sorts the data by name, searches, judges, delivers, reports. trace_file and trace_text
+// give the results as JSON and in words; tuning.h has the constants of all these steps, with the
+// reasons for their values.
 #pragma once
 
 #include <optional>

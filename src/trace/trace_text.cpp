@@ -10,7 +10,7 @@
 #include "core/text.h"
 #include "data/derived.h"
 #include "effects/change_text.h"
-#include "trace/candidates.h"
+#include "trace/columns/candidates.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {

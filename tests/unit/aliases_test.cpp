@@ -4,7 +4,7 @@
 
 #include "calibrate/fit_law.h"
 #include "support/gain_campaign.h"
-#include "trace/aliases.h"
+#include "trace/columns/aliases.h"
 #include "trace/trace_file.h"
 #include "trace/trace_text.h"
 

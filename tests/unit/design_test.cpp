@@ -9,7 +9,7 @@
 
 #include "calibrate/calibration.h"
 #include "core/random.h"
-#include "trace/candidate_tests.h"
+#include "trace/advise/candidate_tests.h"
 #include "trace/trace.h"
 #include "trace/trace_text.h"
 

@@ -1,5 +1,6 @@
 // The folders of the house stand on each other in one order: what a file includes lies on its own
-// floor or below. Each is a namespace, so that no name means two things.
+// floor or below. Each is a namespace, so that no name means two things. The rooms of a floor are
+// ordered alike.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -37,31 +38,70 @@ std::size_t floor_of_file(const fs::path& root, const fs::path& file) {
   return inside.has_parent_path() ? floor_of(inside.begin()->string()) : floors.size();
 }
 
+// Calls take(file, number of the line, what it includes) for every include in quotes below a
+// folder.
+template <class Take> void for_includes(const fs::path& folder, const Take& take) {
+  const std::regex include("#include \"([^\"]+)\".*");
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+    std::ifstream in(entry.path());
+    std::string line;
+    for (int number = 1; std::getline(in, line); ++number)
+      if (std::smatch match; std::regex_match(line, match, include))
+        take(entry.path(), number, fs::path(match[1].str()));
+  }
+}
+
 // "src/data/load.h:8: includes job/job.h, which stands above data"
+std::string fault(const fs::path& file, int number, const fs::path& included,
+                  const std::string& own) {
+  return fmt::format("{}:{}: includes {}, which stands above {}",
+                     fs::relative(file, FRICTAB_SOURCE_DIR).string(), number, included.string(),
+                     own);
+}
+
 std::vector<std::string> includes_from_above() {
   const fs::path source = FRICTAB_SOURCE_DIR;
-  const std::regex include("#include \"([^/\"]+)/([^\"]+)\".*");
   std::vector<std::string> faults;
   for (const fs::path& root : {source / "src", source / "exporters"})
-    for (const auto& entry : fs::recursive_directory_iterator(root)) {
-      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
-      const std::size_t own = floor_of_file(root, entry.path());
-      std::ifstream in(entry.path());
-      std::string line;
-      for (int number = 1; std::getline(in, line); ++number) {
-        std::smatch match;
-        if (std::regex_match(line, match, include) && floor_of(match[1]) > own)
-          faults.push_back(fmt::format("{}:{}: includes {}/{}, which stands above {}",
-                                       fs::relative(entry.path(), source).string(), number,
-                                       match[1].str(), match[2].str(), floors[own]));
-      }
-    }
+    for_includes(root, [&](const fs::path& file, int number, const fs::path& included) {
+      const std::size_t own = floor_of_file(root, file);
+      if (included.has_parent_path() && floor_of(included.begin()->string()) > own)
+        faults.push_back(fault(file, number, included, floors[own]));
+    });
   std::sort(faults.begin(), faults.end());
   return faults;
 }
 
 TEST(Floors, NothingIncludesWhatStandsAboveIt) {
   EXPECT_EQ(fmt::format("{}", fmt::join(includes_from_above(), "\n")), "");
+}
+
+// From the ground up. What all of them share are the headers of the folder itself; its .cpp files
+// put the rooms together.
+const std::vector<std::string> rooms_of_trace = {"columns", "search", "judge", "advise"};
+
+// 0: a file of the folder itself.
+std::size_t room_of(const fs::path& inside_src) {
+  const auto room = std::find(rooms_of_trace.begin(), rooms_of_trace.end(),
+                              std::next(inside_src.begin())->string());
+  return room == rooms_of_trace.end() ? 0 : 1 + (room - rooms_of_trace.begin());
+}
+
+TEST(Floors, NoRoomOfTraceIncludesWhatStandsAboveIt) {
+  const fs::path source = fs::path(FRICTAB_SOURCE_DIR) / "src";
+  std::vector<std::string> faults;
+  std::set<std::size_t> seen;
+  for_includes(source / "trace", [&](const fs::path& file, int number, const fs::path& included) {
+    const fs::path inside = fs::relative(file, source);
+    const std::size_t own = room_of(inside);
+    seen.insert(own);
+    if (*included.begin() == "trace" && room_of(included) > own &&
+        (own > 0 || file.extension() == ".h"))
+      faults.push_back(fault(file, number, included, inside.parent_path().string()));
+  });
+  EXPECT_EQ(fmt::format("{}", fmt::join(faults, "\n")), "");
+  EXPECT_EQ(seen.size(), 1 + rooms_of_trace.size());
 }
 
 // "src/data/load.h:12: opens namespace frictab, not frictab::data"

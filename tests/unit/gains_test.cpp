@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "trace/gains.h"
+#include "trace/judge/gains.h"
 
 namespace frictab::gains_test {
 

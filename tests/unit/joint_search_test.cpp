@@ -7,8 +7,8 @@
 
 #include "core/random.h"
 #include "support/blocks.h"
-#include "trace/joint_search.h"
-#include "trace/terms.h"
+#include "trace/columns/terms.h"
+#include "trace/search/joint_search.h"
 
 namespace frictab::joint_search_test {
 

@@ -3,7 +3,7 @@
 
 #include "effects/extended_law.h"
 #include "support/blocks.h"
-#include "trace/law_on_blocks.h"
+#include "trace/search/law_on_blocks.h"
 
 namespace frictab::law_on_blocks_test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/random.h"
 #include "stats/blocks.h"
-#include "trace/candidates.h"
+#include "trace/columns/candidates.h"
 #include "unit/load_case.h"
 
 namespace frictab::many_columns_test {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "calibrate/calibration.h"
-#include "trace/choose_effect.h"
-#include "trace/rows_alike.h"
+#include "trace/judge/rows_alike.h"
+#include "trace/search/choose_effect.h"
 #include "twin/twin.h"
 
 namespace frictab::rows_alike_test {

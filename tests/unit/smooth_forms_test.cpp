@@ -5,7 +5,7 @@
 
 #include "effects/natural_spline.h"
 #include "expr/program.h"
-#include "trace/shapes.h"
+#include "trace/columns/shapes.h"
 
 #include <Eigen/Dense>
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "trace/test_dates.h"
+#include "trace/columns/test_dates.h"
 
 namespace frictab::test_dates_test {
 namespace {

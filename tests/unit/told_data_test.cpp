@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "stats/blocks.h"
-#include "trace/candidates.h"
+#include "trace/columns/candidates.h"
 #include "unit/load_case.h"
 
 namespace frictab::told_data_test {

@@ -9,7 +9,7 @@
 #include "stats/noise.h"
 #include "stats/noise_fit.h"
 #include "support/blocks.h"
-#include "trace/order_test.h"
+#include "trace/columns/order_test.h"
 
 namespace frictab::trace_noise_test {
 

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "DIR/src/trace/gains.cpp:18: least_ratio"
+// "DIR/src/trace/judge/gains.cpp:18: least_ratio"
 std::vector<std::string> floating_constants(const fs::path& file) {
   const std::regex number("\\b(double|float)\\b|\\b[0-9]+\\.|\\b[0-9]+e-?[0-9]");
   const std::regex name("\\bconstexpr\\b.*?(\\w+)(\\[[^\\]]*\\])?\\s*[={]");
@@ -31,8 +31,9 @@ std::vector<std::string> floating_constants(const fs::path& file) {
 TEST(Tuning, FloatingConstantsOfTraceStandInOneHeader) {
   const fs::path trace = fs::path(FRICTAB_SOURCE_DIR) / "src" / "trace";
   EXPECT_GT(floating_constants(trace / "tuning.h").size(), 50u); // the pattern finds them
-  for (const auto& entry : fs::directory_iterator(trace))
-    EXPECT_TRUE(entry.path().filename() == "tuning.h" || floating_constants(entry.path()).empty())
+  for (const auto& entry : fs::recursive_directory_iterator(trace))
+    EXPECT_TRUE(entry.is_directory() || entry.path().filename() == "tuning.h" ||
+                floating_constants(entry.path()).empty())
         << fmt::format("{}", fmt::join(floating_constants(entry.path()), "\n"));
 }
 

@@ -1,0 +1,402 @@
+// Information of every candidate test, and the exchange algorithm that finds the best few.
+#include "trace/advise/design.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+#include <gsl/gsl_cdf.h>
+
+#include "stats/projection.h"
+#include "trace/advise/candidate_tests.h"
+#include "trace/judge/gains.h"
+#include "trace/tuning.h"
+
+namespace frictab::trace {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Derivatives of tau_R, per block, by each parameter that all rivals share, and by each rival's
+// amplitude.
+class Directions {
+public:
+  Directions(const Search& search, const std::vector<const Rival*>& rivals)
+      : search_(search), rivals_(rivals) {}
+
+  std::size_t shared() const { return rivals_[0]->parameters.size() - last_count(*rivals_[0]); }
+
+  // Returns each test's information about all of them, in that order.
+  std::vector<MatrixXd> information(const data::Dataset& data) const {
+    const stats::Blocks blocks = stats::make_blocks(data, search_.blocks.most);
+    const Rival& first = *rivals_[0];
+    const models::Model model = search_.model_of(first);
+    const std::vector<double> tau = calibrate::predict(model, data);
+    MatrixXd columns(static_cast<Index>(blocks.count()), 0);
+    for (std::size_t p = 0; p < first.parameters.size(); ++p)
+      if (!is_of_last(first, p)) stats::append_columns(columns, slope(model, p, data, tau, blocks));
+    for (const Rival* rival : rivals_)
+      stats::append_columns(columns, blocks.mean(of_last_effect(*rival, data)));
+    const stats::Whitener whitener(first.noise, blocks.mean(tau), blocks);
+    whitener.apply(columns);
+    std::vector<MatrixXd> each;
+    for (std::size_t e = 0; e < blocks.experiments(); ++e) {
+      const MatrixXd part =
+          columns.middleRows(static_cast<Index>(blocks.first[e]),
+                             static_cast<Index>(blocks.first[e + 1] - blocks.first[e]));
+      each.push_back(part.transpose() * part);
+    }
+    return each;
+  }
+
+private:
+  static std::size_t last_count(const Rival& rival) {
+    return effects::fitted_parameters(rival.effects.back()).size();
+  }
+
+  std::size_t last_begin(const Rival& rival) const {
+    std::size_t begin = search_.input.fit.model.law->parameters.size();
+    for (std::size_t i = 0; i + 1 < rival.effects.size(); ++i)
+      begin += effects::fitted_parameters(rival.effects[i]).size();
+    return begin;
+  }
+
+  bool is_of_last(const Rival& rival, std::size_t p) const {
+    const std::size_t begin = last_begin(rival);
+    return p >= begin && p < begin + last_count(rival);
+  }
+
+  static VectorXd slope(models::Model model, std::size_t p, const data::Dataset& data,
+                        const std::vector<double>& tau, const stats::Blocks& blocks) {
+    const double step = 1e-5 * std::max(std::abs(model.parameters[p]), 1e-3);
+    model.parameters[p] += step;
+    std::vector<double> moved = calibrate::predict(model, data);
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      moved[i] = (moved[i] - tau[i]) / step;
+    return blocks.mean(moved);
+  }
+
+  std::vector<double> of_last_effect(const Rival& rival, const data::Dataset& data) const {
+    models::Model model = search_.model_of(rival);
+    std::vector<double> with = calibrate::predict(model, data);
+    const std::size_t begin = last_begin(rival);
+    for (std::size_t i = 0; i < effects::amplitudes_of(rival.effects.back()); ++i)
+      model.parameters[begin + i] = 0;
+    const std::vector<double> without = calibrate::predict(model, data);
+    for (std::size_t i = 0; i < with.size(); ++i)
+      with[i] -= without[i];
+    return with;
+  }
+
+  const Search& search_;
+  const std::vector<const Rival*>& rivals_;
+};
+
+class Designer {
+public:
+  Designer(const Search& search, const std::vector<const Rival*>& rivals, double threshold)
+      : search_(search), rivals_(rivals), threshold_(threshold), directions_(search, rivals_) {}
+
+  Design run() {
+    std::vector<Setting> settings = settings_of(search_.input.training, recorded());
+    if (settings.empty()) return {};
+    Plan plan = best_plan(settings);
+    if (rivals_.size() == 1 && probability(plan.before) >= tuning::wanted_power)
+      return {}; // the data would show it already, if it were as large as fitted
+    // Prefers a design with fewer settings if it is nearly as good.
+    for (std::size_t s = settings.size(); s-- > 0 && settings.size() > 1;) {
+      std::vector<Setting> fewer = settings;
+      fewer.erase(fewer.begin() + static_cast<long>(s));
+      Plan simpler = best_plan(fewer);
+      if (simpler.tests.size() > plan.tests.size() ||
+          simpler.amplitude < tuning::kept_share_of_amplitude * plan.amplitude)
+        continue;
+      settings = std::move(fewer);
+      plan = std::move(simpler);
+    }
+    return in_words(plan);
+  }
+
+private:
+  struct Plan {
+    CandidateTests candidates;
+    std::vector<std::size_t> tests; // indices of candidates
+    double amplitude = 0;           // standardised, with those tests
+    double before = 0;              // standardised, without them
+  };
+
+  std::vector<std::string> recorded() const {
+    std::vector<std::string> names;
+    for (const Rival* rival : rivals_)
+      for (const std::size_t c : rival->causes.back().columns)
+        for (const std::string& name : search_.candidates.columns[c].recorded)
+          if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    return names;
+  }
+
+  Plan best_plan(std::vector<Setting> settings) {
+    Plan plan;
+    plan.candidates = candidate_tests(search_.input.training, std::move(settings));
+    if (plan.candidates.at.empty()) return plan;
+    add_information(plan.candidates);
+    plan.before = amplitude(known_);
+    for (std::size_t n = tuning::fewest_advised_tests; n <= tuning::most_advised_tests; ++n) {
+      plan.tests = exchange(n);
+      plan.amplitude = amplitude(information(plan.tests));
+      if (probability(plan.amplitude) >= tuning::wanted_power) break;
+    }
+    return plan;
+  }
+
+  // Adds the information of the campaign and of each candidate, with all parameters scaled to
+  // comparable units.
+  void add_information(const CandidateTests& candidates) {
+    const std::vector<MatrixXd> tests = directions_.information(search_.input.training);
+    known_ = std::accumulate(tests.begin() + 1, tests.end(), tests.front());
+    each_ = directions_.information(candidates.data);
+    for (MatrixXd& m : each_) // tests where the law has no value carry no information
+      if (!m.allFinite()) m.setZero();
+    const auto shared = static_cast<Index>(directions_.shared());
+    VectorXd scale = known_.diagonal();
+    for (Index p = 0; p < shared; ++p)
+      scale(p) = scale(p) > 0 ? 1 / std::sqrt(scale(p)) : 1;
+    scale.tail(scale.size() - shared).setOnes();
+    for (MatrixXd* m : all())
+      *m = (scale.asDiagonal() * *m * scale.asDiagonal()).eval();
+    for (Index p = 0; p < shared; ++p)
+      known_(p, p) += tuning::information_ridge;
+  }
+
+  std::vector<MatrixXd*> all() {
+    std::vector<MatrixXd*> matrices{&known_};
+    for (MatrixXd& m : each_)
+      matrices.push_back(&m);
+    return matrices;
+  }
+
+  MatrixXd information(const std::vector<std::size_t>& tests) const {
+    MatrixXd sum = known_;
+    for (const std::size_t t : tests)
+      sum += each_[t];
+    return sum;
+  }
+
+  // Information about the rivals' amplitudes, after elimination of the shared parameters.
+  MatrixXd of_rivals(const MatrixXd& all) const {
+    const auto shared = static_cast<Index>(directions_.shared());
+    const Index count = all.rows() - shared;
+    MatrixXd left = all.bottomRightCorner(count, count);
+    if (shared > 0)
+      left -= all.bottomLeftCorner(count, shared) *
+              all.topLeftCorner(shared, shared).ldlt().solve(all.topRightCorner(shared, count));
+    return left;
+  }
+
+  double log_det(const std::vector<std::size_t>& tests) const {
+    MatrixXd left = of_rivals(information(tests));
+    left.diagonal().array() += 1; // prior: an amplitude is of the order of 1
+    return left.ldlt().vectorD().array().max(1e-300).log().sum();
+  }
+
+  // Chooses tests greedily, then exchanges one at a time for the best candidate until nothing
+  // improves.
+  std::vector<std::size_t> exchange(std::size_t tests) const {
+    std::vector<std::size_t> design;
+    while (design.size() < tests) {
+      design.push_back(0);
+      improve(design, design.size() - 1);
+    }
+    for (bool better = true; better;) {
+      better = false;
+      for (std::size_t i = 0; i < design.size(); ++i)
+        better = improve(design, i) || better;
+    }
+    std::sort(design.begin(), design.end());
+    return design;
+  }
+
+  bool improve(std::vector<std::size_t>& design, std::size_t slot) const {
+    const std::size_t before = design[slot];
+    double most = log_det(design);
+    std::size_t best = before;
+    for (std::size_t c = 0; c < each_.size(); ++c) {
+      design[slot] = c;
+      const double value = log_det(design);
+      if (value <= most + tuning::determinant_gain_that_counts) continue;
+      most = value;
+      best = c;
+    }
+    design[slot] = best;
+    return best != before;
+  }
+
+  // Amplitude of 1 over its standard error: for a single rival its own; for several the least over
+  // all pairs of the first with another, each adjusted for the other.
+  double amplitude(const MatrixXd& all) const {
+    const MatrixXd left = of_rivals(all);
+    if (left.rows() == 1) return std::sqrt(std::max(left(0, 0), 0.0));
+    double least = std::numeric_limits<double>::infinity();
+    for (Index j = 1; j < left.rows(); ++j) {
+      const double shared = left(0, j) * left(0, j);
+      for (const auto& [own, other] : {std::pair{left(0, 0), left(j, j)}, {left(j, j), left(0, 0)}})
+        least = std::min(least, other > 0 ? own - shared / other : own);
+    }
+    return std::sqrt(std::max(least, 0.0));
+  }
+
+  double limit() const { return rivals_.size() > 1 ? tuning::two_sided_std_errors : threshold_; }
+  double probability(double standardised) const {
+    return gsl_cdf_ugaussian_P(standardised - limit());
+  }
+
+  Design in_words(const Plan& plan) const {
+    Design design;
+    if (plan.tests.empty() || !std::isfinite(plan.amplitude)) return design;
+    // Information is proportional to the number of such tests.
+    const double each = (plan.amplitude * plan.amplitude - plan.before * plan.before) /
+                        static_cast<double>(plan.tests.size());
+    const double target = limit() + gsl_cdf_ugaussian_Pinv(tuning::wanted_power);
+    const double tests = (target * target - plan.before * plan.before) / std::max(each, 1e-300);
+    if (tests > tuning::most_tests_needed) return design;
+    if (probability(plan.amplitude) < tuning::smallest_power) return design;
+    design.probability = probability(plan.amplitude);
+    design.tests_needed = std::max(std::ceil(tests), 1.0);
+    design.like = plan.candidates.like;
+    for (const Setting& setting : plan.candidates.settings)
+      design.columns.push_back(setting.column);
+    for (const std::size_t t : plan.tests) {
+      std::vector<std::string> row;
+      for (std::size_t s = 0; s < design.columns.size(); ++s)
+        row.push_back(plan.candidates.settings[s].text[plan.candidates.at[t][s]]);
+      design.tests.push_back(std::move(row));
+    }
+    for (const Rival* rival : rivals_)
+      design.settles.push_back(cause_name(rival->causes.back(), search_.candidates));
+    return design;
+  }
+
+  const Search& search_;
+  std::vector<const Rival*> rivals_;
+  double threshold_;
+  Directions directions_;
+  MatrixXd known_;             // information of the campaign
+  std::vector<MatrixXd> each_; // information of every candidate test
+};
+
+} // namespace
+
+Design design_tests(const Search& search, const std::vector<const Rival*>& rivals,
+                    double threshold) {
+  std::vector<const Rival*> some = rivals;
+  if (some.size() > tuning::most_rivals_in_plan) some.resize(tuning::most_rivals_in_plan);
+  return Designer(search, some, threshold).run();
+}
+
+namespace {
+
+// Whether a cause has all columns of another, which is then its special case, so that no test can
+// decide for the smaller and against the larger.
+bool contains(const Cause& larger, const Cause& smaller) {
+  return std::all_of(smaller.columns.begin(), smaller.columns.end(), [&](std::size_t column) {
+    return std::find(larger.columns.begin(), larger.columns.end(), column) != larger.columns.end();
+  });
+}
+
+} // namespace
+
+Design design_for(const Search& search, const Finding& finding) {
+  std::vector<const Rival*> rivals{&finding.rival};
+  for (std::size_t i = 0; i < finding.others.size(); ++i)
+    if (finding.in_set[i] &&
+        !contains(finding.others[i].causes.back(), finding.rival.causes.back()))
+      rivals.push_back(&finding.others[i]);
+  return rivals.size() > 1 ? design_tests(search, rivals, tuning::two_sided_std_errors) : Design{};
+}
+
+Design design_for_lead(const Search& search, const effects::PlacedEffect& effect,
+                       const Cause& cause, double threshold) {
+  const Rival& last = search.last();
+  std::vector<effects::PlacedEffect> effects = last.effects;
+  std::vector<Cause> causes = last.causes;
+  effects.push_back(effect);
+  causes.push_back(cause);
+  const Rival with =
+      fit_rival(search.campaign(), last, effects, causes, last.noise, NoiseSearch::kept);
+  Design design = design_tests(search, {&with}, threshold);
+  const double short_of =
+      tests_for(search.input.options.alpha) - static_cast<double>(search.blocks.experiments());
+  design.tests_needed = std::max(design.tests_needed, short_of);
+  return design;
+}
+
+namespace {
+
+// The two values of a setting that are furthest apart, and the difference of a test's gain between
+// them: by a line through all tests or, for text, by the means of levels.
+struct Ends {
+  std::size_t low = 0, high = 0; // values of the setting
+  double apart = 0;
+};
+
+Ends ends_by_line(const Setting& setting, const VectorXd& x, const VectorXd& gain) {
+  const VectorXd spread = x.array() - x.mean();
+  const double slope = spread.dot(gain) / std::max(spread.squaredNorm(), 1e-300);
+  return {0, setting.values.size() - 1, std::abs(slope) * (x.maxCoeff() - x.minCoeff())};
+}
+
+// Leaves out levels without a training test (all of theirs are held out), which have no mean.
+Ends ends_by_level(const Setting& setting, const VectorXd& x, const VectorXd& gain) {
+  std::vector<std::pair<double, std::size_t>> means; // with the level's index in the setting
+  for (std::size_t level = 0; level < setting.values.size(); ++level) {
+    const Eigen::ArrayXd here = (x.array() == setting.values[level]).cast<double>();
+    if (here.sum() > 0) means.emplace_back((here * gain.array()).sum() / here.sum(), level);
+  }
+  const auto [low, high] = std::minmax_element(means.begin(), means.end());
+  return {low->second, high->second, high->first - low->first};
+}
+
+} // namespace
+
+Design design_in_turn(const Search& search, const Cause& cause, std::optional<double> scatter) {
+  Design design;
+  if (cause.is_joint()) return design;
+  const CandidateColumn& column = search.candidates.columns[cause.columns[0]];
+  const std::vector<Setting> settings = settings_of(search.input.training, column.recorded);
+  if (settings.empty()) return design;
+  const Setting& setting = settings.front();
+  const VectorXd x = search.blocks.experiment_means(column.values).col(0);
+  const TraceInput& in = search.input;
+  const VectorXd gain = test_gains(in.training, calibrate::predict(in.fit.model, in.training)).gain;
+  const Ends ends =
+      column.levels.empty() ? ends_by_line(setting, x, gain) : ends_by_level(setting, x, gain);
+  if (!scatter) scatter = std::sqrt((gain.array() - gain.mean()).square().mean());
+  const auto standardised = [&](double tests) {
+    return ends.apart / (2 * std::max(*scatter, 1e-300) / std::sqrt(tests));
+  };
+  const auto probability = [&](std::size_t tests) {
+    return gsl_cdf_ugaussian_P(standardised(static_cast<double>(tests)) -
+                               tuning::two_sided_std_errors);
+  };
+  const std::size_t tests = probability(tuning::fewest_tests_in_turn) >= tuning::wanted_power
+                                ? tuning::fewest_tests_in_turn
+                                : tuning::most_advised_tests;
+  for (std::size_t i = 0; i < tests; ++i)
+    design.tests.push_back({setting.text[i % 2 == 0 ? ends.low : ends.high]});
+  design.columns = {setting.column};
+  design.like = "each other, run in this order,";
+  design.settles = {cause_name(cause, search.candidates),
+                    search.order.column.empty() ? "time" : search.order.column};
+  design.probability = probability(tests);
+  design.tests_needed = std::ceil(
+      std::pow((tuning::two_sided_std_errors + gsl_cdf_ugaussian_Pinv(tuning::wanted_power)) /
+                   std::max(standardised(1), 1e-9),
+               2));
+  return design;
+}
+
+} // namespace frictab::trace

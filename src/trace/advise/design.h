@@ -1,0 +1,41 @@
+// Design of the tests to run next, which would settle a question that a campaign leaves open.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "trace/search/search.h"
+
+namespace frictab::trace {
+
+// Chooses three to six tests by D-optimality (Atkinson, Donev, Tobias 2007) among those that the
+// rig can run (candidate_tests.h); a test may be repeated. They maximise
+//   det of the information about the rivals' amplitudes, all other parameters free.
+// An amplitude is 1 if the effect is as fitted and 0 if it does not exist. The information of a
+// test is D' V^-1 D, where D holds the derivatives of tau_R by each parameter along the test and V
+// is the noise model's covariance (noise.h): tests count by how far they differ, rows by their
+// information. The number of tests is the least that gives a probability of 80 %, at most six.
+//
+// `rivals`: laws with one effect each, placed after the effects that they share. With several, the
+// tests are to distinguish the first from each of the others (5 %, two-sided); with one, to show
+// that its effect exists: its amplitude exceeds `threshold` standard errors. Returns no tests where
+// no setting of the rig makes a difference.
+Design design_tests(const Search& search, const std::vector<const Rival*>& rivals,
+                    double threshold);
+
+// Designs tests that distinguish a finding from the causes in its set; none where the set has no
+// other cause.
+Design design_for(const Search& search, const Finding& finding);
+
+// Designs tests that would confirm an effect that could not be added: by `threshold` standard
+// errors, and in enough tests for a p-value.
+Design design_for_lead(const Search& search, const effects::PlacedEffect& effect,
+                       const Cause& cause, double threshold);
+
+// Designs tests for a cause that the order of tests explains as well: two values of its column in
+// alternation, because a drift over the order hardly follows such a pattern; as many as distinguish
+// the two, given `scatter`, the relative scatter of test means (by default that about the
+// calibrated law). Returns no tests for a pair of columns, or for a column that cannot be set.
+Design design_in_turn(const Search& search, const Cause& cause, std::optional<double> scatter = {});
+
+} // namespace frictab::trace

@@ -1,0 +1,86 @@
+// Curves with bands, partial residuals.
+#include "trace/advise/effect_curve.h"
+
+#include <algorithm>
+
+#include "core/columns.h"
+#include "effects/extended_law.h"
+#include "trace/columns/factor_band.h"
+
+namespace frictab::trace {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t curve_points = 61;
+constexpr std::size_t bins = 5; // partial residuals per experiment
+
+// Positions of the curve along the first input.
+std::vector<double> plot_positions(const effects::PlacedEffect& effect) {
+  std::vector<double> x;
+  const effects::EffectInput& input = effect.inputs[0];
+  if (effect.form->categorical) {
+    for (std::size_t level = 0; level < input.levels.size(); ++level)
+      x.push_back(static_cast<double>(level));
+    return x;
+  }
+  for (std::size_t i = 0; i < curve_points; ++i)
+    x.push_back(input.low + (input.high - input.low) * static_cast<double>(i) / (curve_points - 1));
+  return x;
+}
+
+// Factor along x; the other inputs are fixed at three quarters of their ranges.
+FactorOnRows factor_along(const effects::PlacedEffect& effect, const std::vector<double>& x) {
+  std::vector<std::vector<double>> columns{x};
+  for (std::size_t i = 1; i < effect.inputs.size(); ++i)
+    columns.emplace_back(x.size(), 0.25 * effect.inputs[i].low + 0.75 * effect.inputs[i].high);
+  return factor_on_rows(effect, pointers(columns), static_cast<Index>(x.size()));
+}
+
+} // namespace
+
+EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
+                         const Sensitivities& sensitivities, std::size_t index,
+                         std::size_t parameter, const MatrixXd& covariance) {
+  const effects::PlacedEffect& effect = rival.effects[index];
+  const auto count = static_cast<Index>(effects::fitted_parameters(effect).size());
+  const auto first_one = static_cast<Index>(parameter);
+  EffectCurve curve;
+  curve.x = plot_positions(effect);
+  const FactorOnRows on_curve = factor_along(effect, curve.x);
+  const VectorXd errors =
+      std_errors(on_curve.slope, covariance.block(first_one, first_one, count, count));
+  for (Index i = 0; i < errors.size(); ++i) {
+    const double f = on_curve.factor(i), d = 1.96 * errors(i);
+    curve.factor.push_back(f);
+    curve.low.push_back(f - d);
+    curve.high.push_back(f + d);
+  }
+  const VectorXd& sensitivity = sensitivities[site_of(effect)];
+  if (effect.form->columns > 1 || sensitivity.size() == 0) return curve;
+  const VectorXd& x = campaign.candidates.by_symbol.at(effects::symbol_of(effect.inputs[0].column));
+  const VectorXd residual = campaign.measured - rival.predicted;
+  const auto& first = campaign.blocks.first;
+  for (std::size_t e = 0; e + 1 < first.size(); ++e) {
+    const std::size_t blocks = first[e + 1] - first[e];
+    const std::size_t parts = campaign.blocks.count() == 0 ? 1 : std::min(bins, blocks);
+    for (std::size_t part = 0; part < parts; ++part) {
+      const auto begin = static_cast<Index>(first[e] + part * blocks / parts);
+      const auto size = static_cast<Index>(first[e] + (part + 1) * blocks / parts) - begin;
+      const VectorXd s = sensitivity.segment(begin, size);
+      if (!(s.squaredNorm() > 1e-6 * sensitivity.squaredNorm() / static_cast<double>(first.back())))
+        continue;
+      curve.point_x.push_back(x.segment(begin, size).mean());
+      curve.point_factor.push_back(s.dot(residual.segment(begin, size)) / s.squaredNorm());
+    }
+  }
+  const VectorXd at_points = factor_along(effect, curve.point_x).factor;
+  for (std::size_t i = 0; i < curve.point_factor.size(); ++i)
+    curve.point_factor[i] += at_points(static_cast<Index>(i));
+  return curve;
+}
+
+} // namespace frictab::trace

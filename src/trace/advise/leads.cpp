@@ -1,0 +1,244 @@
+// Selects the strongest unexplained terms, with sizes and the tests that would confirm them.
+#include "trace/advise/leads.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "calibrate/metrics.h"
+#include "core/error.h"
+#include "core/no_value.h"
+#include "trace/advise/design.h"
+#include "trace/advise/followers.h"
+#include "trace/tuning.h"
+
+namespace frictab::trace {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr std::size_t most_leads = 6, most_left = 3;
+constexpr const char* speed = "v_rel_mm_s";
+
+bool is_listed(const Trace& trace, const Lead& lead) {
+  const auto same = [&](const auto& other) {
+    return other.columns == lead.columns && other.derived == lead.derived;
+  };
+  return std::any_of(trace.leads.begin(), trace.leads.end(), same) ||
+         std::any_of(trace.effects.begin(), trace.effects.end(), same);
+}
+
+bool too_few_tests(const Trace& trace) {
+  return trace.least_p_value > trace.alpha;
+}
+
+// Whether the lead is the strongest one, and chance is not its simplest explanation.
+bool deserves_design(const Trace& trace, const Lead& lead) {
+  return trace.leads.empty() && (lead.p_value < tuning::chance_p_value || too_few_tests(trace));
+}
+
+void add_lead(Trace& trace, Lead lead, std::size_t most = most_leads) {
+  if (trace.leads.size() < most && !is_listed(trace, lead)) trace.leads.push_back(std::move(lead));
+}
+
+// --- findings that are not delivered ------------------------------------------------------------
+
+// Standard deviation over rows; for a text column, whether it varies.
+double spread_of(const data::Column& column) {
+  const auto [least, most] = std::minmax_element(column.values.begin(), column.values.end());
+  if (!column.levels.empty()) return *most > *least;
+  const Eigen::Map<const VectorXd> values(column.values.data(),
+                                          static_cast<Index>(column.values.size()));
+  return std::sqrt((values.array() - values.mean()).square().mean());
+}
+
+// Names columns that the validation tests hardly vary, so that they cannot show their effect.
+std::string not_varied(const TraceInput& in, const std::vector<std::string>& columns) {
+  std::string names;
+  for (const std::string& name : columns) {
+    const data::Column *here = in.training.find(name), *there = in.validation.find(name);
+    if (here && there && spread_of(*there) < tuning::small_share_of_spread * spread_of(*here))
+      names += (names.empty() ? "" : ", ") + name;
+  }
+  return names.empty() ? "" : "; the validation tests hardly vary " + names;
+}
+
+// Fills the errors of a lead; leaves them unknown if the stress of a history of itself does not
+// converge.
+void add_errors(Lead& lead, const Search& search, const Rival& without, const Rival& with) {
+  const data::Dataset& training = search.input.training;
+  const auto mae = [&](const Rival& rival) {
+    const auto predicted = calibrate::predict(search.model_of(rival), training);
+    return calibrate::metrics(training, predicted, 0, search.input.seed).mae_MPa;
+  };
+  try {
+    const double before = mae(without);
+    lead.with_MPa = mae(with);
+    lead.without_MPa = before;
+  } catch (const InputError&) {
+  }
+}
+
+void add_undelivered(Trace& trace, const Search& search, const Delivery& delivery) {
+  for (const auto& [index, against] : delivery.against) {
+    const Finding& finding = search.findings[index];
+    Lead lead = lead_of(search, finding.rival.causes.back());
+    lead.form = finding.rival.effects.back().form->name;
+    lead.between = finding.between;
+    lead.p_value = finding.p_value;
+    lead.significant = true;
+    add_errors(lead, search, index == 0 ? search.base : search.findings[index - 1].rival,
+               finding.rival);
+    lead.why = against.why;
+    if (against.by_validation) lead.why += not_varied(search.input, lead.columns);
+    if (trace.leads.empty()) lead.design = design_for(search, finding);
+    trace.leads.push_back(std::move(lead));
+  }
+}
+
+// --- causes that the order of tests explains as well --------------------------------------------
+
+void add_confounded(Trace& trace, const Search& search) {
+  for (const Search::Confounded& found : search.confounded) {
+    Lead lead = lead_of(search, found.cause);
+    lead.form = found.between ? "between tests" : "within tests";
+    lead.between = found.between;
+    lead.p_value = found.p_value;
+    lead.significant = true;
+    lead.why = fmt::format("p = {:.2g}, but a drift over the order of tests ({}) explains it as "
+                           "well",
+                           found.p_value, search.order.column);
+    if (trace.leads.empty())
+      lead.design = design_in_turn(search, found.cause, trace.scatter_between);
+    // without the limit on the number of leads
+    add_lead(trace, std::move(lead), trace.leads.size() + 1);
+  }
+}
+
+// --- unexplained terms --------------------------------------------------------------------------
+
+// Slope of y over the logarithm of the speed within tests; NaN if the speed does not vary.
+double per_e_fold(const Search& search, const VectorXd& y) {
+  const VectorXd& v = search.candidates.by_symbol.at(speed);
+  double xy = 0, xx = 0;
+  for (std::size_t e = 0; e < search.blocks.experiments(); ++e) {
+    std::vector<std::pair<double, double>> points;
+    for (std::size_t b = search.first()[e]; b < search.first()[e + 1]; ++b)
+      if (const double speed_here = v(static_cast<Index>(b)); speed_here > 0)
+        points.emplace_back(std::log(speed_here), y(static_cast<Index>(b)));
+    double mx = 0, my = 0;
+    for (const auto& [x, value] : points) {
+      mx += x / static_cast<double>(points.size());
+      my += value / static_cast<double>(points.size());
+    }
+    for (const auto& [x, value] : points) {
+      xy += (x - mx) * (value - my);
+      xx += (x - mx) * (x - mx);
+    }
+  }
+  return xx > 0 ? xy / xx : no_value;
+}
+
+// Change of the friction coefficient per e-fold of the speed, for the law as it is and with the
+// lead: a - b of rate-and-state friction.
+std::string rate_sentence(const Search& search, const VectorXd& change) {
+  const auto sigma = search.candidates.by_symbol.find("sigma_n_MPa");
+  if (sigma == search.candidates.by_symbol.end() || !search.candidates.by_symbol.count(speed))
+    return "";
+  const VectorXd mu = search.last().predicted.cwiseQuotient(sigma->second.cwiseMax(1e-300));
+  const double lead = per_e_fold(search, mu.cwiseProduct(change)), law = per_e_fold(search, mu);
+  if (!std::isfinite(lead)) return "";
+  const std::string with_law = std::abs(law) > 1e-9 ? fmt::format(", {:+.2g} by the law", law) : "";
+  return fmt::format("; mu changes by {:+.2g} per e-fold of speed{} (a - b, in the words of "
+                     "rate-and-state friction)",
+                     lead, with_law);
+}
+
+bool follows_speed(const Search& search, const Cause& cause) {
+  return std::all_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
+    return search.candidates.columns[c].recorded == std::vector<std::string>{speed};
+  });
+}
+
+// Number of tests needed for a p-value at which an effect is added.
+std::string too_few(const Trace& trace, std::size_t tests) {
+  if (!too_few_tests(trace)) return "";
+  return fmt::format("; {} can give no p below {:.2g}: it takes {:.0f} that show it to add an "
+                     "effect",
+                     tests == 1 ? "one test" : fmt::format("{} tests", tests), trace.least_p_value,
+                     tests_for(trace.alpha));
+}
+
+Lead lead_from(const Trace& trace, const Search& search, const Left& left) {
+  Lead lead = lead_of(search, left.cause);
+  lead.form = left.effect.form->name;
+  lead.between = constant_in_experiments(left.cause, search.candidates);
+  lead.p_value = left.p_value;
+  lead.share = left.change.maxCoeff() - left.change.minCoeff();
+  lead.why = fmt::format("p = {:.2g} over all that was tried{}", left.p_value,
+                         too_few(trace, search.blocks.experiments()));
+  if (too_few_tests(trace) && follows_speed(search, left.cause))
+    lead.why += rate_sentence(search, left.change);
+  if (deserves_design(trace, lead))
+    lead.design = design_for_lead(search, left.effect, left.cause, left.threshold);
+  return lead;
+}
+
+// Terms shown if there are few tests: single quantities; of those from the same recorded columns
+// one, the recorded one if it is among them.
+std::vector<const Left*> plain_ones(const Search& search) {
+  std::vector<const Left*> plain;
+  const auto column = [&](const Left& left) -> const CandidateColumn& {
+    return search.candidates.columns[left.cause.columns[0]];
+  };
+  for (const Left& left : search.leftover.left) {
+    if (left.cause.is_joint()) continue;
+    const auto same = std::find_if(plain.begin(), plain.end(), [&](const Left* other) {
+      return column(*other).recorded == column(left).recorded;
+    });
+    if (same == plain.end())
+      plain.push_back(&left);
+    else if (!column(left).derived)
+      *same = &left;
+  }
+  return plain;
+}
+
+void add_what_is_left(Trace& trace, const Search& search) {
+  std::vector<const Left*> all;
+  for (const Left& left : search.leftover.left)
+    all.push_back(&left);
+  if (too_few_tests(trace)) all = plain_ones(search);
+  const std::size_t enough = trace.leads.size() + most_left;
+  for (std::size_t i = 0; i < all.size() && trace.leads.size() < enough; ++i)
+    add_lead(trace, lead_from(trace, search, *all[i]));
+}
+
+} // namespace
+
+void add_leads(Trace& trace, const Search& search, const Delivery& delivery) {
+  add_undelivered(trace, search, delivery);
+  add_confounded(trace, search);
+  if (search.negligible()) return;
+  add_what_is_left(trace, search);
+  for (Lead& lead : leads_that_may_follow(search, delivery.rival))
+    add_lead(trace, std::move(lead));
+}
+
+Lead lead_of(const Search& search, const Cause& cause) {
+  Lead lead;
+  lead.name = cause_name(cause, search.candidates);
+  for (const std::size_t c : cause.columns) {
+    const CandidateColumn& column = search.candidates.columns[c];
+    for (const std::string& name : column.recorded)
+      if (std::find(lead.columns.begin(), lead.columns.end(), name) == lead.columns.end())
+        lead.columns.push_back(name);
+    if (column.derived) lead.derived += (lead.derived.empty() ? "" : ", ") + column.name;
+  }
+  return lead;
+}
+
+} // namespace frictab::trace

@@ -1,0 +1,18 @@
+// Leads: effects that may exist but are not in the law, with the reason.
+#pragma once
+
+#include "trace/judge/delivery.h"
+
+namespace frictab::trace {
+
+// Appends leads. First, findings that are not delivered. Then causes that the order of tests
+// explains as well, each with the tests that would decide. Then the strongest unexplained terms,
+// also those that chance may explain; where the tests are too few for any p-value, the strongest
+// single quantities, recorded ones before those computed from them. Last, columns that may follow
+// from friction (followers.h) and correlate with the residual of the delivered law.
+void add_leads(Trace& trace, const Search& search, const Delivery& delivery);
+
+// Names a cause, its recorded columns and what is computed from them.
+Lead lead_of(const Search& search, const Cause& cause);
+
+} // namespace frictab::trace

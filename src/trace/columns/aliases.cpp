@@ -1,0 +1,213 @@
+// Compares settings of tests with the means of their states.
+#include "trace/columns/aliases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "data/options.h"
+#include "data/quantity.h"
+#include "data/roles.h"
+#include "trace/tuning.h"
+
+namespace frictab::trace {
+
+using data::Column;
+using data::Dataset;
+using data::Role;
+
+namespace {
+
+// Returns the setting of each test; empty if the column is not constant within tests.
+std::vector<double> setting_of(const Column& column, const Dataset& data) {
+  const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
+  const double allowed = column.levels.empty() ? tuning::held_share_of_range * (*high - *low) : 0;
+  std::vector<double> values;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const double first = column.values[data.first_row[e]];
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
+      if (!(std::abs(column.values[i] - first) <= allowed)) return {}; // or not recorded
+    values.push_back(first);
+  }
+  return values;
+}
+
+bool may_act(const Column& column, const TraceOptions& options) {
+  return data::may_be_searched(column.role) && !data::find_quantity(column.name) &&
+         column.name != data::origin_column &&
+         std::find(options.ignore.begin(), options.ignore.end(), column.name) ==
+             options.ignore.end();
+}
+
+// Test means of a state of the law.
+struct State {
+  std::string name;
+  std::vector<double> means; // per test
+  std::vector<double> at;    // the means or their logarithms
+};
+
+std::vector<State> states_of(const Dataset& data, const models::Model& model) {
+  models::Conventions unlimited = model.conventions;
+  unlimited.shear_limit = false;
+  std::vector<State> states;
+  for (const std::string& name : models::inputs(*model.law, unlimited)) {
+    const data::Quantity* quantity = data::find_quantity(name);
+    if (!quantity || !quantity->state || name == "s_mm" || !data.has(name)) continue;
+    State state{name, {}, {}};
+    const auto values = data.values(name);
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+      double sum = 0, rows = 0;
+      for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+        sum += data.row_weight(i) * values[i];
+        rows += data.row_weight(i);
+      }
+      state.means.push_back(sum / rows);
+    }
+    const bool log =
+        quantity->log_axis && *std::min_element(state.means.begin(), state.means.end()) > 0;
+    for (const double mean : state.means)
+      state.at.push_back(log ? std::log(mean) : mean);
+    states.push_back(std::move(state));
+  }
+  return states;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values)
+    sum += v;
+  return sum / static_cast<double>(values.size());
+}
+
+double squares_about(const std::vector<double>& values, double middle) {
+  double sum = 0;
+  for (const double v : values)
+    sum += (v - middle) * (v - middle);
+  return sum;
+}
+
+using Levels = std::map<double, std::vector<double>>; // per level, the values of its tests
+
+Levels by_level(const std::vector<double>& setting, const std::vector<double>& values) {
+  Levels levels;
+  for (std::size_t e = 0; e < setting.size(); ++e)
+    levels[setting[e]].push_back(values[e]);
+  return levels;
+}
+
+// R^2 corrected for the degrees of freedom of `used` means or lines.
+double corrected(double left, double all, std::size_t tests, std::size_t used) {
+  if (!(all > 0) || tests <= used) return 0;
+  return 1 - left / all * static_cast<double>(tests - 1) / static_cast<double>(tests - used);
+}
+
+double explained_by_levels(const std::vector<double>& setting, const std::vector<double>& at) {
+  const Levels levels = by_level(setting, at);
+  double left = 0;
+  for (const auto& [level, values] : levels)
+    left += squares_about(values, mean_of(values));
+  return corrected(left, squares_about(at, mean_of(at)), at.size(), levels.size());
+}
+
+double explained_by_one_line(const std::vector<double>& setting, const std::vector<double>& at) {
+  const double x0 = mean_of(setting), y0 = mean_of(at);
+  double xy = 0;
+  for (std::size_t e = 0; e < at.size(); ++e)
+    xy += (setting[e] - x0) * (at[e] - y0);
+  const double xx = squares_about(setting, x0), yy = squares_about(at, y0);
+  return xx > 0 ? corrected(yy - xy * xy / xx, yy, at.size(), 2) : 0;
+}
+
+// R^2 of a straight line in the number or in its logarithm.
+double explained_by_line(const std::vector<double>& setting, const std::vector<double>& at) {
+  std::vector<double> logarithms;
+  for (const double value : setting)
+    if (value > 0) logarithms.push_back(std::log(value));
+  const double plain = explained_by_one_line(setting, at);
+  if (logarithms.size() < setting.size()) return plain;
+  return std::max(plain, explained_by_one_line(logarithms, at));
+}
+
+// Rounds to two significant digits if that changes less than 1 %, else to three, as rigs are set:
+// "800" for 801.3, "1530" for 1532.
+std::string figure(double value) {
+  if (value == 0) return "0";
+  const double two = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1);
+  const double short_value = two * std::round(value / two);
+  const bool near = std::abs(short_value - value) < 0.01 * std::abs(value);
+  return fmt::format("{:g}", near ? short_value : 0.1 * two * std::round(10 * value / two));
+}
+
+std::string values_text(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double middle = mean_of(values);
+  if (*high - *low <= tuning::same_value_share_of_mean * std::abs(middle)) return figure(middle);
+  return figure(*low) + " to " + figure(*high);
+}
+
+// "A only at 800, B only at 1500; one test of A at 1500 would"
+std::string levels_text(const Column& column, const std::vector<double>& setting,
+                        const State& state) {
+  constexpr std::size_t shown = 4;
+  const Levels levels = by_level(setting, state.means);
+  const auto called = [&](double level) {
+    if (column.levels.empty()) return fmt::format("{:g}", level);
+    const std::string& name = column.levels[static_cast<std::size_t>(level)];
+    return name.empty() ? std::string("an empty cell") : name;
+  };
+  std::vector<std::string> texts;
+  auto lowest = levels.begin(), highest = levels.begin();
+  for (auto at = levels.begin(); at != levels.end(); ++at) {
+    if (texts.size() < shown)
+      texts.push_back(called(at->first) + " only at " + values_text(at->second));
+    if (mean_of(at->second) < mean_of(lowest->second)) lowest = at;
+    if (mean_of(at->second) > mean_of(highest->second)) highest = at;
+  }
+  if (levels.size() > shown) texts.push_back(fmt::format("{} more", levels.size() - shown));
+  return fmt::format("{}; one test of {} at {} would", join(texts, ", "), called(lowest->first),
+                     figure(mean_of(highest->second)));
+}
+
+std::string line_text(const std::string& column, const std::vector<double>& setting,
+                      const State& state) {
+  const auto least = std::min_element(setting.begin(), setting.end());
+  const auto most = std::max_element(setting.begin(), setting.end());
+  const double there = state.means[static_cast<std::size_t>(most - setting.begin())];
+  return fmt::format("they change together; one test with {} {:g} at {} {} would", column, *least,
+                     state.name, figure(there));
+}
+
+} // namespace
+
+std::vector<Alias> find_aliases(const Dataset& training, const models::Model& model,
+                                const TraceOptions& options) {
+  std::vector<Alias> aliases;
+  const std::size_t tests = training.experiments.size();
+  if (tests < tuning::fewest_tests_for_aliases) return aliases;
+  const std::vector<State> states = states_of(training, model);
+  for (const Column& column : training.columns) {
+    if (!may_act(column, options)) continue;
+    const std::vector<double> setting = setting_of(column, training);
+    if (setting.empty()) continue;
+    const std::size_t levels = by_level(setting, setting).size();
+    const bool few = 2 * levels <= tests;
+    if (levels < 2 || (!few && !column.levels.empty())) continue;
+    for (const State& state : states) {
+      const double by_levels = few ? explained_by_levels(setting, state.at) : 0;
+      const double by_line = column.levels.empty() ? explained_by_line(setting, state.at) : 0;
+      if (std::max(by_levels, by_line) <= tuning::aliased_share_of_variance) continue;
+      aliases.push_back(
+          {column.name, state.name, std::max(by_levels, by_line),
+           fmt::format("{} cannot be distinguished from {}: {}", column.name, state.name,
+                       by_levels > tuning::aliased_share_of_variance
+                           ? levels_text(column, setting, state)
+                           : line_text(column.name, setting, state))});
+    }
+  }
+  return aliases;
+}
+
+} // namespace frictab::trace

@@ -1,0 +1,595 @@
+// Lists candidate columns and pairs of them.
+#include "trace/columns/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <set>
+#include <string_view>
+#include <tuple>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/order_statistics.h"
+#include "core/text.h"
+#include "data/derived.h"
+#include "data/options.h"
+#include "data/quantity.h"
+#include "data/roles.h"
+#include "trace/columns/test_dates.h"
+#include "trace/tuning.h"
+
+namespace frictab::trace {
+
+using data::Column;
+using data::Dataset;
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using Rows = std::span<const double>;
+
+bool is_constant(Rows values) {
+  return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
+}
+
+bool has_two_values(Rows values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return std::all_of(values.begin(), values.end(),
+                     [low = *low, high = *high](double v) { return v == low || v == high; });
+}
+
+std::size_t count_empty(Rows values) {
+  return static_cast<std::size_t>(
+      std::count_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }));
+}
+
+bool varies_within(Rows values, const Dataset& data) {
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    if (!is_constant(values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])))
+      return true;
+  return false;
+}
+
+// Squared correlation; 0 if a column does not vary.
+double likeness(const VectorXd& a, const VectorXd& b) {
+  const VectorXd x = a.array() - a.mean(), y = b.array() - b.mean();
+  const double xy = x.dot(y), size = x.squaredNorm() * y.squaredNorm();
+  return size > 0 ? xy * xy / size : 0;
+}
+
+// Multiples of the golden ratio: evenly distributed and never periodic, so no column has this
+// direction by chance.
+VectorXd golden_direction(Index size) {
+  VectorXd direction(size);
+  double next = 0.5;
+  for (double& d : direction) {
+    next = std::fmod(next + 0.6180339887498949, 1.0);
+    d = next - 0.5;
+  }
+  return direction.normalized();
+}
+
+// Position of a column along that direction. Identical columns have neighbouring positions, so each
+// column is compared with few of a thousand others. The sign of a correlation does not matter.
+double standing(const VectorXd& values, const VectorXd& direction) {
+  const VectorXd x = values.array() - values.mean();
+  const double size = x.norm();
+  return size > 0 ? std::abs(direction.dot(x)) / size : 0;
+}
+
+// Quantiles; partially sorts `all`: every value ends up between the quantiles around it.
+std::vector<double> quantiles_of(std::vector<double>& all) {
+  std::vector<double> at;
+  std::vector<std::size_t> ranks;
+  for (std::size_t i = 0; i <= tuning::quantile_intervals; ++i)
+    ranks.push_back(i * (all.size() - 1) / tuning::quantile_intervals);
+  place_ranks(all, ranks);
+  for (const std::size_t rank : ranks)
+    at.push_back(all[rank]);
+  return at;
+}
+
+// Median of the ranges within experiments, relative to the range over all.
+double usual_reach(Rows values, const Dataset& data) {
+  const auto range = [](Rows part) {
+    const auto [low, high] = std::minmax_element(part.begin(), part.end());
+    return *high - *low;
+  };
+  std::vector<double> own;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    own.push_back(
+        range(values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])));
+  std::sort(own.begin(), own.end());
+  const double all = range(values);
+  return all > 0 ? own[own.size() / 2] / all : 0;
+}
+
+double widest_gap(const std::vector<double>& tested) {
+  double widest = 0;
+  for (std::size_t i = 1; i < tested.size(); ++i)
+    widest = std::max(widest, tested[i] - tested[i - 1]);
+  return widest;
+}
+
+class CandidateFinder {
+public:
+  CandidateFinder(const Dataset& training, const Dataset& validation, const stats::Blocks& blocks,
+                  Rows predicted, const std::vector<std::string>& inputs,
+                  const TraceOptions& options)
+      : training_(training), validation_(validation), blocks_(blocks), predicted_(predicted),
+        inputs_(inputs), options_(options),
+        golden_(golden_direction(static_cast<Index>(blocks.count()))) {
+    for (const Column& column : validation.columns)
+      validation_columns_.emplace(column.name, &column);
+  }
+
+  Candidates run() {
+    check_names();
+    find_order();
+    for (const Column& column : training_.columns)
+      if (allowed(column)) add_recorded(column);
+    for (const data::DerivedQuantity& quantity : data::derived_quantities())
+      if (possible(quantity)) add_derived(quantity);
+    return std::move(found_);
+  }
+
+private:
+  void check_names() const {
+    std::vector<std::string> known;
+    for (const Column& column : training_.columns)
+      known.push_back(column.name);
+    for (const data::DerivedQuantity& quantity : data::derived_quantities())
+      known.push_back(quantity.name);
+    FaultList faults;
+    const auto check = [&](const std::string& name, const Place& place) {
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        faults.add(place, "the data have no column '" + name + "'", suggest(name, known));
+    };
+    for (const std::string& name : options_.ignore)
+      check(name, options_.ignore_place);
+    if (!options_.order.empty()) check(options_.order, options_.order_place);
+    if (!options_.tool_distance.empty())
+      check(options_.tool_distance, options_.tool_distance_place);
+    const Column* worn = training_.find(options_.tool_distance);
+    if (worn && (!worn->levels.empty() || data::is_measured(worn->name)))
+      faults.add(options_.tool_distance_place,
+                 fmt::format("'{}' is not a distance: it {}", worn->name,
+                             worn->levels.empty() ? "is what was measured" : "holds text"),
+                 "a column of numbers: how far the tool had slid before the test");
+    faults.throw_if_any();
+  }
+
+  bool ignored(const std::string& name) const {
+    return std::find(options_.ignore.begin(), options_.ignore.end(), name) != options_.ignore.end();
+  }
+
+  // Accepts only a declared order, or a column whose name gives one, because files are often sorted
+  // by condition.
+  void find_order() {
+    const Column* order = nullptr;
+    int best = 0;
+    for (const Column& column : training_.columns)
+      if (const int rank = order_rank(column); rank > best) {
+        order = &column;
+        best = rank;
+      }
+    if (!order || order_has_gaps(*order) || orders_nothing(*order)) return;
+    const TestDates dates = sort_dates(order->levels); // time stamps are text
+    if (!dates.fault.empty()) {
+      not_an_order(*order, dates.fault, "write dates as 2024-09-01");
+      return;
+    }
+    for (std::size_t e = 0; e < training_.experiments.size(); ++e) {
+      const double value = order->values[training_.first_row[e]];
+      found_.order.push_back(order->levels.empty() ? value
+                                                   : dates.place[static_cast<std::size_t>(value)]);
+    }
+    part_equals(found_.order);
+    found_.order_column = order->name;
+  }
+
+  // Rank of a column as the order of tests; 0: it gives none. A number qualifies only if no two
+  // tests share a value.
+  int order_rank(const Column& column) const {
+    if (!options_.order.empty()) return column.name == options_.order ? 1 : 0;
+    if (!data::is_order(column) || varies_within(column.values, training_) ||
+        is_constant(column.values))
+      return 0;
+    if (column.why == data::set_by_job) return 3;
+    if (!column.levels.empty()) return 1; // a time stamp
+    return values_of_tests(column, training_) == training_.experiments.size() ? 2 : 0;
+  }
+
+  // Orders tests with equal values, such as those of one day, at random instead of by name: names
+  // often follow the conditions. (Experiments are sorted by name.)
+  void part_equals(std::vector<double>& order) const {
+    std::vector<std::size_t> place(order.size());
+    std::iota(place.begin(), place.end(), 0);
+    std::vector<std::uint64_t> draw;
+    for (const std::string& name : training_.experiments)
+      draw.push_back(hash_of(name));
+    std::sort(place.begin(), place.end(), [&](std::size_t a, std::size_t b) {
+      return std::tie(order[a], draw[a], a) < std::tie(order[b], draw[b], b);
+    });
+    for (std::size_t i = 0; i < place.size(); ++i)
+      order[place[i]] = static_cast<double>(i);
+  }
+
+  bool orders_nothing(const Column& column) {
+    const std::size_t values = values_of_tests(column, training_);
+    const auto has_digit = [](const std::string& text) {
+      return text.find_first_of("0123456789") != std::string::npos;
+    };
+    std::string why;
+    if (data::is_measured(column.name))
+      why = "it is what was measured";
+    else if (!std::all_of(column.levels.begin(), column.levels.end(), has_digit))
+      why = fmt::format("'{}' is neither a number nor a time stamp",
+                        *std::find_if_not(column.levels.begin(), column.levels.end(), has_digit));
+    else if (values < 3)
+      why = values == 1 ? "every test begins with the same value"
+                        : "the tests begin with two values only";
+    if (why.empty()) return false;
+    not_an_order(column, why, "a number that counts the tests, or when each was made");
+    return true;
+  }
+
+  // Throws if the job names the column; else notes that the column is not used.
+  void not_an_order(const Column& column, const std::string& why, const std::string& hint) {
+    const std::string text = fmt::format("{}, the order of tests: {}", column.name, why);
+    if (column.name == options_.order) throw InputError(options_.order_place, text, hint);
+    found_.notes.push_back(text + ": not used");
+  }
+
+  bool order_has_gaps(const Column& order) {
+    const std::size_t empty = count_empty(order.values);
+    if (empty == 0) return false;
+    not_an_order(
+        order,
+        fmt::format("{} of {} rows without a value", thousands(empty), thousands(training_.rows())),
+        "fill them in, or name another column");
+    return true;
+  }
+
+  bool allowed(const Column& column) {
+    if (data::is_measured(column.name) || column.name == data::origin_column ||
+        column.role == data::Role::test || ignored(column.name))
+      return false;
+    if (!data::may_be_searched(column.role) && !data::find_quantity(column.name))
+      return left_out_by_role(column);
+    if (column.name == found_.order_column) {
+      if (column.name != "run_order" && column.levels.empty())
+        add_column(column.name, {column.name}, false, column.values);
+      return false;
+    }
+    if (data::find_derived(effects::symbol_of(column.name))) {
+      found_.notes.push_back(column.name + " has the name of a history that frictab computes "
+                                           "itself: the column is left out; another name lets it "
+                                           "be tried");
+      return false;
+    }
+    if (is_constant(column.values)) {
+      found_.constant.push_back(column.name);
+      return false;
+    }
+    const auto in_validation = validation_columns_.find(column.name);
+    if (in_validation == validation_columns_.end()) {
+      found_.notes.push_back(column.name + " is not in the validation data: left out");
+      return false;
+    }
+    return !has_empty_cells(column, *in_validation->second);
+  }
+
+  // Sources of the measured stress are reported when the file is read; channels and outcomes become
+  // leads.
+  bool left_out_by_role(const Column& column) {
+    if (column.role == data::Role::response)
+      found_.notes.push_back(fmt::format("{} belongs to the measured friction ({}){}", column.name,
+                                         column.why, not_searched));
+    return false;
+  }
+
+  // Skips columns with empty cells: no values are invented, and rows are not dropped for a column
+  // that may be irrelevant to friction.
+  bool has_empty_cells(const Column& training, const Column& validation) {
+    const std::size_t empty = count_empty(training.values) + count_empty(validation.values);
+    if (empty == 0) return false;
+    found_.notes.push_back(
+        fmt::format("{}: {} of {} rows without a value{}", training.name, thousands(empty),
+                    thousands(training_.rows() + validation_.rows()), not_searched));
+    return true;
+  }
+
+  // Whether the column is the declared tool wear, which may follow the order of tests.
+  bool declared_wear(const std::string& name) const {
+    return !options_.tool_distance.empty() &&
+           (name == options_.tool_distance ||
+            (name == "test_order" && options_.tool_distance == found_.order_column));
+  }
+
+  void add_column(const std::string& name, std::vector<std::string> recorded, bool derived,
+                  Rows values) {
+    CandidateColumn column;
+    column.name = name;
+    column.recorded = std::move(recorded);
+    column.derived = derived;
+    column.values = blocks_.mean(values);
+    std::vector<double> in_parts(values.begin(), values.end());
+    column.tested = quantiles_of(in_parts);
+    column.spread = effects::spread_of(in_parts); // faster here than on unsorted values
+    column.within = varies_within(values, training_);
+    column.two_values = has_two_values(values);
+    column.reach = usual_reach(values, training_);
+    column.gap = widest_gap(column.tested);
+    column.is_reading = !derived && is_reading(name);
+    const bool orders = name == "test_order" || name == found_.order_column;
+    const bool course = column.within && (name == "time_s" || name == "s_mm");
+    column.between = orders ? declared_wear(name) : !derived && !course;
+    column.in_law =
+        std::find(inputs_.begin(), inputs_.end(), effects::symbol_of(name)) != inputs_.end();
+    found_.by_symbol[effects::symbol_of(name)] = column.values;
+    const double at = standing(column.values, golden_);
+    if (const CandidateColumn* twin = twin_of(column.values, at)) {
+      found_.notes.push_back(name + " is the same as " + twin->name + " in these data");
+      return;
+    }
+    keep(std::move(column), at);
+  }
+
+  bool is_reading(const std::string& name) const {
+    const Column* column = training_.find(name);
+    return column && !data::find_quantity(name) && column->levels.empty() &&
+           column->why != data::set_by_job &&
+           2 * values_of_tests(*column, training_) > training_.experiments.size();
+  }
+
+  // First column that is identical up to offset and scale; nullptr if there is none.
+  const CandidateColumn* twin_of(const VectorXd& values, double at) const {
+    std::size_t first = found_.columns.size();
+    for (auto near = standings_.lower_bound(at - tuning::same_projection_tolerance);
+         near != standings_.end() && near->first <= at + tuning::same_projection_tolerance; ++near)
+      if (near->second < first &&
+          likeness(found_.columns[near->second].values, values) > tuning::identical_r2)
+        first = near->second;
+    return first < found_.columns.size() ? &found_.columns[first] : nullptr;
+  }
+
+  void keep(CandidateColumn column, double at) {
+    standings_.emplace(at, found_.columns.size());
+    found_.columns.push_back(std::move(column));
+  }
+
+  void add_recorded(const Column& column) {
+    if (column.levels.empty()) return add_column(column.name, {column.name}, false, column.values);
+    if (column.levels.size() > tuning::most_levels_of_text) {
+      found_.notes.push_back(fmt::format("{} has {} levels, more than {}: left out", column.name,
+                                         column.levels.size(), tuning::most_levels_of_text));
+      return;
+    }
+    CandidateColumn text;
+    text.name = column.name;
+    text.recorded = {column.name};
+    text.levels = column.levels;
+    // A block that spans two levels gets the level of its first row.
+    text.values.resize(static_cast<Index>(blocks_.count()));
+    for (std::size_t b = 0; b < blocks_.count(); ++b)
+      text.values(static_cast<Index>(b)) = column.values[blocks_.first_row[b]];
+    text.within = varies_within(column.values, training_);
+    text.between = !text.within;
+    found_.by_symbol[effects::symbol_of(column.name)] = text.values;
+    const double at = standing(text.values, golden_);
+    keep(std::move(text), at);
+  }
+
+  bool possible(const data::DerivedQuantity& quantity) const {
+    if (ignored(quantity.name)) return false;
+    return std::all_of(quantity.needs.begin(), quantity.needs.end(), [&](const std::string& need) {
+      return need == "tau" || (training_.has(need) && validation_.has(need) && !ignored(need));
+    });
+  }
+
+  void add_derived(const data::DerivedQuantity& quantity) {
+    const std::vector<double> values = data::derive(quantity, training_, predicted_);
+    if (is_constant(values)) return;
+    std::vector<std::string> recorded;
+    for (const std::string& need : quantity.needs)
+      if (need != "tau") recorded.push_back(need);
+    add_column(quantity.name, std::move(recorded), true, values);
+  }
+
+  const Dataset& training_;
+  const Dataset& validation_;
+  const stats::Blocks& blocks_;
+  Rows predicted_;
+  const std::vector<std::string>& inputs_;
+  const TraceOptions& options_;
+  const VectorXd golden_;
+  std::unordered_map<std::string_view, const Column*> validation_columns_;
+  std::multimap<double, std::size_t> standings_; // positions of the columns found
+  Candidates found_;
+};
+
+// Each pair has a dozen shapes, each as long as the data. Pairs of a thousand columns would exhaust
+// memory, and no effect could be significant among half a million.
+bool pairs_every_column(const Candidates& candidates) {
+  return candidates.columns.size() <= tuning::most_columns_for_all_pairs;
+}
+
+// Whether a column may act together with others. Among histories only four may: the others nearly
+// follow these, and each further column multiplies the pairs.
+bool may_act_with_others(const CandidateColumn& column) {
+  const effects::Spread& s = column.spread;
+  const bool numbers = s.high - s.low > 0.2 * std::max(std::abs(s.median), 1e-300);
+  return (!column.levels.empty() || numbers) &&
+         (!column.derived || column.name == "sliding_distance" || column.name == "friction_work" ||
+          column.name == "load_ratio" || column.name == "temperature_rise");
+}
+
+} // namespace
+
+std::size_t values_of_tests(const Column& column, const Dataset& data) {
+  std::set<double> values;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    values.insert(column.values[data.first_row[e]]);
+  return values.size();
+}
+
+Candidates find_candidates(const Dataset& training, const Dataset& validation,
+                           const stats::Blocks& blocks, Rows predicted,
+                           const std::vector<std::string>& inputs, const TraceOptions& options) {
+  Candidates found =
+      CandidateFinder(training, validation, blocks, predicted, inputs, options).run();
+  if (!pairs_every_column(found))
+    found.notes.push_back(fmt::format("pairs without a state of the law, of {} columns (of all up "
+                                      "to {}; data.bystanders or trace.ignore leave some out){}",
+                                      thousands(found.columns.size()),
+                                      tuning::most_columns_for_all_pairs, not_searched));
+  if (training.has("sigma_n_MPa")) { // effects added to tau_R fade with it
+    const auto sigma = training.values("sigma_n_MPa");
+    found.by_symbol.try_emplace("sigma_n_MPa", blocks.mean(sigma));
+    for (const double pressure : sigma)
+      if (pressure > 0 && (found.lowest_pressure_MPa == 0 || pressure < found.lowest_pressure_MPa))
+        found.lowest_pressure_MPa = pressure;
+  }
+  for (const std::string& name : inputs) {
+    if (found.by_symbol.count(name)) continue;
+    // a history that is not searched
+    const data::DerivedQuantity* history = data::find_derived(name);
+    found.by_symbol[name] = history ? blocks.mean(data::derive(*history, training, predicted))
+                                    : blocks.mean(training.values(name));
+  }
+  return found;
+}
+
+Cause joined_cause(const Cause& cause, std::size_t column, const Candidates& candidates) {
+  Cause all = cause;
+  all.columns.push_back(column);
+  const auto is_text = [&](std::size_t c) { return !candidates.columns[c].levels.empty(); };
+  std::sort(all.columns.begin(), all.columns.end(), [&](std::size_t a, std::size_t b) {
+    return is_text(a) != is_text(b) ? is_text(a) : a < b;
+  });
+  return all;
+}
+
+namespace {
+
+// Whether two columns are nearly collinear: they are one quantity, and their product is a parabola.
+bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
+  return a.levels.empty() && b.levels.empty() &&
+         likeness(a.values, b.values) > tuning::near_collinear_r2;
+}
+
+} // namespace
+
+bool may_act_together(const Cause& cause, const Candidates& candidates) {
+  std::size_t text = 0;
+  for (const std::size_t c : cause.columns) {
+    if (!may_act_with_others(candidates.columns[c])) return false;
+    text += !candidates.columns[c].levels.empty();
+    for (const std::size_t other : cause.columns)
+      if (other < c && run_alike(candidates.columns[other], candidates.columns[c])) return false;
+  }
+  return text <= 1;
+}
+
+std::vector<Cause> all_causes(const Candidates& candidates) {
+  std::vector<Cause> all;
+  const auto& columns = candidates.columns;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    all.push_back({{c}});
+  const auto add = [&](const Cause& cause, std::size_t column) {
+    Cause more = joined_cause(cause, column, candidates);
+    if (may_act_together(more, candidates)) all.push_back(std::move(more));
+  };
+  const bool every_pair = pairs_every_column(candidates);
+  for (std::size_t a = 0; a < columns.size(); ++a)
+    for (std::size_t b = a + 1; b < columns.size(); ++b)
+      if (every_pair || columns[a].in_law || columns[b].in_law) add({{a}}, b);
+  return all;
+}
+
+bool is_state(const CandidateColumn& column) {
+  const data::Quantity* known = data::find_quantity(column.name);
+  return (column.in_law || (known && known->state)) && column.name != "s_mm" &&
+         column.name != "time_s";
+}
+
+Eigen::MatrixXd state_means(const Candidates& candidates, const stats::Blocks& blocks) {
+  Eigen::MatrixXd all(static_cast<Eigen::Index>(blocks.experiments()), 0);
+  for (const CandidateColumn& column : candidates.columns) {
+    if (!is_state(column) || column.name == "sigma_f_MPa") continue; // which follows from others
+    Eigen::VectorXd x = blocks.experiment_means(column.values).col(0);
+    x.array() -= x.mean();
+    const double sd = x.norm() / std::sqrt(static_cast<double>(x.size()));
+    if (!(sd > 0)) continue;
+    all.conservativeResize(Eigen::NoChange, all.cols() + 1);
+    all.rightCols(1) = x / sd;
+  }
+  return all;
+}
+
+bool one_factor_at_a_time(const Eigen::MatrixXd& states) {
+  if (states.cols() < 2 || states.rows() < 5) return false;
+  Eigen::VectorXi count = Eigen::VectorXi::Zero(states.rows());
+  for (Eigen::Index s = 0; s < states.cols(); ++s) {
+    Eigen::VectorXd sorted = states.col(s);
+    std::sort(sorted.begin(), sorted.end());
+    const double range = sorted(sorted.size() - 1) - sorted(0), middle = sorted(sorted.size() / 2);
+    count += ((states.col(s).array() - middle).abs() > tuning::changed_share_of_range * range)
+                 .cast<int>()
+                 .matrix();
+  }
+  const auto several = static_cast<double>((count.array() > 1).count());
+  return several <= tuning::share_of_tests_changing_several * static_cast<double>(states.rows());
+}
+
+std::optional<Cause> cause_in(const Candidates& to, const Cause& cause, const Candidates& from) {
+  Cause found = cause;
+  for (std::size_t& column : found.columns) {
+    const auto at =
+        std::find_if(to.columns.begin(), to.columns.end(), [&](const CandidateColumn& one) {
+          return one.name == from.columns[column].name;
+        });
+    if (at == to.columns.end()) return std::nullopt;
+    column = static_cast<std::size_t>(at - to.columns.begin());
+  }
+  return found;
+}
+
+std::string cause_name(const Cause& cause, const Candidates& candidates) {
+  std::vector<std::string> names;
+  for (const std::size_t c : cause.columns)
+    names.push_back(candidates.columns[c].name);
+  return join(names, " x ");
+}
+
+namespace {
+
+int steps_from_what_is_recorded(const CandidateColumn& derived) {
+  const data::Continuation& how = data::find_derived(derived.name)->continuation;
+  if (how.always) return 1;
+  return how.rule == data::Continuation::none ? 3 : 2;
+}
+
+} // namespace
+
+int complexity(const Cause& cause, const Candidates& candidates) {
+  int steps = 2 * static_cast<int>(cause.columns.size() - 1);
+  for (const std::size_t c : cause.columns)
+    if (candidates.columns[c].derived) steps += steps_from_what_is_recorded(candidates.columns[c]);
+  return steps;
+}
+
+bool constant_in_experiments(const Cause& cause, const Candidates& candidates) {
+  return std::none_of(cause.columns.begin(), cause.columns.end(),
+                      [&](std::size_t c) { return candidates.columns[c].within; });
+}
+
+} // namespace frictab::trace

@@ -1,0 +1,322 @@
+// Grids of shapes, and bounds of their fits.
+#include "trace/columns/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "data/quantity.h"
+#include "trace/tuning.h"
+
+namespace frictab::trace {
+
+using effects::PlacedEffect;
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Whether a form has a position and a width (a hump, a step), so that it has structure of that
+// width.
+bool is_local(const PlacedEffect& effect) {
+  const auto fitted = effects::fitted_parameters(effect);
+  const std::size_t amplitudes = effects::amplitudes_of(effect);
+  const auto has = [&](bool width) {
+    return std::any_of(fitted.begin() + static_cast<long>(amplitudes), fitted.end(),
+                       [&](const models::Parameter& p) { return (p.lower > 0) == width; });
+  };
+  return fitted.size() > amplitudes + 1 && has(true) && has(false);
+}
+
+// Columns in the order in which the form takes them: text before numbers; for a recovery, the
+// sliding, which grows within a test, before the pause, which is constant in it.
+std::vector<const CandidateColumn*> columns_of(const effects::EffectForm& form, const Cause& cause,
+                                               const Candidates& candidates) {
+  std::vector<const CandidateColumn*> columns;
+  for (const std::size_t c : cause.columns)
+    columns.push_back(&candidates.columns[c]);
+  if (columns.size() == 2 && form.name == "recovery" && !columns[0]->within && columns[1]->within)
+    std::swap(columns[0], columns[1]);
+  return columns;
+}
+
+double gap_of(const std::string& column, const Candidates& candidates) {
+  for (const CandidateColumn& c : candidates.columns)
+    if (c.name == column) return c.gap;
+  return 0;
+}
+
+} // namespace
+
+PlacedEffect start_effect(const effects::EffectForm& form, const Cause& cause,
+                          const Candidates& candidates, effects::ActsOn acts_on,
+                          double tau_scale_MPa) {
+  PlacedEffect effect;
+  effect.form = &form;
+  effect.acts_on = acts_on;
+  effect.tau_scale_MPa = tau_scale_MPa;
+  effect.pressure_MPa = candidates.lowest_pressure_MPa;
+  std::vector<effects::Spread> spreads;
+  std::vector<std::span<const double>> tested;
+  for (const CandidateColumn* column : columns_of(form, cause, candidates)) {
+    effect.inputs.push_back(
+        {column->name, column->levels, column->spread.minimum, column->spread.maximum});
+    spreads.push_back(column->spread);
+    tested.emplace_back(column->tested);
+  }
+  effects::set_knots(effect, tested);
+  if (form.parameters_of)
+    effect.parameters.assign(effects::parameters_of(effect).size(), 0.0);
+  else
+    effect.parameters = effects::start_values(form, spreads);
+  return effect;
+}
+
+namespace {
+
+bool is_angle(const std::string& name) {
+  return name.ends_with("_deg") || name.find("angle") != std::string::npos;
+}
+
+// Whether it is a distance or a time: along any other column a wave is only a flexible curve.
+bool is_along(const std::string& name) {
+  return name == "s_mm" || name == "time_s" || name == "sliding_distance" ||
+         name == "time_since_start";
+}
+
+// Whether a form makes sense for a column. Some need positive values or degrees; two values
+// determine only a line.
+bool has_meaning(const effects::EffectForm& form, const CandidateColumn& x) {
+  if (form.columns == 1 && x.two_values) return form.name == "linear";
+  if (form.name == "arrhenius")
+    return x.name.find("_C") != std::string::npos || x.name.find("T_") != std::string::npos;
+  if (form.name == "power" || form.name == "logarithmic")
+    return x.spread.median > 0 && x.spread.minimum >= 0;
+  if (form.name == "saturation" || form.name == "stribeck")
+    return x.spread.minimum >= 0 && x.spread.minimum < 0.5 * x.spread.maximum;
+  // A wave is visible along an experiment; from test to test it imitates any structure.
+  if (form.name == "periodic") return x.reach > 0.5 && is_along(x.name);
+  if (form.name == "cosine") return is_angle(x.name);
+  if (form.name == "hysteresis") return x.name == "load_ratio";
+  return true;
+}
+
+bool is_recovery(const CandidateColumn& slid, const CandidateColumn& pause) {
+  const bool slides = slid.name == "s_mm" || slid.name == "sliding_distance";
+  const auto is_time = [&](const char* word) { return pause.name.find(word) != std::string::npos; };
+  return slides && !pause.within && !pause.derived && pause.spread.minimum >= 0 &&
+         ((pause.name.ends_with("_s") && !data::find_quantity(pause.name)) || is_time("pause") ||
+          is_time("dwell") || is_time("wait"));
+}
+
+// Whether the shape has structure between values that were never tested.
+bool too_narrow(const PlacedEffect& effect, double gap) {
+  if (!is_local(effect)) return false;
+  const auto all = effects::parameters_of(effect);
+  for (std::size_t p = effects::amplitudes_of(effect); p < all.size(); ++p)
+    if (all[p].lower > 0 && effect.parameters[p] < 0.5 * gap) return true;
+  return false;
+}
+
+// One direction per level against the others; for a pair, multiplied by the number after it.
+std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candidates) {
+  const CandidateColumn& x = candidates.columns[cause.columns[0]];
+  const effects::EffectForm& form =
+      *effects::find_effect(cause.is_joint() ? "category_slope" : "category");
+  VectorXd times = VectorXd::Ones(x.values.size());
+  if (cause.is_joint()) {
+    const CandidateColumn& number = candidates.columns[cause.columns[1]];
+    times = (number.values.array() - number.spread.median) / number.spread.span();
+  }
+  std::vector<GridShape> shapes;
+  for (std::size_t level = 0; level < x.levels.size(); ++level) {
+    if (x.levels.size() == 2 && level == 1) break; // the mirror image of the first
+    const VectorXd is = (x.values.array() == static_cast<double>(level)).cast<double>();
+    shapes.push_back({start_effect(form, cause, candidates, effects::ActsOn::mu, 1),
+                      is.cwiseProduct(times).cast<float>()});
+  }
+  return shapes;
+}
+
+// A shape about its mean, scaled to norm 1. It is compared with others by its first quarter, if
+// that suffices.
+struct Centred {
+  Eigen::VectorXf values;
+  Index quarter;
+  float rest; // norm of the part after that quarter
+
+  explicit Centred(Eigen::VectorXf of_norm_1)
+      : values(std::move(of_norm_1)), quarter(values.size() / 4),
+        rest(values.tail(values.size() - quarter).norm()) {}
+
+  bool resembles(const Centred& other) const {
+    const float begun = values.head(quarter).dot(other.values.head(quarter));
+    if (std::abs(begun) + rest * other.rest <
+        tuning::same_shape_cosine - tuning::single_precision_slack)
+      return false;
+    return std::abs(values.dot(other.values)) > tuning::same_shape_cosine;
+  }
+};
+
+// Keeps one of several nearly equal shapes.
+void keep_different(std::vector<GridShape>& shapes) {
+  std::vector<GridShape> kept;
+  std::vector<Centred> seen;
+  for (GridShape& shape : shapes) {
+    Eigen::VectorXf d = shape.direction.array() - shape.direction.mean();
+    const float norm = d.norm();
+    if (!(norm > 1e-6f) || !std::isfinite(norm)) continue;
+    Centred centred(d / norm);
+    if (std::any_of(seen.begin(), seen.end(),
+                    [&](const Centred& other) { return other.resembles(centred); }))
+      continue;
+    seen.push_back(std::move(centred));
+    kept.push_back(std::move(shape));
+  }
+  shapes = std::move(kept);
+}
+
+std::vector<const double*> inputs_on(const PlacedEffect& effect, const BlockColumns& columns) {
+  std::vector<const double*> data;
+  for (const effects::EffectInput& input : effect.inputs)
+    data.push_back(columns.at(effects::symbol_of(input.column)).data());
+  return data;
+}
+
+// Factors of one form along its grid. Compiling a program takes as long as running it over
+// thousands of blocks, so it is compiled once: along a grid only its argument values change.
+class GridOfForm {
+public:
+  explicit GridOfForm(const BlockColumns& columns) : columns_(columns) {}
+
+  // Derivative of the factor by the amplitude.
+  Eigen::VectorXf direction(const PlacedEffect& effect) {
+    if (!bound_ || references_of(effect) != references_) bind(effect);
+    Eigen::VectorXf direction(static_cast<Index>(bound_->rows()));
+    bound_->sweep(effects::fitted_values(effect), true,
+                  [&](const expr::BoundProgram::Block& block) {
+                    for (std::size_t i = 0; i < block.count; ++i)
+                      direction(static_cast<Index>(block.first + i)) =
+                          static_cast<float>(block.derivative[0][i]);
+                  });
+    return direction;
+  }
+
+private:
+  // Parameters that are not fitted, which are constants of the program.
+  static std::vector<double> references_of(PlacedEffect effect) {
+    effects::set_fitted(effect, std::vector<double>(effects::fitted_values(effect).size(), 0.0));
+    return effect.parameters;
+  }
+
+  void bind(const PlacedEffect& effect) {
+    const auto data = inputs_on(effect, columns_);
+    const auto rows = columns_.at(effects::symbol_of(effect.inputs[0].column)).size();
+    references_ = references_of(effect);
+    program_ = std::make_unique<expr::Program>(effects::factor_program(effect));
+    bound_ = std::make_unique<expr::BoundProgram>(*program_, static_cast<std::size_t>(rows), data);
+  }
+
+  const BlockColumns& columns_;
+  std::vector<double> references_;
+  std::unique_ptr<expr::Program> program_;
+  std::unique_ptr<expr::BoundProgram> bound_;
+};
+
+} // namespace
+
+MatrixXd roughness_of(const PlacedEffect& effect) {
+  const std::vector<double> rows = effect.form->penalty(effect);
+  const auto size = static_cast<Index>(effects::amplitudes_of(effect));
+  return Eigen::Map<const MatrixXd>(rows.data(), size, size); // symmetric
+}
+
+VectorXd factor_on(const PlacedEffect& effect, const BlockColumns& columns) {
+  const std::vector<const double*> data = inputs_on(effect, columns);
+  VectorXd factor(columns.begin()->second.size());
+  effects::factor_program(effect).evaluate(static_cast<std::size_t>(factor.size()), data,
+                                           effects::fitted_values(effect), factor.data());
+  return factor;
+}
+
+MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns) {
+  const expr::Program program = effects::factor_program(effect);
+  const std::vector<const double*> data = inputs_on(effect, columns);
+  const Index count = columns.at(effects::symbol_of(effect.inputs[0].column)).size();
+  MatrixXd basis(count, static_cast<Index>(effects::amplitudes_of(effect)));
+  expr::BoundProgram(program, static_cast<std::size_t>(count), data)
+      .sweep(effects::fitted_values(effect), true, [&](const expr::BoundProgram::Block& block) {
+        for (Index a = 0; a < basis.cols(); ++a)
+          for (std::size_t i = 0; i < block.count; ++i)
+            basis(static_cast<Index>(block.first + i), a) = block.derivative[a][i];
+      });
+  return basis;
+}
+
+bool form_fits(const effects::EffectForm& form, const Cause& cause, const Candidates& candidates) {
+  const auto columns = columns_of(form, cause, candidates);
+  if (form.columns != columns.size() || form.categorical == columns[0]->levels.empty())
+    return false;
+  for (std::size_t i = 1; i < columns.size(); ++i)
+    if (!columns[i]->levels.empty()) return false;
+  return form.name == "recovery" ? is_recovery(*columns[0], *columns[1])
+                                 : has_meaning(form, *columns[0]);
+}
+
+namespace {
+
+// Whether both columns vary within tests: between tests a threshold in two columns fits anything.
+bool both_move(const Cause& cause, const Candidates& candidates) {
+  return std::all_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
+    return candidates.columns[c].within && !candidates.columns[c].derived;
+  });
+}
+
+} // namespace
+
+std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidates) {
+  const CandidateColumn& x = candidates.columns[cause.columns[0]];
+  if (!x.levels.empty()) return level_shapes(cause, candidates);
+  std::vector<GridShape> shapes;
+  for (const effects::EffectForm& form : effects::all_effects()) {
+    if (form.parameters_of || !form_fits(form, cause, candidates)) continue;
+    if (form.name == "threshold2" && !both_move(cause, candidates)) continue;
+    PlacedEffect effect = start_effect(form, cause, candidates, effects::ActsOn::mu, 1);
+    std::vector<effects::Spread> spreads;
+    for (const CandidateColumn* column : columns_of(form, cause, candidates))
+      spreads.push_back(column->spread);
+    GridOfForm along(candidates.by_symbol);
+    for (const auto& values : effects::shapes_to_try(form, spreads)) {
+      std::copy(values.begin(), values.end(), effect.parameters.begin() + 1);
+      if (too_narrow(effect, x.gap)) continue;
+      shapes.push_back({effect, along.direction(effect)});
+    }
+  }
+  keep_different(shapes);
+  return shapes;
+}
+
+void bound_shapes(models::Law& extended, std::size_t own, std::span<const PlacedEffect> effects,
+                  const Candidates& candidates) {
+  std::size_t next = own;
+  for (const PlacedEffect& effect : effects) {
+    const std::vector<models::Parameter> fitted = effects::fitted_parameters(effect);
+    for (std::size_t p = effects::amplitudes_of(effect); p < fitted.size(); ++p) {
+      const effects::EffectInput* of = effects::input_of(fitted[p], effect);
+      if (!of) continue; // keeps the form's own bounds
+      const effects::EffectInput& input = *of;
+      models::Parameter& parameter = extended.parameters[next + p];
+      const double span = input.high - input.low;
+      const double gap = is_local(effect) ? 0.5 * gap_of(input.column, candidates) : 0;
+      const bool width = parameter.lower > 0;
+      parameter.lower = width ? std::max(span / 60, gap) : input.low;
+      parameter.upper = width ? 6 * span : input.high;
+      parameter.start = std::clamp(parameter.start, parameter.lower, parameter.upper);
+    }
+    next += fitted.size();
+  }
+}
+
+} // namespace frictab::trace

@@ -1,0 +1,42 @@
+// Shapes that an effect of a cause may have.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "trace/columns/candidates.h"
+
+namespace frictab::trace {
+
+// One shape of an effect before it is fitted: amplitude 0, and the derivative of its factor by the
+// amplitude.
+struct GridShape {
+  effects::PlacedEffect effect;
+  Eigen::VectorXf direction; // per block, d factor/d amplitude at 0
+};
+std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidates);
+
+// Derivatives of the factor by the amplitudes, per block: for forms that are linear in their
+// amplitudes, at any values of these; for others at the effect's own values.
+Eigen::MatrixXd amplitude_basis(const effects::PlacedEffect& effect, const BlockColumns& columns);
+
+// Returns the effect's factor, per block.
+Eigen::VectorXd factor_on(const effects::PlacedEffect& effect, const BlockColumns& columns);
+
+// Roughness matrix of a smooth effect's amplitudes.
+Eigen::MatrixXd roughness_of(const effects::PlacedEffect& effect);
+
+// Returns an effect of that form with the form's own start values; for a category, with all levels.
+effects::PlacedEffect start_effect(const effects::EffectForm& form, const Cause& cause,
+                                   const Candidates& candidates, effects::ActsOn acts_on,
+                                   double tau_scale_MPa);
+// Whether the form makes sense for the cause: logarithms need positive values, ...
+bool form_fits(const effects::EffectForm& form, const Cause& cause, const Candidates& candidates);
+// Limits the shape parameters of effects to what the data can determine: positions to the range;
+// widths to 1/60 to 6 times the range and, for local forms, to at least half of the widest gap
+// between tested values, because data cannot show structure inside a gap.
+void bound_shapes(models::Law& extended, std::size_t own_parameters,
+                  std::span<const effects::PlacedEffect> effects, const Candidates& candidates);
+
+} // namespace frictab::trace

@@ -1,0 +1,128 @@
+// Tries every interpretation of three numbers as a date on all texts.
+#include "trace/columns/test_dates.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/pattern.h"
+
+namespace frictab::trace {
+
+namespace {
+
+struct Stamp {
+  std::array<int, 3> field; // of the date, in the order of the text
+  std::array<std::size_t, 3> digits;
+  bool points = false; // with points between them only the day may come first
+  double seconds = 0;  // of the day
+};
+
+double seconds_of_day(const std::map<std::string, std::string>& part) {
+  if (part.at("hour").empty()) return 0;
+  double hour = std::stod(part.at("hour"));
+  if (const std::string& half = part.at("half"); !half.empty()) // 12 AM is midnight
+    hour = (hour == 12 ? 0 : hour) + (half == "p" || half == "P" ? 12 : 0);
+  double seconds = 3600 * hour + 60 * std::stod(part.at("minute"));
+  if (!part.at("second").empty()) seconds += std::stod(part.at("second"));
+  if (!part.at("zone_hour").empty()) {
+    const double zone =
+        3600 * std::stod(part.at("zone_hour")) + 60 * std::stod(part.at("zone_minute"));
+    seconds -= part.at("sign") == "-" ? -zone : zone;
+  }
+  return seconds;
+}
+
+std::optional<Stamp> read_stamp(const std::string& text) {
+  static const Pattern pattern(R"(^\s*(?<a>\d{1,4})(?<between>[-./])(?<b>\d{1,2})\g{between})"
+                               R"((?<c>\d{1,4})(?:[ T]+(?<hour>\d{1,2}):(?<minute>\d{2}))"
+                               R"((?::(?<second>\d{2}(?:\.\d+)?))?(?:\s*(?<half>[AaPp])[Mm])?)"
+                               R"((?:Z|(?<sign>[-+])(?<zone_hour>\d{2}):?(?<zone_minute>\d{2}))?)?)"
+                               R"(\s*$)",
+                               {});
+  const auto part = pattern.search(text);
+  if (!part) return std::nullopt;
+  Stamp stamp;
+  std::size_t i = 0;
+  for (const char* name : {"a", "b", "c"}) {
+    stamp.field[i] = std::stoi(part->at(name));
+    stamp.digits[i++] = part->at(name).size();
+  }
+  stamp.points = part->at("between") == ".";
+  stamp.seconds = seconds_of_day(*part);
+  return stamp;
+}
+
+// Positions of year, month and day.
+struct Reading {
+  std::size_t year, month, day;
+};
+constexpr Reading readings[] = {{0, 1, 2}, {2, 1, 0}, {2, 0, 1}};
+
+// Time in seconds; none if the calendar does not have such a day.
+std::optional<double> time_of(const Stamp& stamp, const Reading& as) {
+  if (stamp.digits[as.month] > 2 || stamp.digits[as.day] > 2) return std::nullopt;
+  if (stamp.points && as.day != 0 && stamp.digits[0] != 4) return std::nullopt;
+  int year = stamp.field[as.year];
+  if (stamp.digits[as.year] == 2)
+    year += year < 70 ? 2000 : 1900;
+  else if (stamp.digits[as.year] != 4)
+    return std::nullopt;
+  const std::chrono::year_month_day date{
+      std::chrono::year(year), std::chrono::month(static_cast<unsigned>(stamp.field[as.month])),
+      std::chrono::day(static_cast<unsigned>(stamp.field[as.day]))};
+  if (!date.ok()) return std::nullopt;
+  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
+  return 86400.0 * static_cast<double>(days) + stamp.seconds;
+}
+
+// Rank of each value, from 0; equal values share a rank.
+template <class Value> std::vector<double> places_of(const std::vector<Value>& values) {
+  std::vector<Value> sorted = values;
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  std::vector<double> places;
+  for (const Value& value : values)
+    places.push_back(static_cast<double>(std::lower_bound(sorted.begin(), sorted.end(), value) -
+                                         sorted.begin()));
+  return places;
+}
+
+// Positions in order of time; none if the reading does not fit all of them.
+std::optional<std::vector<double>> places(const std::vector<Stamp>& stamps, const Reading& as) {
+  std::vector<double> times;
+  for (const Stamp& stamp : stamps) {
+    const auto time = time_of(stamp, as);
+    if (!time) return std::nullopt;
+    times.push_back(*time);
+  }
+  return places_of(times);
+}
+
+} // namespace
+
+TestDates sort_dates(const std::vector<std::string>& texts) {
+  std::vector<Stamp> stamps;
+  const std::string* no_date = nullptr;
+  for (const std::string& text : texts)
+    if (const auto stamp = read_stamp(text))
+      stamps.push_back(*stamp);
+    else
+      no_date = &text;
+  if (stamps.empty()) return {places_of(texts), ""};
+  if (no_date) return {{}, fmt::format("'{}' is not a date, as others are", *no_date)};
+  std::vector<std::vector<double>> found;
+  for (const Reading& as : readings)
+    if (auto order = places(stamps, as)) found.push_back(std::move(*order));
+  if (found.empty()) return {{}, fmt::format("'{}' and others are not dates", texts.front())};
+  if (std::any_of(found.begin(), found.end(), [&](const auto& o) { return o != found.front(); }))
+    return {{},
+            fmt::format("'{}' and the others do not show which number is the day", texts.front())};
+  return {found.front(), ""};
+}
+
+} // namespace frictab::trace

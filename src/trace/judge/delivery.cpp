@@ -1,0 +1,407 @@
+// Nested cross-validation decides how many effects are delivered; validation tests may add some and
+// veto others.
+#include "trace/judge/delivery.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
+#include "calibrate/comparison.h"
+#include "calibrate/experiment_errors.h"
+#include "calibrate/metrics.h"
+#include "trace/judge/rows_alike.h"
+#include "trace/search/joint_choice.h"
+#include "trace/tuning.h"
+
+namespace frictab::trace {
+
+using calibrate::Difference;
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+class Deliverer {
+public:
+  Deliverer(const Search& search, Trace& trace) : s_(search), in_(search.input), t_(trace) {}
+
+  Delivery run() {
+    t_.as_calibrated = {in_.fit.training, in_.fit.validation};
+    take(all_found());
+    if (d_.findings.empty() && !in_.searched.empty() && s_.order.found) judge_by_folds();
+    if (!d_.findings.empty()) {
+      judge_by_folds();
+      drop_losses(); // first, because a single one would reject all
+      const NestedErrors::Gain gain = d_.nested.gain(weights_);
+      const bool pays = gain.error > 0 && (s_.pays || gain.error > gain.error_se);
+      t_.nested = {d_.nested.folds,
+                   gain.error,
+                   gain.error_se,
+                   gain.score,
+                   gain.score_se,
+                   s_.findings.size(),
+                   pays ? s_.findings.size() : 0};
+      if (!pays && !(by_validation() && shown_by_validation())) take_all_back({does_not_pay()});
+    }
+    drop_contradicted();
+    compare_errors();
+    while (const std::size_t reading = too_good())
+      take_off(reading - 1, another_reading(d_.findings[reading - 1]));
+    if (!d_.findings.empty() && by_validation()) {
+      Difference gain = against_calibrated();
+      if (gain.value_MPa <= 0 && weights_ == 0) {
+        try_plain_weights();
+        gain = against_calibrated();
+      }
+      if (t_.improvement.interval.high < 0)
+        take_all_back(contradiction(t_.improvement));
+      else if (gain.value_MPa <= 0)
+        take_all_back(gain.interval.high < 0 ? contradiction(gain) : no_better(gain));
+      else
+        t_.over_calibrated = gain;
+    }
+    if (!d_.findings.empty() && !by_validation() && t_.improvement.value_MPa <= 0)
+      take_all_back({fmt::format("left-out tests are predicted {:.3g} MPa worse with it",
+                                 -t_.improvement.value_MPa)});
+    return std::move(d_);
+  }
+
+private:
+  Rival weighted(const Rival& rival) const {
+    return weights_ == 0 ? rival : with_weights(s_.campaign(), rival, rows_alike(rival.noise));
+  }
+
+  std::vector<std::size_t> all_found() const {
+    std::vector<std::size_t> all(s_.findings.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+
+  // Takes the law with these findings, under the chosen weights.
+  void take(std::vector<std::size_t> findings) {
+    d_.findings = std::move(findings);
+    d_.baseline = weighted(s_.base);
+    d_.rival = s_.last();
+    for (std::size_t i = s_.findings.size(); i-- > 0;)
+      if (std::find(d_.findings.begin(), d_.findings.end(), i) == d_.findings.end())
+        d_.rival = without_effect(s_.campaign(), d_.rival, i);
+    if (d_.findings.empty()) d_.rival = s_.base;
+    offered_ = d_.rival;
+    if (weights_ == 1) weigh_alike();
+  }
+
+  // Computes errors of the current law on left-out tests and chooses weights by them.
+  void judge_by_folds() {
+    if (!judge_) judge_.emplace(s_);
+    d_.nested = judge_->errors(offered_);
+    judged_ = d_.findings;
+    weights_ = d_.nested.better_weights(true);
+    take(d_.findings);
+  }
+
+  double nested_mae(const LeftOut& errors) const {
+    return calibrate::metrics(errors.sums, 0, in_.seed).mae_MPa;
+  }
+
+  // Gain of a finding on left-out tests.
+  double nested_gain(std::size_t finding) const {
+    const NestedErrors::Weighted& errors = d_.nested.weighted[weights_];
+    const auto at = std::find(judged_.begin(), judged_.end(), finding) - judged_.begin();
+    return nested_mae(errors.without[static_cast<std::size_t>(at)]) - nested_mae(errors.all);
+  }
+
+  bool is_parent(std::size_t finding) const {
+    std::vector<std::vector<std::size_t>> columns;
+    for (const std::size_t f : d_.findings)
+      columns.push_back(s_.findings[f].rival.causes.back().columns);
+    return is_in_product(s_.findings[finding].rival.causes.back().columns, columns);
+  }
+
+  // Removes effects without which left-out tests are predicted better, the worst first.
+  void drop_losses() {
+    while (d_.findings.size() > 1) {
+      std::size_t worst = 0;
+      double loss = 0;
+      for (const std::size_t f : d_.findings)
+        if (const double gain = nested_gain(f); gain < loss && !is_parent(f)) {
+          worst = f;
+          loss = gain;
+        }
+      if (!(loss < 0)) return;
+      d_.against[worst] = {
+          fmt::format("left-out tests are predicted {:.2g} MPa better without it", -loss)};
+      std::vector<std::size_t> kept = d_.findings;
+      std::erase(kept, worst);
+      take(std::move(kept));
+      judge_by_folds();
+    }
+  }
+
+  // Weighs all rows equally, and removes effects that vanish then.
+  void weigh_alike() {
+    FittedAlike alike = fit_rows_alike(s_.campaign(), d_.rival);
+    d_.rival = std::move(alike.rival);
+    std::vector<std::size_t> kept;
+    for (const std::size_t i : alike.kept)
+      kept.push_back(d_.findings[i]);
+    for (const std::size_t f : d_.findings)
+      if (std::find(kept.begin(), kept.end(), f) == kept.end())
+        d_.against[f] = {
+            "none within its error where all rows weigh alike, as in the law delivered"};
+    d_.findings = std::move(kept);
+  }
+
+  calibrate::Metrics errors(const data::Dataset& data, const Rival& rival) const {
+    return calibrate::metrics(data, calibrate::predict(s_.model_of(rival), data), in_.bootstrap,
+                              in_.seed);
+  }
+
+  bool by_validation() const {
+    return in_.searched.empty() &&
+           in_.validation.experiments.size() >= tuning::fewest_judging_validation_tests;
+  }
+
+  bool no_validation() const { return in_.validation.experiments.empty(); }
+
+  std::vector<stats::ErrorSums> on_validation(const Rival& rival) const {
+    return stats::error_sums(in_.validation,
+                             calibrate::predict(s_.model_of(rival), in_.validation));
+  }
+
+  std::vector<stats::ErrorSums> calibrated_on_validation() const {
+    return stats::error_sums(in_.validation, calibrate::predict(in_.fit.model, in_.validation));
+  }
+
+  // Gain of `with` compared with `without` on the same tests.
+  Difference gained(const std::vector<stats::ErrorSums>& with,
+                    const std::vector<stats::ErrorSums>& without) const {
+    const calibrate::LawErrors laws[] = {{"after", with}, {"before", without}};
+    const calibrate::Comparisons compared = calibrate::compare(laws, in_.bootstrap, in_.seed);
+    return compared.pairs.empty() ? Difference{} : compared.pairs.front().mae;
+  }
+
+  // Whether left-out tests are inconclusive (not against the effects with 95 % confidence) and
+  // validation tests are predicted better with 95 % confidence.
+  bool shown_by_validation() const {
+    const NestedErrors::Gain left_out = d_.nested.gain(weights_);
+    if (left_out.error < -2 * left_out.error_se) return false;
+    return gained(on_validation(d_.rival), on_validation(d_.baseline)).interval.low > 0;
+  }
+
+  // Removes effects without which the validation tests are predicted better, the worst first; the
+  // last one only if that is significant.
+  void drop_contradicted() {
+    d_.gain_MPa.clear();
+    if (!by_validation()) {
+      for (const std::size_t f : d_.findings)
+        d_.gain_MPa.push_back(nested_gain(f));
+      return;
+    }
+    std::vector<Rival> without(d_.findings.size());
+    std::vector<Difference> gains(d_.findings.size());
+    std::size_t worst = d_.findings.size();
+    for (std::size_t i = 0; i < d_.findings.size(); ++i) {
+      without[i] = weighted(without_effect(s_.campaign(), d_.rival, i));
+      gains[i] = gained(on_validation(d_.rival), on_validation(without[i]));
+      const bool out =
+          gains[i].interval.high < 0 ||
+          (gains[i].value_MPa < 0 && d_.findings.size() > 1 && !is_parent(d_.findings[i]));
+      if (out && (worst == d_.findings.size() || gains[i].value_MPa < gains[worst].value_MPa))
+        worst = i;
+      d_.gain_MPa.push_back(gains[i].value_MPa);
+    }
+    if (worst == d_.findings.size()) return;
+    const Difference& loss = gains[worst];
+    d_.against[d_.findings[worst]] =
+        loss.interval.high < 0
+            ? contradiction(loss)
+            : Against{fmt::format("the validation tests are predicted {:.2g} MPa better without it",
+                                  -loss.value_MPa),
+                      false, true};
+    d_.rival = without[worst];
+    d_.findings.erase(d_.findings.begin() + static_cast<long>(worst));
+    drop_contradicted();
+  }
+
+  // Compares errors on the validation tests or on left-out ones.
+  void compare_errors() {
+    const bool nested = !by_validation() && d_.nested.folds > 0;
+    if (nested)
+      t_.unseen = "nested_cross_validation";
+    else if (no_validation())
+      t_.unseen = in_.training.experiments.size() > 1 ? "leave_one_out" : "nothing";
+    const auto unseen = [&](const Rival& rival, bool effects) {
+      const NestedErrors::Weighted& errors = d_.nested.weighted[weights_];
+      if (nested) return (effects ? errors.all : errors.none).sums;
+      if (!in_.searched.empty()) return calibrated_on_validation();
+      return no_validation() ? calibrate::sums_of(in_.fit.unseen) : on_validation(rival);
+    };
+    const std::vector<stats::ErrorSums> with = unseen(d_.rival, !d_.findings.empty()),
+                                        without = unseen(d_.baseline, false);
+    t_.before = {errors(in_.training, d_.baseline),
+                 calibrate::metrics(without, in_.bootstrap, in_.seed)};
+    t_.after = t_.before;
+    d_.unseen = with;
+    t_.improvement = {};
+    if (d_.findings.empty()) return;
+    t_.after = {errors(in_.training, d_.rival), calibrate::metrics(with, in_.bootstrap, in_.seed)};
+    t_.improvement = gained(with, without);
+  }
+
+  // Returns the number, counted from 1, of the first effect of a column that was read rather than
+  // set, if the effects leave less of the scatter of tests than any friction law does: the column
+  // is then more likely another reading of the friction. 0: none.
+  std::size_t too_good() const {
+    if (d_.findings.empty()) return 0;
+    const double before = t_.before.validation.rmse_MPa, after = t_.after.validation.rmse_MPa;
+    if (!(after * after < tuning::implausible_share_left * before * before)) return 0;
+    for (std::size_t i = 0; i < d_.findings.size(); ++i)
+      if (reads_something(d_.findings[i])) return i + 1;
+    return 0;
+  }
+
+  bool reads_something(std::size_t finding) const {
+    const auto& columns = s_.findings[finding].rival.causes.back().columns;
+    return std::any_of(columns.begin(), columns.end(),
+                       [&](std::size_t c) { return s_.candidates.columns[c].is_reading; });
+  }
+
+  static Against contradiction(const Difference& gain) {
+    return {fmt::format(
+                "contradicted by the validation tests: {:.3g} MPa worse there (95 %: {:.3g} to "
+                "{:.3g}); "
+                "another campaign, or not the cause but something that went with it in training",
+                -gain.value_MPa, -gain.interval.high, -gain.interval.low),
+            true, true};
+  }
+
+  // Gain compared with the law from the calibration stage: effects must also outweigh what the
+  // weights of the trace may have worsened.
+  Difference against_calibrated() const {
+    return gained(on_validation(d_.rival), calibrated_on_validation());
+  }
+
+  // Retries the same effects with equal weights for all rows.
+  void try_plain_weights() {
+    weights_ = 1;
+    d_.baseline = weighted(s_.base);
+    weigh_alike();
+    d_.gain_MPa.clear();
+    drop_contradicted();
+    compare_errors();
+  }
+
+  static Against no_better(const Difference& gain) {
+    return {
+        fmt::format("predicts the validation tests no better than the law as it was calibrated: "
+                    "{:.3g} MPa worse (95 %: {:.3g} to {:.3g})",
+                    -gain.value_MPa, -gain.interval.high, -gain.interval.low),
+        false, true};
+  }
+
+  Against another_reading(std::size_t finding) const {
+    const std::string name = cause_name(s_.findings[finding].rival.causes.back(), s_.candidates);
+    return {fmt::format(
+        "explains {:.4g} % of what the law leaves, which no friction law does: is {} "
+        "another reading of the friction? If it was set, [data.roles] says so: "
+        "\"setting\"",
+        100 * (1 - std::pow(t_.after.validation.rmse_MPa / t_.before.validation.rmse_MPa, 2)),
+        name)};
+  }
+
+  void take_off(std::size_t place, const Against& against) {
+    const std::size_t finding = d_.findings[place];
+    d_.against[finding] = against;
+    std::vector<std::size_t> kept = d_.findings;
+    kept.erase(kept.begin() + static_cast<long>(place));
+    d_.gain_MPa.clear();
+    take(std::move(kept));
+    if (!d_.findings.empty()) judge_by_folds();
+    drop_contradicted();
+    compare_errors();
+  }
+
+  void take_all_back(const Against& against) {
+    for (const std::size_t f : d_.findings)
+      d_.against[f] = against;
+    d_.gain_MPa.clear();
+    weights_ = 0;
+    take({});
+    compare_errors();
+  }
+
+  std::string does_not_pay() const {
+    const NestedErrors::Gain gain = d_.nested.gain(weights_);
+    if (gain.error == 0 && gain.error_se == 0)
+      return fmt::format("a search without some of the tests does not find it ({} folds)",
+                         d_.nested.folds);
+    return fmt::format("does not predict tests that the search has not seen any better: error "
+                       "{:+.2g} +- {:.2g} % of the stress, log score {:+.2g} +- {:.2g} per test, "
+                       "{} folds",
+                       -100 * gain.error, 100 * gain.error_se, gain.score, gain.score_se,
+                       d_.nested.folds);
+  }
+
+  const Search& s_;
+  const TraceInput& in_;
+  Trace& t_;
+  Delivery d_;
+  Rival offered_;                   // with the findings, before equal weights
+  std::vector<std::size_t> judged_; // findings of the law that the folds judged
+  std::optional<NestedJudge> judge_;
+  std::size_t weights_ = 0;
+};
+
+} // namespace
+
+Delivery deliver(const Search& search, Trace& trace) {
+  return Deliverer(search, trace).run();
+}
+
+bool Delivery::contradicted() const {
+  return std::any_of(against.begin(), against.end(),
+                     [](const auto& of) { return of.second.contradicted; });
+}
+
+ValidationShift shift_of(const TestGains& seen, const TestGains& unseen, double freedom) {
+  ValidationShift apart;
+  if (unseen.gain.size() < 3 || seen.gain.size() < 2) return apart;
+  const auto tests = static_cast<double>(seen.gain.size()),
+             n = static_cast<double>(unseen.gain.size());
+  const double free = std::max(1.0, tests - freedom);
+  const auto square = [](const VectorXd& x) { return (x.array() - x.mean()).square().sum(); };
+  const double own = square(unseen.gain) / (n - 1);
+  const double of_law = square(seen.gain) / free;
+  // Contribution of the uncertainty of the fitted parameters, assumed the same as in training.
+  const double open = of_law * std::max(1.0, freedom) / tests;
+  const double se = std::sqrt(std::max(own, of_law) / n + open);
+  const double shift = unseen.gain.mean() - seen.gain.mean();
+  const double degrees = std::min(free, n - 1);
+  apart.p_value = 2 * gsl_cdf_tdist_Q(std::abs(shift) / std::max(se, 1e-300), degrees);
+  apart.found = apart.p_value < tuning::validation_shift_p_value;
+  const double t = gsl_cdf_tdist_Qinv(0.025, degrees);
+  apart.share = std::expm1(shift);
+  apart.interval = {std::expm1(shift - t * se), std::expm1(shift + t * se)};
+  return apart;
+}
+
+ValidationShift validation_shift_of(const Search& search, const Rival& rival) {
+  const TraceInput& in = search.input;
+  const models::Model model = search.model_of(rival);
+  const std::vector<double> predicted = calibrate::predict(model, in.validation);
+  ValidationShift apart = shift_of(test_gains(in.training, calibrate::predict(model, in.training)),
+                                   test_gains(in.validation, predicted), rival.freedom);
+  double mean = 0;
+  for (const double value : predicted)
+    mean += value / static_cast<double>(predicted.size());
+  apart.shift_MPa = mean * apart.share;
+  apart.interval = {mean * apart.interval.low, mean * apart.interval.high};
+  return apart;
+}
+
+} // namespace frictab::trace

@@ -1,0 +1,45 @@
+// Selection of the findings that are delivered with the law. A finding must improve predictions of
+// tests that the search has not seen (nested_errors.h) or, where those are inconclusive, predict
+// the validation tests better with 95 % confidence; and the validation tests must not contradict
+// it. All others become leads.
+#pragma once
+
+#include <map>
+
+#include "trace/judge/gains.h"
+#include "trace/judge/nested_errors.h"
+
+namespace frictab::trace {
+
+// Reason why a finding is not delivered.
+struct Against {
+  std::string why;
+  bool contradicted = false;  // by the validation tests
+  bool by_validation = false; // validation tests were needed to see it
+};
+
+// The delivered law and the law that it is compared with, under the same kind of weights.
+struct Delivery {
+  std::vector<std::size_t> findings;    // in the law, in order
+  Rival rival;                          // the law with them
+  std::vector<double> gain_MPa;         // of each: MAE on the unseen tests without it minus with it
+  Rival baseline;                       // the law without them
+  NestedErrors nested;                  // folds = 0: nothing was found
+  std::vector<stats::ErrorSums> unseen; // of the rival, per unseen test
+  std::map<std::size_t, Against> against; // by finding that is not in the law
+
+  bool contradicted() const; // a finding, by the validation tests
+};
+
+// Fills before, after, as_calibrated, unseen, improvement, over_calibrated and nested of `trace`.
+Delivery deliver(const Search& search, Trace& trace);
+
+// Tests whether the validation tests as a whole lie higher or lower than the training tests,
+// relative to that rival: the difference of the mean gains, with a standard error that includes the
+// scatter of the tests and the uncertainty of the fitted parameters.
+ValidationShift validation_shift_of(const Search& search, const Rival& rival);
+// The same from gains; `freedom`: number of parameters fitted to `seen`. Fills only the shares and
+// the p-value.
+ValidationShift shift_of(const TestGains& seen, const TestGains& unseen, double freedom);
+
+} // namespace frictab::trace

@@ -1,0 +1,247 @@
+// Fits every fold and evaluates it on its left-out tests.
+#include "trace/judge/nested_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "trace/judge/rows_alike.h"
+#include "trace/search/choose_effect.h"
+#include "trace/search/joint_choice.h"
+#include "trace/tuning.h"
+
+namespace frictab::trace {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+VectorXd relative_errors(const data::Dataset& data, const std::vector<double>& predicted) {
+  const auto measured = data.values("tau_R_MPa");
+  VectorXd errors(static_cast<Index>(data.experiments.size()));
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    double sum = 0;
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+      const double ratio = measured[i] / std::max(predicted[i], 1e-300);
+      sum +=
+          data.row_weight(i) * std::abs(std::log(std::clamp(ratio, 1 / tuning::largest_error_ratio,
+                                                            tuning::largest_error_ratio)));
+    }
+    errors(static_cast<Index>(e)) = sum / static_cast<double>(data.source_rows(e));
+  }
+  return errors;
+}
+
+// Log density per test, up to a constant. Student's t over the test as a whole, so that one test
+// for which a fold's noise model is overconfident does not outweigh all others.
+VectorXd scores(const data::Dataset& data, const std::vector<double>& predicted,
+                const stats::NoiseModel& noise, const stats::Blocks& fitted) {
+  stats::Blocks blocks = stats::make_blocks(data, fitted.most);
+  blocks.usual_rows = fitted.usual_rows; // the noise model's white part refers to it
+  const VectorXd measured = blocks.mean(data.values("tau_R_MPa"));
+  const VectorXd law =
+      blocks.mean(predicted).cwiseMax(measured.cwiseAbs() / tuning::largest_error_ratio);
+  MatrixXd residual = measured - law;
+  const stats::Whitener whitener(noise, law, blocks);
+  whitener.apply(residual);
+  VectorXd score = -0.5 * whitener.log_det();
+  for (std::size_t e = 0; e < blocks.experiments(); ++e) {
+    const auto size = static_cast<Index>(blocks.first[e + 1] - blocks.first[e]);
+    const double squares =
+        residual.col(0).segment(static_cast<Index>(blocks.first[e]), size).squaredNorm();
+    score(static_cast<Index>(e)) -= 0.5 *
+                                    (tuning::law_score_t_freedom + static_cast<double>(size)) *
+                                    std::log1p(squares / tuning::law_score_t_freedom);
+  }
+  return score;
+}
+
+} // namespace
+
+// Errors of one fold, in the order of its tests.
+class FoldJudge {
+public:
+  FoldJudge(const Search& all, const CauseFold& fold)
+      : all_(all), fold_(fold), kept_(all.input.training.subset(others())),
+        left_out_(all.input.training.subset(fold.out)),
+        options_(options()), part_{kept_,    all.input.validation, all.input.fit,
+                                   options_, all.input.bootstrap,  all.input.seed},
+        search_(part_, &all.base.noise) {
+    none_ = {judged(search_.base, 0, {}), judged(search_.base, 1, {})};
+  }
+
+  const std::vector<std::size_t>& out() const { return fold_.out; }
+
+  // Errors without effects and with those of `law`, under both kinds of weights.
+  std::array<NestedErrors::Weighted, 2> run(const Rival& law) {
+    set_effects(law);
+    std::array<NestedErrors::Weighted, 2> errors;
+    for (const std::size_t w : {0, 1})
+      errors[w] = {none_[w], judged(with_, w, none_[w]), {}};
+    return errors;
+  }
+
+  // Adds errors without each effect of `law`, which must be that of the last run.
+  void run_without(const Rival& law, std::size_t weights, NestedErrors::Weighted& errors) const {
+    for (const Cause& cause : law.causes) {
+      errors.without.push_back(errors.all);
+      const auto at = std::find(causes_.begin(), causes_.end(), cause);
+      if (at == causes_.end()) continue;
+      const Rival fewer =
+          without_effect(search_.campaign(), with_, static_cast<std::size_t>(at - causes_.begin()));
+      errors.without.back() = judged(fewer, weights, errors.all);
+    }
+  }
+
+private:
+  std::vector<std::size_t> others() const {
+    std::vector<std::size_t> kept;
+    for (std::size_t e = 0; e < all_.input.training.experiments.size(); ++e)
+      if (std::find(fold_.out.begin(), fold_.out.end(), e) == fold_.out.end()) kept.push_back(e);
+    return kept;
+  }
+
+  // Ignores columns that neither the law nor any of the causes uses: among hundreds, the search for
+  // identical columns would take long.
+  TraceOptions options() const {
+    TraceOptions options = all_.input.options;
+    std::set<std::string> needed{all_.candidates.order_column, options.tool_distance};
+    const auto need = [&](const std::vector<Cause>& causes) {
+      for (const Cause& cause : causes)
+        for (const std::size_t c : cause.columns) {
+          const CandidateColumn& column = all_.candidates.columns[c];
+          needed.insert(column.name);
+          needed.insert(column.recorded.begin(), column.recorded.end());
+        }
+    };
+    need(all_.last().causes);
+    need(fold_.causes);
+    for (const CandidateColumn& column : all_.candidates.columns)
+      if (!column.in_law && !is_state(column) && !needed.count(column.name))
+        options.ignore.push_back(column.name);
+    options.order = all_.candidates.order_column; // tests of a part are not numbered 1 to n
+    const data::Column* order = kept_.find(options.order);
+    if (order && values_of_tests(*order, kept_) < 3) options.order.clear();
+    return options;
+  }
+
+  // Takes the fold's own causes, without those that the search on all tests found and later
+  // removed.
+  void set_effects(const Rival& law) {
+    std::vector<effects::PlacedEffect> effects;
+    std::vector<Cause> causes;
+    causes_.clear();
+    for (std::size_t i = 0; i < fold_.causes.size(); ++i) {
+      const Cause& cause = fold_.causes[i];
+      const auto own = std::find(law.causes.begin(), law.causes.end(), cause);
+      const bool taken_off =
+          own == law.causes.end() && std::find(all_.last().causes.begin(), all_.last().causes.end(),
+                                               cause) != all_.last().causes.end();
+      const auto here = cause_in(search_.candidates, cause, all_.candidates);
+      if (!here || taken_off) continue;
+      effects.push_back(own == law.causes.end()
+                            ? smooth_effect(search_, *here, fold_.acts_on[i])
+                            : law.effects[static_cast<std::size_t>(own - law.causes.begin())]);
+      causes.push_back(*here);
+      causes_.push_back(cause);
+    }
+    with_ = effects.empty() ? search_.base
+                            : fit_rival(search_.campaign(), search_.base, std::move(effects),
+                                        std::move(causes), search_.base.noise, NoiseSearch::again);
+  }
+
+  // `otherwise`: result if the stress of a history of itself does not converge.
+  LeftOut judged(const Rival& rival, std::size_t weights, const LeftOut& otherwise) const {
+    const Rival one = weights == 0 ? rival : fit_rows_alike(search_.campaign(), rival).rival;
+    try {
+      const auto predicted = calibrate::predict(search_.model_of(one), left_out_);
+      return {stats::error_sums(left_out_, predicted), relative_errors(left_out_, predicted),
+              scores(left_out_, predicted, rival.noise, search_.blocks)};
+    } catch (const InputError&) {
+      return otherwise;
+    }
+  }
+
+  const Search& all_;
+  const CauseFold& fold_;
+  const data::Dataset kept_, left_out_;
+  const TraceOptions options_;
+  const TraceInput part_;
+  const Search search_;
+  std::array<LeftOut, 2> none_; // by weights
+  Rival with_;
+  std::vector<Cause> causes_; // of with_, numbered as on all tests
+};
+
+namespace {
+
+void put(const LeftOut& from, const std::vector<std::size_t>& tests, std::size_t count,
+         LeftOut& to) {
+  to.sums.resize(count);
+  to.relative.conservativeResize(static_cast<Index>(count));
+  to.score.conservativeResize(static_cast<Index>(count));
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    to.sums[tests[i]] = from.sums[i];
+    to.relative(static_cast<Index>(tests[i])) = from.relative(static_cast<Index>(i));
+    to.score(static_cast<Index>(tests[i])) = from.score(static_cast<Index>(i));
+  }
+}
+
+} // namespace
+
+NestedErrors::Gain NestedErrors::gain(std::size_t weights) const {
+  const VectorXd score_gain = weighted[weights].all.score - weighted[weights].none.score,
+                 error_gain =
+                     weighted[better_weights(false)].none.relative - weighted[weights].all.relative;
+  if (score_gain.size() < 2) return {};
+  return {score_gain.mean(), std_error(score_gain), error_gain.mean(), std_error(error_gain)};
+}
+
+std::size_t NestedErrors::better_weights(bool with_effects) const {
+  const auto error = [&](std::size_t w) {
+    return (with_effects ? weighted[w].all : weighted[w].none).relative.mean();
+  };
+  return error(1) < tuning::plain_weights_share_of_error * error(0) ? 1 : 0;
+}
+
+NestedJudge::NestedJudge(const Search& search)
+    : tests_(search.input.training.experiments.size()), folds_(search.folds.size()) {
+  Progress progress("fitting without some tests", folds_.size());
+  parallel_for(folds_.size(), [&](std::size_t f) {
+    folds_[f] = std::make_unique<FoldJudge>(search, search.folds[f]);
+    progress.tick();
+  });
+}
+
+NestedJudge::~NestedJudge() = default;
+
+NestedErrors NestedJudge::errors(const Rival& law) const {
+  NestedErrors all;
+  all.folds = folds_.size();
+  std::vector<std::array<NestedErrors::Weighted, 2>> parts(folds_.size());
+  parallel_for(parts.size(), [&](std::size_t f) { parts[f] = folds_[f]->run(law); });
+  for (std::size_t f = 0; f < parts.size(); ++f)
+    for (const std::size_t w : {0, 1}) {
+      put(parts[f][w].none, folds_[f]->out(), tests_, all.weighted[w].none);
+      put(parts[f][w].all, folds_[f]->out(), tests_, all.weighted[w].all);
+    }
+  const std::size_t better = all.better_weights(true);
+  if (law.causes.size() == 1) {
+    all.weighted[better].without = {all.weighted[better].none};
+    return all;
+  }
+  parallel_for(parts.size(),
+               [&](std::size_t f) { folds_[f]->run_without(law, better, parts[f][better]); });
+  all.weighted[better].without.resize(law.causes.size());
+  for (std::size_t f = 0; f < parts.size(); ++f)
+    for (std::size_t i = 0; i < law.causes.size(); ++i)
+      put(parts[f][better].without[i], folds_[f]->out(), tests_, all.weighted[better].without[i]);
+  return all;
+}
+
+} // namespace frictab::trace

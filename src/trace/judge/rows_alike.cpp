@@ -1,0 +1,83 @@
+// Certainty of each effect, in standard errors from "no effect".
+#include "trace/judge/rows_alike.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "effects/extended_law.h"
+#include "trace/columns/factor_band.h"
+#include "trace/judge/uncertainty.h"
+#include "trace/tuning.h"
+
+namespace frictab::trace {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+double largest_ratio(const VectorXd& sizes, const VectorXd& errors) {
+  double most = 0;
+  for (Index i = 0; i < sizes.size(); ++i) {
+    if (std::isnan(errors(i))) return HUGE_VAL; // not known: the effect stays
+    if (sizes(i) != 0) most = std::max(most, std::abs(sizes(i)) / errors(i));
+  }
+  return most;
+}
+
+// Largest distance of the factor from 1, or from its own mean, at any block, in standard errors.
+// The mean is needed because a constant factor may be attributed to the law's parameters as well,
+// and then has a large error.
+double certainty(const Campaign& campaign, const effects::PlacedEffect& effect,
+                 const MatrixXd& covariance) {
+  std::vector<const double*> columns;
+  for (const effects::EffectInput& input : effect.inputs)
+    columns.push_back(campaign.candidates.by_symbol.at(effects::symbol_of(input.column)).data());
+  FactorOnRows on = factor_on_rows(effect, columns, static_cast<Index>(campaign.blocks.count()));
+  const double from_none = largest_ratio(on.factor.array() - 1, std_errors(on.slope, covariance));
+  on.factor.array() -= on.factor.mean();
+  on.slope.rowwise() -= on.slope.colwise().mean().eval();
+  return std::max(from_none, largest_ratio(on.factor, std_errors(on.slope, covariance)));
+}
+
+struct LeastCertain {
+  std::size_t effect = 0;
+  double certainty = HUGE_VAL;
+};
+
+LeastCertain least_certain(const Campaign& campaign, const Rival& rival) {
+  LeastCertain found;
+  const MatrixXd covariance = uncertainty_of(campaign, rival).covariance;
+  auto first = static_cast<Index>(campaign.law.parameters.size());
+  for (std::size_t i = 0; i < rival.effects.size(); ++i) {
+    const auto count = static_cast<Index>(effects::fitted_parameters(rival.effects[i]).size());
+    const double one =
+        certainty(campaign, rival.effects[i], covariance.block(first, first, count, count));
+    if (one < found.certainty) found = {i, one};
+    first += count;
+  }
+  return found;
+}
+
+} // namespace
+
+FittedAlike fit_rows_alike(const Campaign& campaign, const Rival& rival) {
+  const auto alike = [&](const Rival& one) {
+    return with_weights(campaign, one, rows_alike(one.noise));
+  };
+  FittedAlike found{alike(rival), std::vector<std::size_t>(rival.effects.size())};
+  std::iota(found.kept.begin(), found.kept.end(), 0);
+  while (!found.kept.empty()) {
+    const LeastCertain least = least_certain(campaign, found.rival);
+    if (least.certainty > tuning::doubtful_std_errors) break;
+    found.rival = alike(less_effect(found.rival, least.effect));
+    found.kept.erase(found.kept.begin() + static_cast<long>(least.effect));
+  }
+  if (found.kept.size() < rival.effects.size() && !campaign.quick) // its noise has changed
+    found.rival = alike(fit_rival(campaign, found.rival, found.rival.effects, found.rival.causes,
+                                  found.rival.noise, NoiseSearch::again));
+  return found;
+}
+
+} // namespace frictab::trace

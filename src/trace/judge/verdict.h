@@ -1,0 +1,12 @@
+// Verdict of a trace, in one word and a few sentences.
+#pragma once
+
+#include "trace/search/search.h"
+
+namespace frictab::trace {
+
+// Fills verdict and remaining; everything else in `trace` must be complete. `contradicted`: in the
+// validation tests a finding is worse than none.
+void add_verdict(Trace& trace, const Search& search, bool contradicted);
+
+} // namespace frictab::trace

@@ -1,0 +1,359 @@
+// Shortlist, penalised smooths under one noise model, then closed forms.
+#include "trace/search/choose_effect.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "stats/projection.h"
+#include "stats/smooth.h"
+#include "trace/columns/shapes.h"
+#include "trace/tuning.h"
+
+namespace frictab::trace {
+
+using effects::PlacedEffect;
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+static_assert(tuning::site_costs.size() == sites.size());
+
+// One way to explain the residual, linear in its coefficients.
+struct Option {
+  Cause cause;
+  PlacedEffect effect;
+  MatrixXd penalty;
+  stats::SmoothFit fit;
+  double criterion = 0;
+};
+
+using Options = std::vector<Option>;
+
+// Derivatives of tau_R by the amplitudes, per block, not whitened. (Computed when needed: for all
+// options together they would exhaust memory.)
+MatrixXd basis_of(const Search& search, const PlacedEffect& effect) {
+  return search.sensitivities()[site_of(effect)].asDiagonal() *
+         amplitude_basis(effect, search.candidates.by_symbol);
+}
+
+Option option_of(const Cause& cause, PlacedEffect effect) {
+  const auto count = static_cast<Index>(effects::amplitudes_of(effect));
+  const MatrixXd penalty =
+      effect.form->penalty ? roughness_of(effect) : 1e-3 * MatrixXd::Identity(count, count);
+  return {cause, std::move(effect), penalty, {}, 0};
+}
+
+// Fits all options under the same noise model, so that they are comparable.
+void fit_options(const Search& search, const stats::NoiseModel& noise, Options& options) {
+  const Campaign& campaign = search.campaign();
+  const stats::Whitener whitener(noise, search.last().predicted, campaign.blocks,
+                                 campaign.nuisance);
+  MatrixXd known = search.last().jacobian;
+  stats::append_columns(known, search.trained());
+  whitener.apply(known);
+  known = stats::orthonormal(known);
+  MatrixXd residual = search.residual();
+  whitener.apply(residual);
+  parallel_for(options.size(), [&](std::size_t i) {
+    Option& option = options[i];
+    MatrixXd basis = basis_of(search, option.effect);
+    whitener.apply(basis);
+    option.fit = stats::fit_smooth(residual.col(0), basis, option.penalty, known);
+    option.criterion = option.fit.criterion +
+                       tuning::cause_step_cost * complexity(option.cause, search.candidates);
+  });
+}
+
+void sort_options(Options& options) {
+  std::stable_sort(options.begin(), options.end(),
+                   [](const Option& a, const Option& b) { return a.criterion < b.criterion; });
+}
+
+Rival rival_of(const Search& search, const Campaign& campaign, const Option& option,
+               const stats::NoiseModel& noise) {
+  std::vector<PlacedEffect> effects = search.last().effects;
+  std::vector<Cause> causes = search.last().causes;
+  PlacedEffect effect = option.effect;
+  if (effect.form->penalty) {
+    effect.stiffness = option.fit.stiffness;
+    std::vector<double> start(option.fit.coefficients.begin(), option.fit.coefficients.end());
+    effects::set_fitted(effect, start);
+  } else if (effects::amplitudes_of(effect) == 1 && !effect.form->categorical)
+    effect.parameters[0] = std::clamp(option.fit.coefficients(0), -0.5, 0.5);
+  effects.push_back(std::move(effect));
+  causes.push_back(option.cause);
+  return fit_rival(campaign, search.last(), std::move(effects), std::move(causes), noise,
+                   NoiseSearch::kept);
+}
+
+std::vector<Rival> rivals_of(const Search& search, const Campaign& campaign, const Options& options,
+                             const stats::NoiseModel& noise) {
+  std::vector<Rival> rivals(options.size());
+  const Progress progress("fitting causes", options.size());
+  parallel_for(options.size(), [&](std::size_t i) {
+    rivals[i] = rival_of(search, campaign, options[i], noise);
+    progress.tick();
+  });
+  return rivals;
+}
+
+// Difference of log likelihood in standard errors over tests (Vuong 1989).
+double sureness(const Rival& first, const Rival& other) {
+  const VectorXd difference = first.log_likelihood - other.log_likelihood;
+  const auto n = static_cast<double>(difference.size());
+  const double scatter = (difference.array() - difference.mean()).matrix().norm();
+  return difference.sum() / std::max(scatter * std::sqrt(n / (n - 1)), 1e-300);
+}
+
+// Keeps the first option and those that the selected tests cannot distinguish from it. An option
+// that a few hundred tests separate this clearly, all tests separate even more clearly, so it
+// cannot be in a set.
+void drop_distinguishable(const Search& search, const stats::NoiseModel& noise, Options& options) {
+  if (options.size() < 2) return;
+  const std::vector<Rival> fits = rivals_of(search, selected(search.campaign()), options, noise);
+  Options kept;
+  for (std::size_t i = 0; i < options.size(); ++i)
+    if (i == 0 || !(sureness(fits.front(), fits[i]) > tuning::distinguishable_std_errors))
+      kept.push_back(std::move(options[i]));
+  options = std::move(kept);
+}
+
+} // namespace
+
+namespace {
+
+// Whether the cause has a text column, which comes first.
+bool starts_with_text(const Cause& cause, const Candidates& candidates) {
+  return !candidates.columns[cause.columns[0]].levels.empty();
+}
+
+const char* plain_form(const Cause& cause, bool text) {
+  if (cause.is_joint()) return text ? "category_slope" : "product";
+  return text ? "category" : "linear";
+}
+
+const char* smooth_form(const Cause& cause, bool text, bool two_values) {
+  if (cause.is_joint()) return text ? "spline_by_level" : "surface";
+  if (two_values) return plain_form(cause, text);
+  return text ? "category" : "spline";
+}
+
+} // namespace
+
+PlacedEffect plain_effect(const Search& search, const Cause& cause) {
+  const char* form = plain_form(cause, starts_with_text(cause, search.candidates));
+  const bool both = search.sensitivities()[on_both].size() > 0;
+  return start_effect(*effects::find_effect(form), cause, search.candidates,
+                      sites[both ? on_both : on_mu], search.tau_scale_MPa);
+}
+
+PlacedEffect smooth_effect(const Search& search, const Cause& cause, effects::ActsOn acts_on) {
+  const Candidates& candidates = search.candidates;
+  const char* form = smooth_form(cause, starts_with_text(cause, candidates),
+                                 candidates.columns[cause.columns[0]].two_values);
+  return start_effect(*effects::find_effect(form), cause, candidates, acts_on,
+                      search.tau_scale_MPa);
+}
+
+std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>& suspects) {
+  Options options;
+  for (const Suspect& suspect : suspects)
+    options.push_back(option_of(suspect.cause, suspect.effect));
+  // Fits one noise model for all options, with the first one's effect included; otherwise that
+  // effect would count as noise.
+  std::vector<PlacedEffect> effects = search.last().effects;
+  std::vector<Cause> causes = search.last().causes;
+  effects.push_back(plain_effect(search, suspects.front().cause));
+  causes.push_back(suspects.front().cause);
+  const stats::NoiseModel noise = fit_rival(search.campaign(), search.last(), effects, causes,
+                                            search.last().noise, NoiseSearch::again)
+                                      .noise;
+  fit_options(search, noise, options);
+  sort_options(options);
+  Options best; // best option of each cause
+  for (Option& option : options)
+    if (std::none_of(best.begin(), best.end(),
+                     [&](const Option& o) { return o.cause == option.cause; }) &&
+        best.size() < tuning::shortlisted_causes)
+      best.push_back(std::move(option));
+  if (search.campaign().selection) drop_distinguishable(search, noise, best);
+  std::vector<Rival> rivals = rivals_of(search, search.campaign(), best, noise);
+  for (std::size_t i = 0; i < best.size(); ++i)
+    rivals[i].criterion = best[i].criterion;
+  return rivals;
+}
+
+namespace {
+
+// Residual of the law without the effect `index`, everything else as fitted: the signal that any
+// other form of that effect has to explain.
+VectorXd to_explain(const Search& search, const Rival& winner, std::size_t index) {
+  const PlacedEffect& effect = winner.effects[index];
+  const VectorXd& sensitivity = search.sensitivities()[site_of(effect)];
+  const VectorXd change = factor_on(effect, search.candidates.by_symbol).array() - 1; // at its site
+  return search.campaign().measured - winner.predicted + sensitivity.cwiseProduct(change);
+}
+
+// Start values of a form at a site, and the signal that its best grid shape explains (larger is
+// better).
+struct Start {
+  PlacedEffect effect;
+  double explained;
+};
+
+class FormStarts {
+public:
+  FormStarts(const Search& search, const Rival& winner, std::size_t index)
+      : s_(search), cause_(winner.causes[index]),
+        whitener_(winner.noise, winner.predicted, search.blocks, search.campaign().nuisance) {
+    MatrixXd known = search.base.jacobian;
+    stats::append_columns(known, search.trained());
+    for (std::size_t i = 0; i < winner.effects.size(); ++i) {
+      const VectorXd& sensitivity = search.sensitivities()[site_of(winner.effects[i])];
+      // Empty if, with the effects found since, its site no longer changes tau_R anywhere.
+      if (i != index && sensitivity.size() > 0)
+        stats::append_columns(known,
+                              sensitivity.asDiagonal() *
+                                  amplitude_basis(winner.effects[i], search.candidates.by_symbol));
+    }
+    whitener_.apply(known);
+    known_ = stats::orthonormal(known);
+    MatrixXd target = to_explain(search, winner, index);
+    whitener_.apply(target);
+    target_ = target.col(0) - known_ * (known_.transpose() * target.col(0));
+  }
+
+  std::vector<Start> run() const {
+    std::vector<Start> starts;
+    const auto shapes = shapes_of(cause_, s_.candidates);
+    for (std::size_t p = 0; p < sites.size(); ++p) {
+      if (s_.sensitivities()[p].size() == 0) continue;
+      add_closed(shapes, p, starts);
+      add_smooth(p, starts);
+    }
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const Start& a, const Start& b) { return a.explained > b.explained; });
+    return starts;
+  }
+
+private:
+  void add_closed(const std::vector<GridShape>& shapes, std::size_t site,
+                  std::vector<Start>& starts) const {
+    std::map<const effects::EffectForm*, Start> best;
+    MatrixXd basis(target_.size(), static_cast<Index>(shapes.size()));
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+      basis.col(static_cast<Index>(i)) =
+          shapes[i].direction.cast<double>().cwiseProduct(s_.sensitivities()[site]);
+    whitener_.apply(basis);
+    basis -= known_ * (known_.transpose() * basis).eval();
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      const auto column = basis.col(static_cast<Index>(i));
+      const double size = column.squaredNorm(), along = column.dot(target_);
+      if (!(size > 0)) continue;
+      Start start{shapes[i].effect, along * along / size};
+      start.effect.acts_on = sites[site];
+      start.effect.tau_scale_MPa = s_.tau_scale_MPa;
+      if (!start.effect.form->categorical)
+        start.effect.parameters[0] = std::clamp(along / size, -0.5, 0.5);
+      const auto [at, is_new] = best.try_emplace(start.effect.form, start);
+      if (!is_new && start.explained > at->second.explained) at->second = start;
+    }
+    for (auto& [form, start] : best)
+      starts.push_back(std::move(start));
+  }
+
+  // Adds the smooth with the stiffness that the residual requires.
+  void add_smooth(std::size_t site, std::vector<Start>& starts) const {
+    Option option = option_of(cause_, smooth_effect(s_, cause_, sites[site]));
+    if (!option.effect.form->penalty) return; // a text column has one form
+    MatrixXd basis = basis_of(s_, option.effect);
+    whitener_.apply(basis);
+    const stats::SmoothFit fit = stats::fit_smooth(target_, basis, option.penalty, known_);
+    Start start{std::move(option.effect), fit.without - fit.criterion};
+    start.effect.stiffness = fit.stiffness;
+    effects::set_fitted(start.effect,
+                        std::vector<double>(fit.coefficients.begin(), fit.coefficients.end()));
+    starts.push_back(std::move(start));
+  }
+
+  const Search& s_;
+  const Cause& cause_;
+  stats::Whitener whitener_;
+  MatrixXd known_;
+  VectorXd target_;
+};
+
+} // namespace
+
+namespace {
+
+std::vector<Rival> fit_forms(const Campaign& campaign, const Rival& winner, std::size_t index,
+                             const std::vector<Start>& starts) {
+  std::vector<Rival> rivals(starts.size());
+  const Progress progress("fitting forms", starts.size());
+  parallel_for(starts.size(), [&](std::size_t i) {
+    std::vector<PlacedEffect> effects = winner.effects;
+    effects[index] = starts[i].effect;
+    rivals[i] = fit_rival(campaign, winner, std::move(effects), winner.causes, winner.noise,
+                          NoiseSearch::kept);
+    if (starts[i].effect.form->penalty) rivals[i].penalised -= tuning::smooth_cost;
+    rivals[i].penalised -= tuning::site_costs[site_of(starts[i].effect)];
+    progress.tick();
+  });
+  return rivals;
+}
+
+// Keeps the starts whose fits to the selected tests promise most on all tests, and continues from
+// those fits. The log likelihood grows with the number of tests, the costs of parameters do not.
+void keep_promising(double share, std::size_t index, std::vector<Start>& starts,
+                    const std::vector<Rival>& fits) {
+  std::vector<std::size_t> order(starts.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto promise = [&](std::size_t i) {
+    return fits[i].penalised + (1 / share - 1) * fits[i].total;
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return promise(a) > promise(b); });
+  if (order.size() > tuning::most_forms_on_all_tests) order.resize(tuning::most_forms_on_all_tests);
+  std::vector<Start> kept;
+  for (const std::size_t i : order) {
+    kept.push_back(starts[i]);
+    kept.back().effect = fits[i].effects[index];
+  }
+  starts = std::move(kept);
+}
+
+} // namespace
+
+std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::size_t index) {
+  if (search.sensitivities()[site_of(winner.effects[index])].size() == 0)
+    return {winner}; // with the other effects in the law, its site no longer has an influence
+  std::vector<Start> starts = FormStarts(search, winner, index).run();
+  std::map<effects::ActsOn, std::size_t> tried;
+  std::erase_if(starts, [&](const Start& start) {
+    return !start.effect.form->penalty &&
+           tried[start.effect.acts_on]++ >= tuning::most_forms_at_site;
+  });
+  std::vector<Rival> rivals = fit_forms(selected(search.campaign()), winner, index, starts);
+  if (search.campaign().selection) {
+    keep_promising(search.campaign().selection->share, index, starts, rivals);
+    rivals = fit_forms(search.campaign(), winner, index, starts);
+  }
+  rivals.push_back(winner);
+  rivals.back().penalised -= tuning::site_costs[site_of(winner.effects[index])];
+  if (winner.effects[index].form->penalty) rivals.back().penalised -= tuning::smooth_cost;
+  std::stable_sort(rivals.begin(), rivals.end(),
+                   [](const Rival& a, const Rival& b) { return a.penalised > b.penalised; });
+  return rivals;
+}
+
+} // namespace frictab::trace

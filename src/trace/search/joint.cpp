@@ -1,0 +1,325 @@
+// Response, law and terms of a campaign.
+#include "trace/search/joint.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "stats/projection.h"
+#include "trace/columns/shapes.h"
+#include "trace/columns/terms.h"
+#include "trace/search/order_search.h"
+#include "trace/tuning.h"
+
+namespace frictab::trace {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+class Campaigner {
+public:
+  explicit Campaigner(const Search& search)
+      : s_(search), modes_(search.blocks), maker_(search.candidates),
+        floor_(search.last().predicted.cwiseMax(1e-3 * search.tau_scale_MPa)) {}
+
+  JointResult find() {
+    const JointData data = offered_data();
+    JointSettings settings;
+    settings.alpha = s_.input.options.alpha;
+    settings.seed = s_.input.seed;
+    settings.units = s_.units;
+    settings.take = s_.enough_units();
+    settings.flips =
+        std::clamp(tuning::flips_times_terms / std::max<std::size_t>(causes_.size(), 1),
+                   settings.flips, tuning::most_flips);
+    const JointPath path = search_jointly(data, offer_, settings);
+    JointResult result;
+    const JointChoice choice =
+        choose_jointly(data, modes_, offer_, settings, path, state_means(s_.candidates, s_.blocks));
+    result.pays = choice.pays;
+    for (const JointStep& step : choice.kept)
+      result.found.push_back(named(step));
+    for (const JointStep& step : choice.dropped)
+      result.dropped.push_back(named(step));
+    for (const JointStep& step : path.unsure)
+      result.unsure.push_back(named(step));
+    for (const JointFold& fold : choice.folds) {
+      CauseFold& named = result.folds.emplace_back(CauseFold{fold.out, {}, {}});
+      for (const std::size_t term : fold.terms) {
+        named.causes.push_back(causes_[term]);
+        named.acts_on.push_back(sites[site_of_[term]]);
+      }
+    }
+    result.leftover = leftover(path.left, settings);
+    if (offer_.walk && path.fit.has(*offer_.walk)) {
+      JointOffer alone = offer_;
+      alone.walk.reset();
+      for (const JointStep& step : search_jointly(data, alone, settings).steps)
+        result.without_walk.push_back(named(step));
+    }
+    return result;
+  }
+
+private:
+  // Derivative of ln tau_R by the factor at each site, per block. The first site is that at which
+  // an effect is searched; others are used only where their derivatives differ.
+  void find_sites() {
+    const Sensitivities& all = s_.sensitivities();
+    const std::size_t first = all[on_both].size() > 0 ? on_both : on_mu;
+    const auto relative = [&](std::size_t site) {
+      return VectorXd(all[site].cwiseQuotient(floor_));
+    };
+    sites_ = {{first, relative(first)}};
+    for (std::size_t site = 0; site < all.size(); ++site) {
+      if (site == first || all[site].size() == 0) continue;
+      VectorXd own = relative(site);
+      const double size = own.norm() / std::sqrt(static_cast<double>(own.size()));
+      if (!(size > 0)) continue;
+      own /= size;
+      const auto alike = [&](const auto& other) {
+        return std::abs(own.dot(other.second)) >
+               tuning::same_site_cosine * own.norm() * other.second.norm();
+      };
+      if (std::none_of(sites_.begin(), sites_.end(), alike)) sites_.emplace_back(site, own);
+    }
+  }
+
+  bool may_be_offered(const Cause& cause) const {
+    if (is_the_order(s_, cause)) return false;
+    return cause.is_joint() || !constant_in_experiments(cause, s_.candidates) ||
+           differs_between_tests(s_.candidates.columns[cause.columns[0]]);
+  }
+
+  // A text column needs a level that several tests share.
+  bool differs_between_tests(const CandidateColumn& column) const {
+    if (!column.between) return false;
+    std::map<double, std::size_t> tests; // by value
+    for (std::size_t e = 0; e < s_.blocks.experiments(); ++e)
+      ++tests[column.values(static_cast<Index>(s_.first()[e]))];
+    if (column.levels.empty() || tests.size() < 2) return tests.size() > 1;
+    return tests.size() < s_.blocks.experiments();
+  }
+
+  JointData offered_data() {
+    find_sites();
+    offer_terms();
+    return make_data();
+  }
+
+  void offer_terms() {
+    const auto& columns = s_.candidates.columns;
+    for (const CandidateColumn& column : columns)
+      offer_.in_law.push_back(column.in_law);
+    shapes_.resize(columns.size());
+    parallel_for(shapes_.size(), [&](std::size_t c) {
+      if (columns[c].levels.empty() && !constant_in_experiments({{c}}, s_.candidates))
+        shapes_[c] = shapes_of({{c}}, s_.candidates);
+    });
+    find_imitated();
+    for (const Cause& cause : all_causes(s_.candidates)) {
+      const auto& in = s_.last().causes;
+      if (!may_be_offered(cause) || std::find(in.begin(), in.end(), cause) != in.end()) continue;
+      const auto& all = cause.columns;
+      const bool of_states = cause.is_joint() && is_state(columns[all[1]]) &&
+                             (is_state(columns[all[0]]) || !columns[all[0]].levels.empty());
+      for (std::size_t i = 0; i < (cause.is_joint() ? 1 : sites_.size()); ++i) {
+        add_term(cause, i, maker_.of(cause), !cause.is_joint() || of_states, nullptr);
+        if (!cause.is_joint())
+          for (const SharpShape& shape : sharp_shapes(cause))
+            add_term(cause, i, shape.basis, true, shape.effect);
+      }
+    }
+    if (!s_.candidates.order.empty() && s_.input.options.tool_distance.empty()) add_walk();
+  }
+
+  struct SharpShape {
+    TermBasis basis;
+    const effects::PlacedEffect* effect;
+  };
+  // Shapes that a smooth curve represents poorly: a threshold near an end, a step, a narrow hump.
+  std::vector<SharpShape> sharp_shapes(const Cause& cause) const {
+    std::vector<SharpShape> all;
+    for (const GridShape& shape : shapes_[cause.columns[0]]) {
+      VectorXd x = shape.direction.cast<double>();
+      x.array() -= x.mean();
+      const double size = x.norm() / std::sqrt(static_cast<double>(x.size()));
+      if (!(size > 0)) continue;
+      x /= size;
+      if (std::none_of(all.begin(), all.end(), [&](const SharpShape& other) {
+            return std::abs(x.dot(other.basis.columns.col(0))) >
+                   tuning::same_sharp_shape_cosine * static_cast<double>(x.size());
+          }))
+        all.push_back({{x, 1}, &shape.effect});
+    }
+    return all;
+  }
+
+  void add_term(const Cause& cause, std::size_t site, const TermBasis& basis, bool first,
+                const effects::PlacedEffect* shape) {
+    if (causes_.empty() || causes_.back() != cause) ++count_of_causes_;
+    offer_.cause.push_back(count_of_causes_ - 1);
+    causes_.push_back(cause);
+    site_of_.push_back(sites_[site].first);
+    offer_.columns.push_back(cause.columns);
+    offer_.first.push_back(first);
+    offer_.sharp.push_back(shape != nullptr);
+    shape_of_.push_back(shape);
+    const MatrixXd changes = sites_[site].second.asDiagonal() * basis.columns;
+    terms_.push_back({count_, basis.straight, changes.cols(), is_imitated(cause)});
+    count_ += changes.cols();
+    parts_.push_back(modes_.of(changes));
+  }
+
+  // Whether the cause contains a history whose test means follow from the states: between tests it
+  // would stand in for them.
+  bool is_imitated(const Cause& cause) const {
+    return std::any_of(cause.columns.begin(), cause.columns.end(),
+                       [&](std::size_t c) { return imitated_[c] != 0; });
+  }
+
+  void find_imitated() {
+    const MatrixXd states = stats::orthonormal(state_means(s_.candidates, s_.blocks));
+    for (std::size_t c = 0; c < s_.candidates.columns.size(); ++c) {
+      const CandidateColumn& column = s_.candidates.columns[c];
+      imitated_.push_back(0);
+      if (column.between || !column.within || !column.levels.empty()) continue;
+      VectorXd x = s_.blocks.experiment_means(maker_.of({{c}}).columns.leftCols(1)).col(0);
+      x.array() -= x.mean();
+      const VectorXd left = x - states * (states.transpose() * x);
+      const auto n = static_cast<double>(x.size()),
+                 free = n - 1 - static_cast<double>(states.cols());
+      imitated_.back() =
+          free < 1 || left.squaredNorm() / free <
+                          (1 - tuning::imitated_share_of_variance) * x.squaredNorm() / (n - 1);
+    }
+  }
+
+  // Adds cosines of the order of tests at each site, the k-th with standard deviation 1/k.
+  void add_walk() {
+    MatrixXd waves = order_functions(s_.candidates.order, tuning::walk_waves);
+    for (Index k = 0; k < waves.cols(); ++k)
+      waves.col(k) *= std::sqrt(static_cast<double>(waves.rows())) /
+                      std::max(waves.col(k).norm(), 1e-300) / static_cast<double>(k + 1);
+    MatrixXd per_block(static_cast<Index>(s_.blocks.count()), 0);
+    for (const auto& [site, changes] : sites_)
+      stats::append_columns(per_block, functions_on_blocks(waves, changes, s_.first()));
+    offer_.walk = causes_.size();
+    causes_.emplace_back();
+    offer_.cause.push_back(count_of_causes_++);
+    site_of_.push_back(on_mu);
+    offer_.columns.emplace_back();
+    offer_.first.push_back(0);
+    offer_.sharp.push_back(0);
+    shape_of_.push_back(nullptr);
+    terms_.push_back({count_, 0, per_block.cols(), false});
+    count_ += per_block.cols();
+    parts_.push_back(modes_.of(per_block));
+  }
+
+  JointData make_data() {
+    JointData data;
+    const VectorXd ratio = s_.campaign().measured.cwiseQuotient(floor_);
+    data.response = modes_.of(ratio.array()
+                                  .max(1 / tuning::largest_response_ratio)
+                                  .min(tuning::largest_response_ratio)
+                                  .log()
+                                  .matrix());
+    MatrixXd law = MatrixXd::Ones(floor_.size(), 1);
+    for (const MatrixXd* directions : {&s_.last().jacobian, &s_.trained(), &s_.campaign().nuisance})
+      if (directions->cols() > 0)
+        stats::append_columns(law, floor_.cwiseInverse().asDiagonal() * *directions);
+    for (Index i = 1; i < law.cols(); ++i)
+      law.col(i) /=
+          std::max(law.col(i).norm() / std::sqrt(static_cast<double>(law.rows())), 1e-300);
+    data.law = law.cols();
+    for (JointTerm& term : terms_)
+      term.first += data.law;
+    data.terms = terms_;
+    data.columns.resize(data.response.size(), data.law + count_);
+    data.columns.leftCols(data.law) = modes_.of(law);
+    for (std::size_t t = 0; t < parts_.size(); ++t) {
+      data.columns.middleCols(terms_[t].first, terms_[t].count) = parts_[t];
+      parts_[t].resize(0, 0);
+    }
+    data.first = modes_.first();
+    data.test = modes_.test();
+    return data;
+  }
+
+  Leftover leftover(const JointLeft& from, const JointSettings& settings) const {
+    Leftover all;
+    all.p_value = from.p_value;
+    all.terms = causes_.size();
+    all.flips = settings.flips;
+    for (const JointLead& lead : from.leads) {
+      Suspect of = suspect(lead.term);
+      if (!shape_of_[lead.term] && lead.size.bent == 0) of.effect = plain_effect(s_, of.cause);
+      all.left.push_back({of.cause, std::move(of.effect), lead.p_value, lead.threshold,
+                          change_of(lead.term, lead.coefficients)});
+    }
+    for (const JointSeen& one : from.seen)
+      if (site_of_[one.term] == sites_.front().first)
+        all.seen.push_back(
+            {causes_[one.term], one.own > tuning::identifiable_share_of_information, one.size});
+    if (settings.take && from.smallest_half > 0)
+      all.smallest_seen = std::expm1(2 * from.smallest_half);
+    return all;
+  }
+
+  // Change of ln tau_R, per block.
+  VectorXd change_of(std::size_t term, const VectorXd& coefficients) const {
+    const auto site = std::find_if(sites_.begin(), sites_.end(),
+                                   [&](const auto& one) { return one.first == site_of_[term]; });
+    MatrixXd basis;
+    if (shape_of_[term]) {
+      for (const SharpShape& shape : sharp_shapes(causes_[term]))
+        if (shape.effect == shape_of_[term]) basis = shape.basis.columns;
+    } else
+      basis = maker_.of(causes_[term]).columns;
+    return site->second.cwiseProduct(basis * coefficients);
+  }
+
+  JointFinding named(const JointStep& step) const {
+    JointFinding finding{causes_[step.term], step.p_value, {}};
+    finding.suspects.push_back(suspect(step.term));
+    for (const std::size_t other : step.near)
+      finding.suspects.push_back(suspect(other));
+    return finding;
+  }
+
+  Suspect suspect(std::size_t term) const {
+    const effects::ActsOn site = sites[site_of_[term]];
+    if (!shape_of_[term]) return {causes_[term], smooth_effect(s_, causes_[term], site)};
+    effects::PlacedEffect shape = *shape_of_[term];
+    shape.acts_on = site;
+    shape.tau_scale_MPa = s_.tau_scale_MPa;
+    return {causes_[term], shape};
+  }
+
+  const Search& s_;
+  const Modes modes_;
+  const TermMaker maker_;
+  const VectorXd floor_;
+  std::vector<std::pair<std::size_t, VectorXd>> sites_;
+  std::vector<std::vector<GridShape>> shapes_; // per column that varies within tests
+  std::vector<char> imitated_;                 // per column
+  std::vector<Cause> causes_;                  // per term
+  std::vector<std::size_t> site_of_;
+  std::vector<const effects::PlacedEffect*> shape_of_; // for terms of a single shape; else null
+  JointOffer offer_;
+  std::vector<JointTerm> terms_;
+  std::vector<MatrixXd> parts_;
+  std::size_t count_of_causes_ = 0;
+  Index count_ = 0; // columns of terms so far
+};
+
+} // namespace
+
+JointResult find_jointly(const Search& search) {
+  return Campaigner(search).find();
+}
+
+} // namespace frictab::trace

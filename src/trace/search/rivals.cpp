@@ -1,0 +1,378 @@
+// Joint fits of law, effects and noise; comparison by experiment.
+#include "trace/search/rivals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+
+#include "core/parallel.h"
+#include "stats/noise_fit.h"
+#include "stats/resampling.h"
+#include "trace/columns/shapes.h"
+#include "trace/search/plausibility.h"
+#include "trace/tuning.h"
+
+namespace frictab::trace {
+
+using effects::PlacedEffect;
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+void take_parameters(Rival& rival, std::size_t own) {
+  std::size_t next = own;
+  for (PlacedEffect& effect : rival.effects) {
+    const std::size_t count = effects::fitted_parameters(effect).size();
+    effects::set_fitted(effect, std::span(rival.parameters).subspan(next, count));
+    next += count;
+  }
+}
+
+VectorXd by_experiment(const VectorXd& whitened, const stats::Whitener& whitener,
+                       std::span<const std::size_t> first) {
+  VectorXd value(static_cast<Index>(first.size() - 1));
+  for (Index e = 0; e < value.size(); ++e) {
+    const auto begin = static_cast<Index>(first[static_cast<std::size_t>(e)]);
+    const auto end = static_cast<Index>(first[static_cast<std::size_t>(e) + 1]);
+    value(e) = -0.5 * (whitened.segment(begin, end - begin).squaredNorm() + whitener.log_det()(e));
+  }
+  return value;
+}
+
+bool on_limit(const std::vector<PlacedEffect>& effects) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [](const PlacedEffect& e) { return e.acts_on == effects::ActsOn::m; });
+}
+
+// Index of the first parameter of each effect among those of the law.
+std::vector<Index> first_parameters(const Rival& rival, std::size_t own) {
+  std::vector<Index> first;
+  auto next = static_cast<Index>(own);
+  for (const PlacedEffect& effect : rival.effects) {
+    first.push_back(next);
+    next += static_cast<Index>(effects::fitted_parameters(effect).size());
+  }
+  return first;
+}
+
+} // namespace
+
+MatrixXd penalty_of(const Rival& rival) {
+  MatrixXd all;
+  const std::vector<Index> first = first_parameters(rival, rival.own);
+  const auto count = static_cast<Index>(rival.parameters.size());
+  for (std::size_t i = 0; i < rival.effects.size(); ++i) {
+    const PlacedEffect& effect = rival.effects[i];
+    if (!effect.form->penalty || !(effect.stiffness > 0)) continue;
+    if (all.size() == 0) all = MatrixXd::Zero(count, count);
+    const MatrixXd one = roughness_of(effect);
+    all.block(first[i], first[i], one.rows(), one.cols()) = effect.stiffness * one;
+  }
+  return all;
+}
+
+void tie_parameters(Campaign& campaign, const Rival& base, double share) {
+  const stats::Whitener whitener(base.noise, base.predicted, campaign.blocks);
+  MatrixXd jacobian = base.jacobian;
+  whitener.apply(jacobian);
+  campaign.own = {share * jacobian.transpose() * jacobian,
+                  Eigen::Map<const VectorXd>(base.parameters.data(),
+                                             static_cast<Index>(base.parameters.size()))};
+}
+
+namespace {
+
+// Penalties of smooth effects and on the law's own parameters.
+Penalty penalties(const Campaign& campaign, const Rival& rival) {
+  Penalty all{penalty_of(rival), {}};
+  const Index own = campaign.own.centre.size();
+  const auto of_the_law = [&](const Cause& cause) {
+    return std::any_of(cause.columns.begin(), cause.columns.end(),
+                       [&](std::size_t c) { return campaign.candidates.columns[c].in_law; });
+  };
+  if (own == 0 || std::none_of(rival.causes.begin(), rival.causes.end(), of_the_law)) return all;
+  const auto count = static_cast<Index>(rival.parameters.size());
+  if (all.matrix.size() == 0) all.matrix = MatrixXd::Zero(count, count);
+  all.centre = VectorXd::Zero(count);
+  all.matrix.topLeftCorner(own, own) += campaign.own.matrix;
+  all.centre.head(own) = campaign.own.centre;
+  return all;
+}
+
+// Effective number of parameters: penalised ones count by their remaining freedom.
+double freedom_of(const Rival& rival, const stats::Whitener& whitener) {
+  const auto count = static_cast<Index>(rival.parameters.size());
+  const MatrixXd penalty = penalty_of(rival);
+  if (penalty.size() == 0) return static_cast<double>(count);
+  MatrixXd jacobian = rival.jacobian;
+  whitener.apply(jacobian);
+  const MatrixXd normal = jacobian.transpose() * jacobian;
+  MatrixXd with = normal + penalty;
+  with.diagonal().array() += 1e-12 * with.diagonal().maxCoeff();
+  return with.ldlt().solve(normal).trace();
+}
+
+// Whether the fit is finite and no effect makes friction negative.
+bool is_possible(const Rival& rival, const Campaign& campaign) {
+  return std::isfinite(rival.total) && std::isfinite(rival.freedom) &&
+         std::all_of(rival.effects.begin(), rival.effects.end(), [&](const PlacedEffect& effect) {
+           return effect.acts_on == effects::ActsOn::tau ||
+                  factor_on(effect, campaign.candidates.by_symbol).minCoeff() > 0;
+         });
+}
+
+void evaluate(Rival& rival, const Campaign& campaign) {
+  const stats::Whitener whitener(rival.noise, rival.predicted, campaign.blocks, campaign.nuisance);
+  MatrixXd residual = campaign.measured - rival.predicted;
+  whitener.apply(residual);
+  rival.log_likelihood = by_experiment(residual.col(0), whitener, campaign.blocks.first);
+  rival.total = rival.log_likelihood.sum();
+  rival.freedom = freedom_of(rival, whitener);
+  double cost = tuning::parameter_cost * rival.freedom;
+  for (const Cause& cause : rival.causes)
+    cost += tuning::rival_step_cost * complexity(cause, campaign.candidates);
+  for (std::size_t i = 0; i < rival.effects.size(); ++i)
+    cost +=
+        implausibility(rival.effects[i], campaign.candidates.columns[rival.causes[i].columns[0]]);
+  rival.penalised =
+      is_possible(rival, campaign) ? rival.total - cost : -std::numeric_limits<double>::infinity();
+}
+
+} // namespace
+
+std::vector<double> start_of(const models::Law& extended, std::span<const double> own,
+                             std::size_t count, std::span<const PlacedEffect> effects) {
+  std::vector<double> start(own.begin(), own.begin() + static_cast<long>(count));
+  for (const PlacedEffect& effect : effects)
+    for (const double value : effects::fitted_values(effect))
+      start.push_back(value);
+  while (start.size() < extended.parameters.size()) // m_limit
+    start.push_back(own.size() > count ? own.back() : extended.parameters[start.size()].start);
+  return start;
+}
+
+models::Law bounded_law(const Campaign& campaign, const Rival& rival) {
+  const std::size_t own = campaign.law.parameters.size();
+  models::Law law = effects::extended_law(campaign.law, campaign.conventions,
+                                          std::span(rival.parameters).first(own), rival.effects,
+                                          campaign.law.name);
+  bound_shapes(law, own, rival.effects, campaign.candidates);
+  return law;
+}
+
+namespace {
+
+// Start values of the law's own parameters, followed by m_limit if an effect acts on the limit.
+std::vector<double> own_parameters(const Campaign& campaign, const Rival& from) {
+  const auto own = static_cast<long>(campaign.law.parameters.size());
+  std::vector<double> start(from.parameters.begin(), from.parameters.begin() + own);
+  if (on_limit(from.effects)) start.push_back(from.parameters.back());
+  return start;
+}
+
+// Stopping rule of a fit: loose where a search is repeated for every fold, tight where the result
+// is delivered.
+FitEnd end_of_fit(const Campaign& campaign, NoiseSearch search) {
+  const bool chooses = campaign.quick || search == NoiseSearch::kept;
+  // With many tests the cost is so large that a millionth of it is far less than a unit of log
+  // likelihood, by which rivals are chosen.
+  if (campaign.selection)
+    return chooses ? FitEnd{campaign.quick ? 1e-5 : 1e-6, tuning::most_steps_from_selected}
+                   : FitEnd{1e-8};
+  if (campaign.quick || campaign.of_selected) return {1e-5};
+  return {search == NoiseSearch::kept ? 1e-8 : 1e-11};
+}
+
+// Fits to the blocks of this campaign. `from_selection`: the start is the end of a fit to selected
+// tests, under its noise.
+Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
+                    std::vector<Cause> causes, std::span<const double> parameters,
+                    const stats::NoiseModel& noise, NoiseSearch search,
+                    bool from_selection = false) {
+  const std::size_t own = campaign.law.parameters.size();
+  Rival rival;
+  rival.own = own;
+  rival.parameters.assign(parameters.begin(), parameters.end());
+  rival.effects = std::move(effects);
+  rival.causes = std::move(causes);
+  rival.noise = noise;
+  const models::Law extended = bounded_law(campaign, rival);
+  rival.parameters = start_of(extended, parameters, own, rival.effects);
+  const BlockColumns& columns = campaign.candidates.by_symbol;
+  const LawOnBlocks law(extended, campaign.conventions, columns);
+  const Penalty penalty = penalties(campaign, rival);
+  const FitEnd end = end_of_fit(campaign, search);
+  const auto refit = [&](const LawOnBlocks& with) {
+    rival.predicted = with.predict(rival.parameters);
+    const stats::Whitener whitener(rival.noise, rival.predicted, campaign.blocks,
+                                   campaign.nuisance);
+    BlockFit fit =
+        fit_blocks(with, campaign.measured, whitener, rival.parameters, penalty, {}, end);
+    rival.parameters = std::move(fit.parameters);
+    rival.predicted = std::move(fit.predicted);
+    rival.jacobian = std::move(fit.jacobian);
+  };
+  // First with the limit rounded off, otherwise rows below it have no influence on it.
+  if (!from_selection && on_limit(rival.effects)) {
+    const double usual = campaign.measured.cwiseAbs().mean();
+    for (const double width : {0.15 * usual, 0.05 * usual})
+      refit(LawOnBlocks(extended, campaign.conventions, columns, width));
+  }
+  refit(law);
+  for (const bool first : {true, false}) {
+    if (search != NoiseSearch::again || from_selection) break;
+    const VectorXd residual = campaign.measured - rival.predicted;
+    const stats::NoiseData data{residual, rival.predicted, campaign.blocks, rival.jacobian,
+                                campaign.nuisance};
+    if (first)
+      rival.noise = refit_campaign_noise(campaign, data, rival.noise);
+    else if (!campaign.quick)
+      rival.noise = stats::refine_noise(data, rival.noise).noise;
+    else
+      break;
+    refit(law);
+  }
+  take_parameters(rival, own);
+  rival.weights = rival.noise;
+  evaluate(rival, campaign);
+  return rival;
+}
+
+} // namespace
+
+Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
+                std::vector<Cause> causes, std::span<const double> parameters,
+                const stats::NoiseModel& noise, NoiseSearch search) {
+  if (!campaign.selection)
+    return fit_on_blocks(campaign, std::move(effects), std::move(causes), parameters, noise,
+                         search);
+  const Rival part = fit_on_blocks(selected(campaign), std::move(effects), std::move(causes),
+                                   parameters, noise, search);
+  return fit_on_blocks(campaign, part.effects, part.causes, own_parameters(campaign, part),
+                       part.noise, search, true);
+}
+
+Rival fit_rival(const Campaign& campaign, const Rival& from, std::vector<PlacedEffect> effects,
+                std::vector<Cause> causes, const stats::NoiseModel& noise, NoiseSearch search) {
+  return fit_rival(campaign, std::move(effects), std::move(causes), own_parameters(campaign, from),
+                   noise, search);
+}
+
+namespace {
+
+// Fits noise to the selected tests if there is a selection, else to all.
+template <class Fit>
+stats::NoiseModel noise_by(const Campaign& campaign, const stats::NoiseData& data, const Fit& fit) {
+  if (!campaign.selection) return fit(data).noise;
+  const auto& rows = campaign.selection->rows;
+  const auto some = [&](const MatrixXd& all) {
+    return all.cols() == 0 ? MatrixXd{} : MatrixXd(all(rows, Eigen::all));
+  };
+  const VectorXd residual = data.residual(rows), tau = data.tau(rows);
+  const MatrixXd fitted = some(data.fitted), nuisance = some(data.nuisance);
+  return fit({residual, tau, campaign.selection->blocks, fitted, nuisance, data.slope}).noise;
+}
+
+} // namespace
+
+stats::NoiseModel fit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data) {
+  return noise_by(campaign, data,
+                  [](const stats::NoiseData& part) { return stats::fit_noise(part); });
+}
+
+stats::NoiseModel refit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data,
+                                       const stats::NoiseModel& earlier) {
+  return noise_by(campaign, data, [&](const stats::NoiseData& part) {
+    return campaign.quick ? stats::refit_noise_coarsely(part, earlier)
+                          : stats::refit_noise(part, earlier);
+  });
+}
+
+Campaign selected(const Campaign& campaign) {
+  if (!campaign.selection) return campaign;
+  const Selection& some = *campaign.selection;
+  Campaign part{campaign.law,    campaign.conventions,         some.blocks,
+                some.candidates, campaign.measured(some.rows), {},
+                campaign.quick};
+  part.own = campaign.own;
+  part.of_selected = true;
+  if (campaign.nuisance.cols() > 0) part.nuisance = campaign.nuisance(some.rows, Eigen::all);
+  return part;
+}
+
+stats::NoiseModel rows_alike(const stats::NoiseModel& noise) {
+  stats::NoiseModel alike;
+  alike.scale = noise.scale;
+  alike.growth = 0;
+  alike.slow = 0;
+  alike.white = std::hypot(noise.slow, noise.white, noise.gain);
+  return alike;
+}
+
+Rival with_weights(const Campaign& campaign, Rival rival, const stats::NoiseModel& weights) {
+  const FitEnd end = campaign.selection ? end_of_fit(campaign, NoiseSearch::again) : FitEnd{};
+  const LawOnBlocks law(bounded_law(campaign, rival), campaign.conventions,
+                        campaign.candidates.by_symbol);
+  const stats::Whitener whitener(weights, rival.predicted, campaign.blocks, campaign.nuisance);
+  BlockFit fit = fit_blocks(law, campaign.measured, whitener, rival.parameters,
+                            penalties(campaign, rival), {}, end);
+  rival.parameters = std::move(fit.parameters);
+  rival.predicted = std::move(fit.predicted);
+  rival.jacobian = std::move(fit.jacobian);
+  rival.weights = weights;
+  take_parameters(rival, campaign.law.parameters.size());
+  evaluate(rival, campaign);
+  return rival;
+}
+
+std::size_t site_of(const PlacedEffect& effect) {
+  return static_cast<std::size_t>(std::find(sites.begin(), sites.end(), effect.acts_on) -
+                                  sites.begin());
+}
+
+Rival less_effect(Rival rival, std::size_t index) {
+  const Index first = first_parameters(rival, rival.own)[index];
+  const auto count = static_cast<long>(effects::fitted_parameters(rival.effects[index]).size());
+  std::size_t of_effects = 0;
+  for (const PlacedEffect& effect : rival.effects)
+    of_effects += effects::fitted_parameters(effect).size();
+  const bool limit = rival.parameters.size() > rival.own + of_effects; // m_limit, after them
+  rival.parameters.erase(rival.parameters.begin() + first,
+                         rival.parameters.begin() + first + count);
+  rival.effects.erase(rival.effects.begin() + static_cast<long>(index));
+  rival.causes.erase(rival.causes.begin() + static_cast<long>(index));
+  if (limit && !on_limit(rival.effects)) rival.parameters.pop_back();
+  return rival;
+}
+
+Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t index) {
+  Rival less = less_effect(rival, index);
+  return fit_rival(campaign, rival, std::move(less.effects), std::move(less.causes), rival.noise,
+                   NoiseSearch::again);
+}
+
+std::vector<bool> indistinguishable_rivals(const std::vector<Rival>& rivals, std::uint64_t seed) {
+  const Index experiments = rivals.front().log_likelihood.size();
+  MatrixXd times(static_cast<Index>(tuning::rival_resamples), experiments);
+  std::vector<double> counts(static_cast<std::size_t>(experiments));
+  for (Index b = 0; b < times.rows(); ++b) {
+    stats::resample(seed, static_cast<std::size_t>(b), counts);
+    times.row(b) = Eigen::Map<const VectorXd>(counts.data(), experiments);
+  }
+  std::vector<bool> same;
+  for (const Rival& rival : rivals) {
+    const VectorXd difference = rivals.front().log_likelihood - rival.log_likelihood;
+    const VectorXd drawn = times * difference;
+    const auto better = static_cast<double>((drawn.array() > 0).count());
+    const double lead = 0.5 * (rival.criterion - rivals.front().criterion);
+    same.push_back(better < 0.95 * static_cast<double>(tuning::rival_resamples) || lead < 2);
+  }
+  return same;
+}
+
+} // namespace frictab::trace
