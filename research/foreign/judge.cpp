@@ -198,17 +198,17 @@ Outcome of_search(const Campaign& campaign, const calibrate::ModelFit& fit, cons
   trace::TraceOptions how;
   how.alpha = alpha;
   const trace::TraceInput input{campaign.training, campaign.validation, fit, how, 50, options.seed};
-  const auto search = trace::search_effects(input);
+  const trace::Found found = trace::search_effects(input);
   Outcome outcome;
-  for (const trace::Cause& cause : search->last().causes) {
-    const trace::Lead lead = trace::lead_of(*search, cause);
+  for (const trace::Cause& cause : found.search.last().causes) {
+    const trace::Lead lead = trace::lead_of(cause, found.search.candidates());
     outcome.found.push_back({names_of(lead.columns, lead.derived), {}});
   }
-  score.order_found = search->order.found;
+  score.order_found = found.order.found;
   score.verdict = outcome.found.empty() ? "nothing" : "search";
   if (outcome.found.empty()) return outcome;
-  score.p_value = search->findings.front().p_value;
-  outcome.law = search->model_of(search->last());
+  score.p_value = found.findings.front().p_value;
+  outcome.law = found.search.model_of(found.search.last());
   return outcome;
 }
 

@@ -31,193 +31,195 @@ namespace frictab::trace {
 
 namespace {
 
-class Reporter {
-public:
-  Reporter(const TraceInput& input, const Search& search) : in_(input), search_(search) {}
+constexpr std::size_t alternatives_shown = 8;
 
-  Trace run() {
-    Trace trace;
-    trace.model = in_.fit.model.name();
-    trace.alpha = in_.options.alpha;
-    trace.least_p_value = std::pow(2.0, 1 - static_cast<double>(experiments()));
-    trace.repeatability = in_.options.repeatability;
-    trace.order = search_.order;
-    trace.rejected = search_.rejected;
-    trace.notes = search_.candidates.notes;
-    add_tried(trace);
-    delivery_ = deliver(search_, trace);
-    trace.validation_searched = !in_.searched.empty();
-    if (!trace.validation_searched)
-      trace.validation_shift = validation_shift_of(search_, delivery_.rival);
-    add_law(trace);
-    add_effects(trace);
-    const Progress progress("what would have been seen", 0);
-    add_scatter(trace, search_, delivery_.rival);
-    add_leads(trace, search_, delivery_);
-    trace.cannot_tell = find_aliases(in_.training, in_.fit.model, in_.options);
-    add_verdict(trace, search_, delivery_.contradicted());
-    return trace;
+// Lists what was tried, and what would have been seen.
+Trace what_was_tried(const Found& found) {
+  const Search& search = found.search;
+  const TraceInput& in = search.input();
+  Trace trace;
+  trace.model = in.fit.model.name();
+  trace.alpha = in.options.alpha;
+  trace.least_p_value = std::pow(2.0, 1 - static_cast<double>(in.training.experiments.size()));
+  trace.repeatability = in.options.repeatability;
+  trace.order = found.order;
+  trace.rejected = found.rejected;
+  trace.notes = search.candidates().notes;
+  if (!search.candidates().constant.empty())
+    trace.notes.push_back("never varied, so its influence is unknown: " +
+                          join(search.candidates().constant, ", "));
+  if (search.one_factor())
+    trace.notes.push_back("the tests change one state at a time: what several do together no test "
+                          "shows, nor what a law with effects is worth there");
+  trace.n_columns = search.candidates().columns.size();
+  trace.n_candidates = found.leftover.terms;
+  trace.n_flips = found.leftover.flips;
+  trace.smallest_seen = found.leftover.smallest_seen;
+  for (const Seen& seen : found.leftover.seen) {
+    const CandidateColumn& column = search.candidates().columns[seen.cause.columns[0]];
+    const double size = seen.identifiable ? seen.size : 0;
+    if (!seen.identifiable) trace.not_identifiable.push_back(column.name);
+    trace.detectable.push_back({column.name, column.derived ? column.name : "", effects::ActsOn::mu,
+                                size * search.tau_scale_MPa(), size, seen.identifiable});
   }
+  return trace;
+}
 
-private:
-  void add_tried(Trace& trace) const {
-    if (!search_.candidates.constant.empty())
-      trace.notes.push_back("never varied, so its influence is unknown: " +
-                            join(search_.candidates.constant, ", "));
-    if (search_.one_factor)
-      trace.notes.push_back(
-          "the tests change one state at a time: what several do together no test "
-          "shows, nor what a law with effects is worth there");
-    trace.n_columns = search_.candidates.columns.size();
-    const Leftover& leftover = search_.leftover;
-    trace.n_candidates = leftover.terms;
-    trace.n_flips = leftover.flips;
-    trace.smallest_seen = leftover.smallest_seen;
-    for (const Seen& seen : leftover.seen) {
-      const CandidateColumn& column = search_.candidates.columns[seen.cause.columns[0]];
-      Detectable entry{
-          column.name,      column.derived ? column.name : "", effects::ActsOn::mu, 0, 0,
-          seen.identifiable};
-      if (seen.identifiable) {
-        entry.share = seen.size;
-        entry.size_MPa = seen.size * search_.tau_scale_MPa;
-      } else
-        trace.not_identifiable.push_back(column.name);
-      trace.detectable.push_back(std::move(entry));
+calibrate::Metrics errors_of(const TraceInput& in, const data::Dataset& data,
+                             const std::vector<double>& predicted) {
+  return calibrate::metrics(data, predicted, in.bootstrap, in.seed);
+}
+
+// Judges on the validation tests like all other laws, however few; without any, on left-out
+// training tests.
+void judge(calibrate::ModelFit& fit, const TraceInput& in, const Delivery& delivery) {
+  if (!in.searched.empty()) {
+    std::vector<stats::ErrorSums> sums;
+    for (std::size_t i = 0; i < in.searched.size(); ++i) {
+      sums.push_back(delivery.unseen[in.searched[i]]);
+      fit.unseen.push_back(
+          calibrate::error_of(in.validation.experiments[i], true, sums.back(), no_value));
     }
+    fit.validation = calibrate::metrics(sums, in.bootstrap, in.seed);
+    fit.band = calibrate::check_band(fit.model, {}, in.training.subset({}));
+  } else if (in.validation.experiments.empty()) {
+    fit.validation = delivery.after.validation;
+    fit.band = calibrate::check_band(fit.model, {}, in.validation);
+    if (delivery.nested.folds == 0) fit.unseen = in.fit.unseen;
+    for (std::size_t e = 0; fit.unseen.size() < in.training.experiments.size(); ++e)
+      fit.unseen.push_back(
+          calibrate::error_of(in.training.experiments[e], true, delivery.unseen[e], no_value));
+  } else {
+    const std::vector<double> unseen = calibrate::predict(fit.model, in.validation);
+    fit.validation = errors_of(in, in.validation, unseen);
+    fit.band = calibrate::check_band(fit.model, unseen, in.validation);
   }
+}
 
-  calibrate::Metrics errors(const data::Dataset& data, const std::vector<double>& predicted) const {
-    return calibrate::metrics(data, predicted, in_.bootstrap, in_.seed);
+// The delivered law as a fit; without a law unless an effect was added or a structure removed.
+calibrate::ModelFit fit_of(const Found& found, const Delivery& delivery,
+                           const calibrate::Uncertainty& uncertainty) {
+  const TraceInput& in = found.search.input();
+  const Rival& rival = delivery.rival;
+  calibrate::ModelFit fit;
+  if (rival.effects.empty() && !found.order.found) return fit;
+  fit.model = found.search.model_of(rival);
+  fit.std_error = uncertainty.std_error;
+  fit.model.covariance = calibrate::row_by_row(calibrate::known_covariance(uncertainty));
+  fit.remarks = uncertainty.remarks;
+  fit.std_error_method = "cluster sandwich by experiment";
+  fit.termination = rival.weights.gain > 0
+                        ? "generalised least squares under the noise model of the trace"
+                        : "least squares, which predicts left-out experiments better here than "
+                          "the noise model's weights";
+  const models::AssembledLaw law(fit.model);
+  const auto [columns, trained] = calibrate::predict_with_columns(law, law.inputs, in.training);
+  fit.data_range = columns.ranges();
+  fit.training = errors_of(in, in.training, trained);
+  fit.model.experiment_gains = calibrate::gains_of_new_experiments(
+      calibrate::experiment_gains(in.training, trained), fit.model.parameters.size());
+  judge(fit, in, delivery);
+  if (in.all) fit.on_all = refit_traced(found, delivery, *in.all);
+  return fit;
+}
+
+// --- effects --------------------------------------------------------------------------------
+
+// `first`: index of the effect's first parameter in the fit.
+std::vector<TracedParameter> parameters_of(const effects::PlacedEffect& placed,
+                                           const calibrate::ModelFit& fit,
+                                           const calibrate::Uncertainty& uncertainty,
+                                           std::size_t first) {
+  std::vector<TracedParameter> traced;
+  const auto fitted = effects::fitted_parameters(placed);
+  for (std::size_t p = 0; p < fitted.size(); ++p)
+    traced.push_back({fitted[p].name, fit.model.parameters[first + p], fit.std_error[first + p],
+                      fit.model.law->parameters[first + p].unit, uncertainty.why_none[first + p]});
+  const std::vector<models::Parameter> all = effects::parameters_of(placed);
+  for (std::size_t p = 0; p < all.size(); ++p)
+    if (std::none_of(fitted.begin(), fitted.end(),
+                     [&](const models::Parameter& one) { return one.name == all[p].name; }))
+      traced.push_back(
+          {all[p].name, placed.parameters[p], no_value, effects::unit_of(all[p], placed), ""});
+  return traced;
+}
+
+std::vector<Alternative> alternatives_of(const Finding& finding, const Candidates& candidates) {
+  const std::string name = cause_name(finding.rival.causes.back(), candidates);
+  std::vector<Alternative> alternatives;
+  for (std::size_t i = 0; i < std::min(finding.others.size(), alternatives_shown); ++i) {
+    const Rival& other = finding.others[i];
+    const Lead names = lead_of(other.causes.back(), candidates);
+    alternatives.push_back(
+        {names.name, names.columns, names.derived, other.effects.back().form->name,
+         other.effects.back().acts_on, finding.in_set[i],
+         finding.in_set[i]
+             ? fmt::format("cannot be distinguished from {} by these experiments", name)
+             : fmt::format("explains less than {} (log likelihood {:.1f} lower)", name,
+                           finding.rival.total - other.total)});
   }
+  return alternatives;
+}
 
-  // Judges on the validation tests like all other laws, however few; without any, on left-out
-  // training tests.
-  void judge(Trace& trace) const {
-    calibrate::ModelFit& fit = trace.extended;
-    if (!in_.searched.empty()) {
-      std::vector<stats::ErrorSums> sums;
-      for (std::size_t i = 0; i < in_.searched.size(); ++i) {
-        sums.push_back(delivery_.unseen[in_.searched[i]]);
-        fit.unseen.push_back(
-            calibrate::error_of(in_.validation.experiments[i], true, sums.back(), no_value));
-      }
-      fit.validation = calibrate::metrics(sums, in_.bootstrap, in_.seed);
-      fit.band = calibrate::check_band(fit.model, {}, in_.training.subset({}));
-      return;
-    }
-    if (in_.validation.experiments.empty()) {
-      fit.validation = trace.after.validation;
-      fit.band = calibrate::check_band(fit.model, {}, in_.validation);
-      if (delivery_.nested.folds == 0) fit.unseen = in_.fit.unseen;
-      for (std::size_t e = 0; fit.unseen.size() < experiments(); ++e)
-        fit.unseen.push_back(
-            calibrate::error_of(in_.training.experiments[e], true, delivery_.unseen[e], no_value));
-      return;
-    }
-    const std::vector<double> unseen = calibrate::predict(fit.model, in_.validation);
-    fit.validation = errors(in_.validation, unseen);
-    fit.band = calibrate::check_band(fit.model, unseen, in_.validation);
-  }
-
-  // Adds the delivered law, unless no effect was added and no structure removed.
-  void add_law(Trace& trace) {
-    const Rival& rival = delivery_.rival;
-    if (rival.effects.empty() && !search_.order.found) return;
-    uncertainty_ = uncertainty_of(search_.campaign(), rival);
-    calibrate::ModelFit& fit = trace.extended;
-    fit.model = search_.model_of(rival);
-    fit.std_error = uncertainty_.std_error;
-    fit.model.covariance = calibrate::row_by_row(calibrate::known_covariance(uncertainty_));
-    fit.remarks = uncertainty_.remarks;
-    fit.std_error_method = "cluster sandwich by experiment";
-    fit.termination = rival.weights.gain > 0
-                          ? "generalised least squares under the noise model of the trace"
-                          : "least squares, which predicts left-out experiments better here than "
-                            "the noise model's weights";
-    const models::AssembledLaw law(fit.model);
-    const auto [columns, trained] = calibrate::predict_with_columns(law, law.inputs, in_.training);
-    fit.data_range = columns.ranges();
-    fit.training = errors(in_.training, trained);
-    fit.model.experiment_gains = calibrate::gains_of_new_experiments(
-        calibrate::experiment_gains(in_.training, trained), fit.model.parameters.size());
-    judge(trace);
-    trace.extended_model = fit.model.name();
-    if (rival.effects.empty()) trace.after = {fit.training, fit.validation};
-    if (in_.all) fit.on_all = refit_traced(search_, delivery_, *in_.all);
-  }
-
-  // --- effects ------------------------------------------------------------------------------
-
-  void add_effects(Trace& trace) {
-    std::size_t parameter = in_.fit.model.law->parameters.size();
-    const Rival& rival = delivery_.rival;
-    for (std::size_t i = 0; i < rival.effects.size(); ++i) {
-      const Lead names = lead_of(search_, rival.causes[i]);
-      TracedEffect effect;
-      effect.placed = rival.effects[i];
-      effect.columns = names.columns;
-      effect.derived = names.derived;
-      const Finding& finding = search_.findings[delivery_.findings[i]];
-      effect.between = finding.between;
-      effect.p_value = finding.p_value;
-      const std::size_t count = effects::fitted_parameters(effect.placed).size();
-      add_parameters(effect, trace.extended, parameter);
-      add_alternatives(effect, finding);
-      effect.gain_MPa = delivery_.gain_MPa[i];
-      effect.curve = effect_curve(search_.campaign(), rival, search_.sensitivities(), i, parameter,
-                                  uncertainty_.covariance);
-      parameter += count;
-      trace.effects.push_back(std::move(effect));
-    }
-  }
-
-  void add_parameters(TracedEffect& effect, const calibrate::ModelFit& fit,
-                      std::size_t first) const {
-    const auto fitted = effects::fitted_parameters(effect.placed);
-    for (std::size_t p = 0; p < fitted.size(); ++p)
-      effect.parameters.push_back(
-          {fitted[p].name, fit.model.parameters[first + p], fit.std_error[first + p],
-           fit.model.law->parameters[first + p].unit, uncertainty_.why_none[first + p]});
-    const std::vector<models::Parameter> all = effects::parameters_of(effect.placed);
-    for (std::size_t p = 0; p < all.size(); ++p) {
-      const models::Parameter& parameter = all[p];
-      const bool known = std::any_of(fitted.begin(), fitted.end(), [&](const models::Parameter& f) {
-        return f.name == parameter.name;
-      });
-      if (!known)
-        effect.parameters.push_back({parameter.name, effect.placed.parameters[p], no_value,
-                                     effects::unit_of(parameter, effect.placed), ""});
-    }
-  }
-
-  void add_alternatives(TracedEffect& effect, const Finding& finding) const {
-    const std::string name = cause_name(finding.rival.causes.back(), search_.candidates);
-    for (std::size_t i = 0; i < finding.others.size() && i < 8; ++i) {
-      const Rival& other = finding.others[i];
-      const Lead names = lead_of(search_, other.causes.back());
-      const double behind = finding.rival.total - other.total;
-      effect.alternatives.push_back(
-          {names.name, names.columns, names.derived, other.effects.back().form->name,
-           other.effects.back().acts_on, finding.in_set[i],
-           finding.in_set[i]
-               ? fmt::format("cannot be distinguished from {} by these experiments", name)
-               : fmt::format("explains less than {} (log likelihood {:.1f} lower)", name, behind)});
-    }
-    effect.design = design_for(search_, finding);
+std::vector<TracedEffect> effects_of(const Found& found, const Delivery& delivery,
+                                     const calibrate::ModelFit& fit,
+                                     const calibrate::Uncertainty& uncertainty) {
+  const Search& search = found.search;
+  const Rival& rival = delivery.rival;
+  std::vector<TracedEffect> traced;
+  std::size_t parameter = search.input().fit.model.law->parameters.size();
+  for (std::size_t i = 0; i < rival.effects.size(); ++i) {
+    const Finding& finding = found.findings[delivery.findings[i]];
     const Cause& cause = finding.rival.causes.back();
-    effect.order_confounded = may_stand_for_time(search_, cause);
+    TracedEffect& effect = traced.emplace_back();
+    effect.placed = rival.effects[i];
+    const Lead names = lead_of(rival.causes[i], search.candidates());
+    effect.columns = names.columns;
+    effect.derived = names.derived;
+    effect.between = finding.between;
+    effect.p_value = finding.p_value;
+    effect.parameters = parameters_of(effect.placed, fit, uncertainty, parameter);
+    effect.alternatives = alternatives_of(finding, search.candidates());
+    effect.design = design_for(search, finding);
+    effect.order_confounded = may_stand_for_time(found, cause);
     if (effect.order_confounded && effect.design.tests.empty())
-      effect.design = design_in_turn(search_, cause);
+      effect.design = design_in_turn(search, cause);
+    effect.gain_MPa = delivery.gain_MPa[i];
+    effect.curve = effect_curve(search.campaign(), rival, search.sensitivities(), i, parameter,
+                                uncertainty.covariance);
+    parameter += effects::fitted_parameters(effect.placed).size();
   }
+  return traced;
+}
 
-  std::size_t experiments() const { return in_.training.experiments.size(); }
-
-  const TraceInput& in_;
-  const Search& search_;
-  Delivery delivery_;
-  calibrate::Uncertainty uncertainty_; // of the delivered law
-};
+Trace trace_in_order(const TraceInput& in) {
+  const Found found = search_effects(in);
+  const Delivery delivery = deliver(found);
+  const calibrate::Uncertainty uncertainty =
+      uncertainty_of(found.search.campaign(), delivery.rival);
+  Trace trace = what_was_tried(found);
+  trace.extended = fit_of(found, delivery, uncertainty);
+  trace.extended_model = trace.extended.model.law ? trace.extended.model.name() : "";
+  trace.effects = effects_of(found, delivery, trace.extended, uncertainty);
+  trace.unseen = delivery.unseen_by;
+  trace.as_calibrated = {in.fit.training, in.fit.validation};
+  trace.before = delivery.before;
+  trace.after = delivery.after;
+  if (found.order.found && trace.effects.empty())
+    trace.after = {trace.extended.training, trace.extended.validation};
+  trace.improvement = delivery.improvement;
+  trace.over_calibrated = delivery.over_calibrated;
+  trace.nested = delivery.check;
+  trace.validation_searched = !in.searched.empty();
+  if (!trace.validation_searched)
+    trace.validation_shift = validation_shift_of(found.search, delivery.rival);
+  const Progress progress("what would have been seen", 0);
+  add_scatter(trace, found.search, delivery.rival);
+  add_leads(trace, found, delivery);
+  trace.cannot_tell = find_aliases(in.training, in.fit.model, in.options);
+  add_verdict(trace, found, delivery.contradicted());
+  return trace;
+}
 
 // Sorts tests and columns by name, so that results do not depend on their order in files.
 data::Dataset in_order_of_names(const data::Dataset& data) {
@@ -266,8 +268,7 @@ Trace trace(const TraceInput& input) {
     const TraceInput sorted{
         training,   input.validation,           input.fit,          input.options, input.bootstrap,
         input.seed, input.all ? &all : nullptr, std::move(searched)};
-    const std::unique_ptr<Search> search = search_effects(sorted);
-    return Reporter(sorted, *search).run();
+    return trace_in_order(sorted);
   };
   const std::size_t few = input.validation.experiments.size();
   if (few == 0 || few >= tuning::fewest_judging_validation_tests || of_another_world(input))

@@ -313,9 +313,8 @@ inline constexpr Eigen::Index largest_batch_distance = 6;
 // Slow functions of the order that are removed once a structure is found, at most. Chosen, not
 // measured.
 inline constexpr int most_order_functions = 12;
-// Neighbours that may still resemble each other after removal of the slow functions, and therefore
-// change sign together. Chosen, not measured.
-inline constexpr std::size_t neighbours_flipped_together = 3;
+// Tests for each of these functions, at least. Chosen, not measured.
+inline constexpr std::size_t tests_per_order_function = 5;
 
 // ---- Advice on next tests ----
 

@@ -47,20 +47,20 @@ protected:
     std::vector<effects::PlacedEffect> effects;
     std::vector<Cause> causes;
     for (const std::string& name : columns)
-      for (const Cause& cause : trace::all_causes(search_.candidates))
-        if (trace::cause_name(cause, search_.candidates) == name) {
+      for (const Cause& cause : trace::all_causes(search_.candidates()))
+        if (trace::cause_name(cause, search_.candidates()) == name) {
           effects.push_back(trace::plain_effect(search_, cause));
           causes.push_back(cause);
         }
     EXPECT_EQ(causes.size(), columns.size());
-    return trace::fit_rival(search_.campaign(), search_.base, effects, causes, search_.base.noise,
+    return trace::fit_rival(search_.campaign(), search_.base(), effects, causes, search_.base().noise,
                             trace::NoiseSearch::again);
   }
 
   std::vector<std::string> left(const FittedAlike& fitted) const {
     std::vector<std::string> names;
     for (const Cause& cause : fitted.rival.causes)
-      names.push_back(trace::cause_name(cause, search_.candidates));
+      names.push_back(trace::cause_name(cause, search_.candidates()));
     return names;
   }
 
@@ -98,7 +98,7 @@ TEST_F(RowsAlike, AreTheLeastSquaresFitOfTheEffectsThatAreLeft) {
 TEST_F(RowsAlikeWithoutEffect, LeaveNothingOfColumnsThatDoNothing) {
   EXPECT_EQ(left(trace::fit_rows_alike(search_.campaign(), with_effects_of({"humidity_pct"}))),
             std::vector<std::string>{});
-  EXPECT_EQ(trace::fit_rows_alike(search_.campaign(), search_.base).kept.size(), 0u);
+  EXPECT_EQ(trace::fit_rows_alike(search_.campaign(), search_.base()).kept.size(), 0u);
 }
 
 } // namespace

@@ -33,7 +33,7 @@ public:
 
   // Returns each test's information about all of them, in that order.
   std::vector<MatrixXd> information(const data::Dataset& data) const {
-    const stats::Blocks blocks = stats::make_blocks(data, search_.blocks.most);
+    const stats::Blocks blocks = stats::make_blocks(data, search_.blocks().most);
     const Rival& first = *rivals_[0];
     const models::Model model = search_.model_of(first);
     const std::vector<double> tau = calibrate::predict(model, data);
@@ -60,7 +60,7 @@ private:
   }
 
   std::size_t last_begin(const Rival& rival) const {
-    std::size_t begin = search_.input.fit.model.law->parameters.size();
+    std::size_t begin = search_.input().fit.model.law->parameters.size();
     for (std::size_t i = 0; i + 1 < rival.effects.size(); ++i)
       begin += effects::fitted_parameters(rival.effects[i]).size();
     return begin;
@@ -103,7 +103,7 @@ public:
       : search_(search), rivals_(rivals), threshold_(threshold), directions_(search, rivals_) {}
 
   Design run() {
-    std::vector<Setting> settings = settings_of(search_.input.training, recorded());
+    std::vector<Setting> settings = settings_of(search_.input().training, recorded());
     if (settings.empty()) return {};
     Plan plan = best_plan(settings);
     if (rivals_.size() == 1 && probability(plan.before) >= tuning::wanted_power)
@@ -134,14 +134,14 @@ private:
     std::vector<std::string> names;
     for (const Rival* rival : rivals_)
       for (const std::size_t c : rival->causes.back().columns)
-        for (const std::string& name : search_.candidates.columns[c].recorded)
+        for (const std::string& name : search_.candidates().columns[c].recorded)
           if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     return names;
   }
 
   Plan best_plan(std::vector<Setting> settings) {
     Plan plan;
-    plan.candidates = candidate_tests(search_.input.training, std::move(settings));
+    plan.candidates = candidate_tests(search_.input().training, std::move(settings));
     if (plan.candidates.at.empty()) return plan;
     add_information(plan.candidates);
     plan.before = amplitude(known_);
@@ -156,7 +156,7 @@ private:
   // Adds the information of the campaign and of each candidate, with all parameters scaled to
   // comparable units.
   void add_information(const CandidateTests& candidates) {
-    const std::vector<MatrixXd> tests = directions_.information(search_.input.training);
+    const std::vector<MatrixXd> tests = directions_.information(search_.input().training);
     known_ = std::accumulate(tests.begin() + 1, tests.end(), tests.front());
     each_ = directions_.information(candidates.data);
     for (MatrixXd& m : each_) // tests where the law has no value carry no information
@@ -276,7 +276,7 @@ private:
       design.tests.push_back(std::move(row));
     }
     for (const Rival* rival : rivals_)
-      design.settles.push_back(cause_name(rival->causes.back(), search_.candidates));
+      design.settles.push_back(cause_name(rival->causes.back(), search_.candidates()));
     return design;
   }
 
@@ -329,7 +329,7 @@ Design design_for_lead(const Search& search, const effects::PlacedEffect& effect
       fit_rival(search.campaign(), last, effects, causes, last.noise, NoiseSearch::kept);
   Design design = design_tests(search, {&with}, threshold);
   const double short_of =
-      tests_for(search.input.options.alpha) - static_cast<double>(search.blocks.experiments());
+      tests_for(search.input().options.alpha) - static_cast<double>(search.blocks().experiments());
   design.tests_needed = std::max(design.tests_needed, short_of);
   return design;
 }
@@ -365,12 +365,12 @@ Ends ends_by_level(const Setting& setting, const VectorXd& x, const VectorXd& ga
 Design design_in_turn(const Search& search, const Cause& cause, std::optional<double> scatter) {
   Design design;
   if (cause.is_joint()) return design;
-  const CandidateColumn& column = search.candidates.columns[cause.columns[0]];
-  const std::vector<Setting> settings = settings_of(search.input.training, column.recorded);
+  const CandidateColumn& column = search.candidates().columns[cause.columns[0]];
+  const std::vector<Setting> settings = settings_of(search.input().training, column.recorded);
   if (settings.empty()) return design;
   const Setting& setting = settings.front();
-  const VectorXd x = search.blocks.experiment_means(column.values).col(0);
-  const TraceInput& in = search.input;
+  const VectorXd x = search.blocks().experiment_means(column.values).col(0);
+  const TraceInput& in = search.input();
   const VectorXd gain = test_gains(in.training, calibrate::predict(in.fit.model, in.training)).gain;
   const Ends ends =
       column.levels.empty() ? ends_by_line(setting, x, gain) : ends_by_level(setting, x, gain);
@@ -389,8 +389,8 @@ Design design_in_turn(const Search& search, const Cause& cause, std::optional<do
     design.tests.push_back({setting.text[i % 2 == 0 ? ends.low : ends.high]});
   design.columns = {setting.column};
   design.like = "each other, run in this order,";
-  design.settles = {cause_name(cause, search.candidates),
-                    search.order.column.empty() ? "time" : search.order.column};
+  const std::string& order = search.candidates().order_column;
+  design.settles = {cause_name(cause, search.candidates()), order.empty() ? "time" : order};
   design.probability = probability(tests);
   design.tests_needed = std::ceil(
       std::pow((tuning::two_sided_std_errors + gsl_cdf_ugaussian_Pinv(tuning::wanted_power)) /

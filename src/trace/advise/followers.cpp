@@ -75,26 +75,26 @@ Lead lead_of_follower(const data::Column& column, const VectorXd& x, const Looke
 
 std::vector<Lead> leads_that_may_follow(const Search& search, const Rival& rival) {
   std::vector<Lead> leads;
-  if (static_cast<Index>(search.blocks.experiments()) < tuning::fewest_tests_for_followers)
+  if (static_cast<Index>(search.blocks().experiments()) < tuning::fewest_tests_for_followers)
     return leads;
   const VectorXd& measured = search.campaign().measured;
   const double scale = 1e-3 * measured.cwiseAbs().mean();
   const VectorXd residual =
       (measured - rival.predicted).cwiseQuotient(rival.predicted.cwiseMax(scale));
   double looks = 0;
-  for (const data::Column& column : search.input.training.columns) {
+  for (const data::Column& column : search.input().training.columns) {
     if (!data::may_follow_friction(column.role) || !column.levels.empty()) continue;
-    const VectorXd x = search.blocks.mean(column.values);
+    const VectorXd x = search.blocks().mean(column.values);
     if (!x.allFinite()) continue;
     for (const bool is_between : {false, true}) {
-      const Looked looked = is_between ? look_between(search.blocks, x, residual)
-                                       : look_within(search.blocks, x, residual);
+      const Looked looked = is_between ? look_between(search.blocks(), x, residual)
+                                       : look_within(search.blocks(), x, residual);
       looks += looked.slope != 0;
       if (looked.slope != 0) leads.push_back(lead_of_follower(column, x, looked, is_between));
     }
   }
   std::erase_if(
-      leads, [&](const Lead& lead) { return lead.p_value * looks > search.input.options.alpha; });
+      leads, [&](const Lead& lead) { return lead.p_value * looks > search.input().options.alpha; });
   std::stable_sort(leads.begin(), leads.end(),
                    [](const Lead& a, const Lead& b) { return a.p_value < b.p_value; });
   return leads;

@@ -69,10 +69,10 @@ std::string not_varied(const TraceInput& in, const std::vector<std::string>& col
 // Fills the errors of a lead; leaves them unknown if the stress of a history of itself does not
 // converge.
 void add_errors(Lead& lead, const Search& search, const Rival& without, const Rival& with) {
-  const data::Dataset& training = search.input.training;
+  const data::Dataset& training = search.input().training;
   const auto mae = [&](const Rival& rival) {
     const auto predicted = calibrate::predict(search.model_of(rival), training);
-    return calibrate::metrics(training, predicted, 0, search.input.seed).mae_MPa;
+    return calibrate::metrics(training, predicted, 0, search.input().seed).mae_MPa;
   };
   try {
     const double before = mae(without);
@@ -82,18 +82,19 @@ void add_errors(Lead& lead, const Search& search, const Rival& without, const Ri
   }
 }
 
-void add_undelivered(Trace& trace, const Search& search, const Delivery& delivery) {
+void add_undelivered(Trace& trace, const Found& found, const Delivery& delivery) {
+  const Search& search = found.search;
   for (const auto& [index, against] : delivery.against) {
-    const Finding& finding = search.findings[index];
-    Lead lead = lead_of(search, finding.rival.causes.back());
+    const Finding& finding = found.findings[index];
+    Lead lead = lead_of(finding.rival.causes.back(), search.candidates());
     lead.form = finding.rival.effects.back().form->name;
     lead.between = finding.between;
     lead.p_value = finding.p_value;
     lead.significant = true;
-    add_errors(lead, search, index == 0 ? search.base : search.findings[index - 1].rival,
+    add_errors(lead, search, index == 0 ? search.base() : found.findings[index - 1].rival,
                finding.rival);
     lead.why = against.why;
-    if (against.by_validation) lead.why += not_varied(search.input, lead.columns);
+    if (against.by_validation) lead.why += not_varied(search.input(), lead.columns);
     if (trace.leads.empty()) lead.design = design_for(search, finding);
     trace.leads.push_back(std::move(lead));
   }
@@ -101,18 +102,18 @@ void add_undelivered(Trace& trace, const Search& search, const Delivery& deliver
 
 // --- causes that the order of tests explains as well --------------------------------------------
 
-void add_confounded(Trace& trace, const Search& search) {
-  for (const Search::Confounded& found : search.confounded) {
-    Lead lead = lead_of(search, found.cause);
-    lead.form = found.between ? "between tests" : "within tests";
-    lead.between = found.between;
-    lead.p_value = found.p_value;
+void add_confounded(Trace& trace, const Found& found) {
+  for (const auto& [cause, p_value] : found.confounded) {
+    Lead lead = lead_of(cause, found.search.candidates());
+    lead.form = "between tests";
+    lead.between = true;
+    lead.p_value = p_value;
     lead.significant = true;
     lead.why = fmt::format("p = {:.2g}, but a drift over the order of tests ({}) explains it as "
                            "well",
-                           found.p_value, search.order.column);
+                           p_value, found.order.column);
     if (trace.leads.empty())
-      lead.design = design_in_turn(search, found.cause, trace.scatter_between);
+      lead.design = design_in_turn(found.search, cause, trace.scatter_between);
     // without the limit on the number of leads
     add_lead(trace, std::move(lead), trace.leads.size() + 1);
   }
@@ -122,9 +123,9 @@ void add_confounded(Trace& trace, const Search& search) {
 
 // Slope of y over the logarithm of the speed within tests; NaN if the speed does not vary.
 double per_e_fold(const Search& search, const VectorXd& y) {
-  const VectorXd& v = search.candidates.by_symbol.at(speed);
+  const VectorXd& v = search.candidates().by_symbol.at(speed);
   double xy = 0, xx = 0;
-  for (std::size_t e = 0; e < search.blocks.experiments(); ++e) {
+  for (std::size_t e = 0; e < search.blocks().experiments(); ++e) {
     std::vector<std::pair<double, double>> points;
     for (std::size_t b = search.first()[e]; b < search.first()[e + 1]; ++b)
       if (const double speed_here = v(static_cast<Index>(b)); speed_here > 0)
@@ -145,8 +146,8 @@ double per_e_fold(const Search& search, const VectorXd& y) {
 // Change of the friction coefficient per e-fold of the speed, for the law as it is and with the
 // lead: a - b of rate-and-state friction.
 std::string rate_sentence(const Search& search, const VectorXd& change) {
-  const auto sigma = search.candidates.by_symbol.find("sigma_n_MPa");
-  if (sigma == search.candidates.by_symbol.end() || !search.candidates.by_symbol.count(speed))
+  const auto sigma = search.candidates().by_symbol.find("sigma_n_MPa");
+  if (sigma == search.candidates().by_symbol.end() || !search.candidates().by_symbol.count(speed))
     return "";
   const VectorXd mu = search.last().predicted.cwiseQuotient(sigma->second.cwiseMax(1e-300));
   const double lead = per_e_fold(search, mu.cwiseProduct(change)), law = per_e_fold(search, mu);
@@ -159,7 +160,7 @@ std::string rate_sentence(const Search& search, const VectorXd& change) {
 
 bool follows_speed(const Search& search, const Cause& cause) {
   return std::all_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
-    return search.candidates.columns[c].recorded == std::vector<std::string>{speed};
+    return search.candidates().columns[c].recorded == std::vector<std::string>{speed};
   });
 }
 
@@ -173,13 +174,13 @@ std::string too_few(const Trace& trace, std::size_t tests) {
 }
 
 Lead lead_from(const Trace& trace, const Search& search, const Left& left) {
-  Lead lead = lead_of(search, left.cause);
+  Lead lead = lead_of(left.cause, search.candidates());
   lead.form = left.effect.form->name;
-  lead.between = constant_in_experiments(left.cause, search.candidates);
+  lead.between = constant_in_experiments(left.cause, search.candidates());
   lead.p_value = left.p_value;
   lead.share = left.change.maxCoeff() - left.change.minCoeff();
   lead.why = fmt::format("p = {:.2g} over all that was tried{}", left.p_value,
-                         too_few(trace, search.blocks.experiments()));
+                         too_few(trace, search.blocks().experiments()));
   if (too_few_tests(trace) && follows_speed(search, left.cause))
     lead.why += rate_sentence(search, left.change);
   if (deserves_design(trace, lead))
@@ -189,12 +190,12 @@ Lead lead_from(const Trace& trace, const Search& search, const Left& left) {
 
 // Terms shown if there are few tests: single quantities; of those from the same recorded columns
 // one, the recorded one if it is among them.
-std::vector<const Left*> plain_ones(const Search& search) {
+std::vector<const Left*> plain_ones(const Found& found) {
   std::vector<const Left*> plain;
   const auto column = [&](const Left& left) -> const CandidateColumn& {
-    return search.candidates.columns[left.cause.columns[0]];
+    return found.search.candidates().columns[left.cause.columns[0]];
   };
-  for (const Left& left : search.leftover.left) {
+  for (const Left& left : found.leftover.left) {
     if (left.cause.is_joint()) continue;
     const auto same = std::find_if(plain.begin(), plain.end(), [&](const Left* other) {
       return column(*other).recorded == column(left).recorded;
@@ -207,32 +208,32 @@ std::vector<const Left*> plain_ones(const Search& search) {
   return plain;
 }
 
-void add_what_is_left(Trace& trace, const Search& search) {
+void add_what_is_left(Trace& trace, const Found& found) {
   std::vector<const Left*> all;
-  for (const Left& left : search.leftover.left)
+  for (const Left& left : found.leftover.left)
     all.push_back(&left);
-  if (too_few_tests(trace)) all = plain_ones(search);
+  if (too_few_tests(trace)) all = plain_ones(found);
   const std::size_t enough = trace.leads.size() + most_left;
   for (std::size_t i = 0; i < all.size() && trace.leads.size() < enough; ++i)
-    add_lead(trace, lead_from(trace, search, *all[i]));
+    add_lead(trace, lead_from(trace, found.search, *all[i]));
 }
 
 } // namespace
 
-void add_leads(Trace& trace, const Search& search, const Delivery& delivery) {
-  add_undelivered(trace, search, delivery);
-  add_confounded(trace, search);
-  if (search.negligible()) return;
-  add_what_is_left(trace, search);
-  for (Lead& lead : leads_that_may_follow(search, delivery.rival))
+void add_leads(Trace& trace, const Found& found, const Delivery& delivery) {
+  add_undelivered(trace, found, delivery);
+  add_confounded(trace, found);
+  if (found.search.negligible()) return;
+  add_what_is_left(trace, found);
+  for (Lead& lead : leads_that_may_follow(found.search, delivery.rival))
     add_lead(trace, std::move(lead));
 }
 
-Lead lead_of(const Search& search, const Cause& cause) {
+Lead lead_of(const Cause& cause, const Candidates& candidates) {
   Lead lead;
-  lead.name = cause_name(cause, search.candidates);
+  lead.name = cause_name(cause, candidates);
   for (const std::size_t c : cause.columns) {
-    const CandidateColumn& column = search.candidates.columns[c];
+    const CandidateColumn& column = candidates.columns[c];
     for (const std::string& name : column.recorded)
       if (std::find(lead.columns.begin(), lead.columns.end(), name) == lead.columns.end())
         lead.columns.push_back(name);

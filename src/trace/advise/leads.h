@@ -10,9 +10,9 @@ namespace frictab::trace {
 // also those that chance may explain; where the tests are too few for any p-value, the strongest
 // single quantities, recorded ones before those computed from them. Last, columns that may follow
 // from friction (followers.h) and correlate with the residual of the delivered law.
-void add_leads(Trace& trace, const Search& search, const Delivery& delivery);
+void add_leads(Trace& trace, const Found& found, const Delivery& delivery);
 
 // Names a cause, its recorded columns and what is computed from them.
-Lead lead_of(const Search& search, const Cause& cause);
+Lead lead_of(const Cause& cause, const Candidates& candidates);
 
 } // namespace frictab::trace

@@ -28,24 +28,23 @@ using Eigen::VectorXd;
 
 class Deliverer {
 public:
-  Deliverer(const Search& search, Trace& trace) : s_(search), in_(search.input), t_(trace) {}
+  explicit Deliverer(const Found& found) : f_(found), s_(found.search), in_(s_.input()) {}
 
   Delivery run() {
-    t_.as_calibrated = {in_.fit.training, in_.fit.validation};
     take(all_found());
-    if (d_.findings.empty() && !in_.searched.empty() && s_.order.found) judge_by_folds();
+    if (d_.findings.empty() && !in_.searched.empty() && f_.order.found) judge_by_folds();
     if (!d_.findings.empty()) {
       judge_by_folds();
       drop_losses(); // first, because a single one would reject all
       const NestedErrors::Gain gain = d_.nested.gain(weights_);
-      const bool pays = gain.error > 0 && (s_.pays || gain.error > gain.error_se);
-      t_.nested = {d_.nested.folds,
-                   gain.error,
-                   gain.error_se,
-                   gain.score,
-                   gain.score_se,
-                   s_.findings.size(),
-                   pays ? s_.findings.size() : 0};
+      const bool pays = gain.error > 0 && (f_.pays || gain.error > gain.error_se);
+      d_.check = {d_.nested.folds,
+                  gain.error,
+                  gain.error_se,
+                  gain.score,
+                  gain.score_se,
+                  f_.findings.size(),
+                  pays ? f_.findings.size() : 0};
       if (!pays && !(by_validation() && shown_by_validation())) take_all_back({does_not_pay()});
     }
     drop_contradicted();
@@ -58,16 +57,16 @@ public:
         try_plain_weights();
         gain = against_calibrated();
       }
-      if (t_.improvement.interval.high < 0)
-        take_all_back(contradiction(t_.improvement));
+      if (d_.improvement.interval.high < 0)
+        take_all_back(contradiction(d_.improvement));
       else if (gain.value_MPa <= 0)
         take_all_back(gain.interval.high < 0 ? contradiction(gain) : no_better(gain));
       else
-        t_.over_calibrated = gain;
+        d_.over_calibrated = gain;
     }
-    if (!d_.findings.empty() && !by_validation() && t_.improvement.value_MPa <= 0)
+    if (!d_.findings.empty() && !by_validation() && d_.improvement.value_MPa <= 0)
       take_all_back({fmt::format("left-out tests are predicted {:.3g} MPa worse with it",
-                                 -t_.improvement.value_MPa)});
+                                 -d_.improvement.value_MPa)});
     return std::move(d_);
   }
 
@@ -77,7 +76,7 @@ private:
   }
 
   std::vector<std::size_t> all_found() const {
-    std::vector<std::size_t> all(s_.findings.size());
+    std::vector<std::size_t> all(f_.findings.size());
     std::iota(all.begin(), all.end(), 0);
     return all;
   }
@@ -85,19 +84,19 @@ private:
   // Takes the law with these findings, under the chosen weights.
   void take(std::vector<std::size_t> findings) {
     d_.findings = std::move(findings);
-    d_.baseline = weighted(s_.base);
+    d_.baseline = weighted(s_.base());
     d_.rival = s_.last();
-    for (std::size_t i = s_.findings.size(); i-- > 0;)
+    for (std::size_t i = f_.findings.size(); i-- > 0;)
       if (std::find(d_.findings.begin(), d_.findings.end(), i) == d_.findings.end())
         d_.rival = without_effect(s_.campaign(), d_.rival, i);
-    if (d_.findings.empty()) d_.rival = s_.base;
+    if (d_.findings.empty()) d_.rival = s_.base();
     offered_ = d_.rival;
     if (weights_ == 1) weigh_alike();
   }
 
   // Computes errors of the current law on left-out tests and chooses weights by them.
   void judge_by_folds() {
-    if (!judge_) judge_.emplace(s_);
+    if (!judge_) judge_.emplace(f_);
     d_.nested = judge_->errors(offered_);
     judged_ = d_.findings;
     weights_ = d_.nested.better_weights(true);
@@ -118,8 +117,8 @@ private:
   bool is_parent(std::size_t finding) const {
     std::vector<std::vector<std::size_t>> columns;
     for (const std::size_t f : d_.findings)
-      columns.push_back(s_.findings[f].rival.causes.back().columns);
-    return is_in_product(s_.findings[finding].rival.causes.back().columns, columns);
+      columns.push_back(f_.findings[f].rival.causes.back().columns);
+    return is_in_product(f_.findings[finding].rival.causes.back().columns, columns);
   }
 
   // Removes effects without which left-out tests are predicted better, the worst first.
@@ -232,9 +231,9 @@ private:
   void compare_errors() {
     const bool nested = !by_validation() && d_.nested.folds > 0;
     if (nested)
-      t_.unseen = "nested_cross_validation";
+      d_.unseen_by = "nested_cross_validation";
     else if (no_validation())
-      t_.unseen = in_.training.experiments.size() > 1 ? "leave_one_out" : "nothing";
+      d_.unseen_by = in_.training.experiments.size() > 1 ? "leave_one_out" : "nothing";
     const auto unseen = [&](const Rival& rival, bool effects) {
       const NestedErrors::Weighted& errors = d_.nested.weighted[weights_];
       if (nested) return (effects ? errors.all : errors.none).sums;
@@ -243,14 +242,14 @@ private:
     };
     const std::vector<stats::ErrorSums> with = unseen(d_.rival, !d_.findings.empty()),
                                         without = unseen(d_.baseline, false);
-    t_.before = {errors(in_.training, d_.baseline),
+    d_.before = {errors(in_.training, d_.baseline),
                  calibrate::metrics(without, in_.bootstrap, in_.seed)};
-    t_.after = t_.before;
+    d_.after = d_.before;
     d_.unseen = with;
-    t_.improvement = {};
+    d_.improvement = {};
     if (d_.findings.empty()) return;
-    t_.after = {errors(in_.training, d_.rival), calibrate::metrics(with, in_.bootstrap, in_.seed)};
-    t_.improvement = gained(with, without);
+    d_.after = {errors(in_.training, d_.rival), calibrate::metrics(with, in_.bootstrap, in_.seed)};
+    d_.improvement = gained(with, without);
   }
 
   // Returns the number, counted from 1, of the first effect of a column that was read rather than
@@ -258,7 +257,7 @@ private:
   // is then more likely another reading of the friction. 0: none.
   std::size_t too_good() const {
     if (d_.findings.empty()) return 0;
-    const double before = t_.before.validation.rmse_MPa, after = t_.after.validation.rmse_MPa;
+    const double before = d_.before.validation.rmse_MPa, after = d_.after.validation.rmse_MPa;
     if (!(after * after < tuning::implausible_share_left * before * before)) return 0;
     for (std::size_t i = 0; i < d_.findings.size(); ++i)
       if (reads_something(d_.findings[i])) return i + 1;
@@ -266,9 +265,9 @@ private:
   }
 
   bool reads_something(std::size_t finding) const {
-    const auto& columns = s_.findings[finding].rival.causes.back().columns;
+    const auto& columns = f_.findings[finding].rival.causes.back().columns;
     return std::any_of(columns.begin(), columns.end(),
-                       [&](std::size_t c) { return s_.candidates.columns[c].is_reading; });
+                       [&](std::size_t c) { return s_.candidates().columns[c].is_reading; });
   }
 
   static Against contradiction(const Difference& gain) {
@@ -289,7 +288,7 @@ private:
   // Retries the same effects with equal weights for all rows.
   void try_plain_weights() {
     weights_ = 1;
-    d_.baseline = weighted(s_.base);
+    d_.baseline = weighted(s_.base());
     weigh_alike();
     d_.gain_MPa.clear();
     drop_contradicted();
@@ -305,12 +304,12 @@ private:
   }
 
   Against another_reading(std::size_t finding) const {
-    const std::string name = cause_name(s_.findings[finding].rival.causes.back(), s_.candidates);
+    const std::string name = cause_name(f_.findings[finding].rival.causes.back(), s_.candidates());
     return {fmt::format(
         "explains {:.4g} % of what the law leaves, which no friction law does: is {} "
         "another reading of the friction? If it was set, [data.roles] says so: "
         "\"setting\"",
-        100 * (1 - std::pow(t_.after.validation.rmse_MPa / t_.before.validation.rmse_MPa, 2)),
+        100 * (1 - std::pow(d_.after.validation.rmse_MPa / d_.before.validation.rmse_MPa, 2)),
         name)};
   }
 
@@ -347,9 +346,9 @@ private:
                        d_.nested.folds);
   }
 
+  const Found& f_;
   const Search& s_;
   const TraceInput& in_;
-  Trace& t_;
   Delivery d_;
   Rival offered_;                   // with the findings, before equal weights
   std::vector<std::size_t> judged_; // findings of the law that the folds judged
@@ -359,8 +358,8 @@ private:
 
 } // namespace
 
-Delivery deliver(const Search& search, Trace& trace) {
-  return Deliverer(search, trace).run();
+Delivery deliver(const Found& found) {
+  return Deliverer(found).run();
 }
 
 bool Delivery::contradicted() const {
@@ -391,7 +390,7 @@ ValidationShift shift_of(const TestGains& seen, const TestGains& unseen, double 
 }
 
 ValidationShift validation_shift_of(const Search& search, const Rival& rival) {
-  const TraceInput& in = search.input;
+  const TraceInput& in = search.input();
   const models::Model model = search.model_of(rival);
   const std::vector<double> predicted = calibrate::predict(model, in.validation);
   ValidationShift apart = shift_of(test_gains(in.training, calibrate::predict(model, in.training)),

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <string>
 
 #include "trace/judge/gains.h"
 #include "trace/judge/nested_errors.h"
@@ -20,19 +22,24 @@ struct Against {
 
 // The delivered law and the law that it is compared with, under the same kind of weights.
 struct Delivery {
-  std::vector<std::size_t> findings;    // in the law, in order
-  Rival rival;                          // the law with them
+  std::vector<std::size_t> findings;      // in the law, in order
+  std::map<std::size_t, Against> against; // by finding that is not in it
+  Rival rival;                            // the law with them
   std::vector<double> gain_MPa;         // of each: MAE on the unseen tests without it minus with it
   Rival baseline;                       // the law without them
   NestedErrors nested;                  // folds = 0: nothing was found
   std::vector<stats::ErrorSums> unseen; // of the rival, per unseen test
-  std::map<std::size_t, Against> against; // by finding that is not in the law
+  // As in Trace.
+  std::string unseen_by = "validation";
+  TraceErrors before, after;
+  calibrate::Difference improvement;
+  std::optional<calibrate::Difference> over_calibrated;
+  NestedCheck check;
 
   bool contradicted() const; // a finding, by the validation tests
 };
 
-// Fills before, after, as_calibrated, unseen, improvement, over_calibrated and nested of `trace`.
-Delivery deliver(const Search& search, Trace& trace);
+Delivery deliver(const Found& found);
 
 // Tests whether the validation tests as a whole lie higher or lower than the training tests,
 // relative to that rival: the difference of the mean gains, with a standard error that includes the

@@ -67,12 +67,12 @@ VectorXd scores(const data::Dataset& data, const std::vector<double>& predicted,
 class FoldJudge {
 public:
   FoldJudge(const Search& all, const CauseFold& fold)
-      : all_(all), fold_(fold), kept_(all.input.training.subset(others())),
-        left_out_(all.input.training.subset(fold.out)),
-        options_(options()), part_{kept_,    all.input.validation, all.input.fit,
-                                   options_, all.input.bootstrap,  all.input.seed},
-        search_(part_, &all.base.noise) {
-    none_ = {judged(search_.base, 0, {}), judged(search_.base, 1, {})};
+      : all_(all), fold_(fold), kept_(all.input().training.subset(others())),
+        left_out_(all.input().training.subset(fold.out)),
+        options_(options()), part_{kept_,    all.input().validation, all.input().fit,
+                                   options_, all.input().bootstrap,  all.input().seed},
+        search_(part_, &all.base().noise) {
+    none_ = {judged(search_.base(), 0, {}), judged(search_.base(), 1, {})};
   }
 
   const std::vector<std::size_t>& out() const { return fold_.out; }
@@ -101,7 +101,7 @@ public:
 private:
   std::vector<std::size_t> others() const {
     std::vector<std::size_t> kept;
-    for (std::size_t e = 0; e < all_.input.training.experiments.size(); ++e)
+    for (std::size_t e = 0; e < all_.input().training.experiments.size(); ++e)
       if (std::find(fold_.out.begin(), fold_.out.end(), e) == fold_.out.end()) kept.push_back(e);
     return kept;
   }
@@ -109,22 +109,22 @@ private:
   // Ignores columns that neither the law nor any of the causes uses: among hundreds, the search for
   // identical columns would take long.
   TraceOptions options() const {
-    TraceOptions options = all_.input.options;
-    std::set<std::string> needed{all_.candidates.order_column, options.tool_distance};
+    TraceOptions options = all_.input().options;
+    std::set<std::string> needed{all_.candidates().order_column, options.tool_distance};
     const auto need = [&](const std::vector<Cause>& causes) {
       for (const Cause& cause : causes)
         for (const std::size_t c : cause.columns) {
-          const CandidateColumn& column = all_.candidates.columns[c];
+          const CandidateColumn& column = all_.candidates().columns[c];
           needed.insert(column.name);
           needed.insert(column.recorded.begin(), column.recorded.end());
         }
     };
     need(all_.last().causes);
     need(fold_.causes);
-    for (const CandidateColumn& column : all_.candidates.columns)
+    for (const CandidateColumn& column : all_.candidates().columns)
       if (!column.in_law && !is_state(column) && !needed.count(column.name))
         options.ignore.push_back(column.name);
-    options.order = all_.candidates.order_column; // tests of a part are not numbered 1 to n
+    options.order = all_.candidates().order_column; // tests of a part are not numbered 1 to n
     const data::Column* order = kept_.find(options.order);
     if (order && values_of_tests(*order, kept_) < 3) options.order.clear();
     return options;
@@ -142,7 +142,7 @@ private:
       const bool taken_off =
           own == law.causes.end() && std::find(all_.last().causes.begin(), all_.last().causes.end(),
                                                cause) != all_.last().causes.end();
-      const auto here = cause_in(search_.candidates, cause, all_.candidates);
+      const auto here = cause_in(search_.candidates(), cause, all_.candidates());
       if (!here || taken_off) continue;
       effects.push_back(own == law.causes.end()
                             ? smooth_effect(search_, *here, fold_.acts_on[i])
@@ -150,9 +150,10 @@ private:
       causes.push_back(*here);
       causes_.push_back(cause);
     }
-    with_ = effects.empty() ? search_.base
-                            : fit_rival(search_.campaign(), search_.base, std::move(effects),
-                                        std::move(causes), search_.base.noise, NoiseSearch::again);
+    with_ = effects.empty()
+                ? search_.base()
+                : fit_rival(search_.campaign(), search_.base(), std::move(effects),
+                            std::move(causes), search_.base().noise, NoiseSearch::again);
   }
 
   // `otherwise`: result if the stress of a history of itself does not converge.
@@ -161,7 +162,7 @@ private:
     try {
       const auto predicted = calibrate::predict(search_.model_of(one), left_out_);
       return {stats::error_sums(left_out_, predicted), relative_errors(left_out_, predicted),
-              scores(left_out_, predicted, rival.noise, search_.blocks)};
+              scores(left_out_, predicted, rival.noise, search_.blocks())};
     } catch (const InputError&) {
       return otherwise;
     }
@@ -209,11 +210,11 @@ std::size_t NestedErrors::better_weights(bool with_effects) const {
   return error(1) < tuning::plain_weights_share_of_error * error(0) ? 1 : 0;
 }
 
-NestedJudge::NestedJudge(const Search& search)
-    : tests_(search.input.training.experiments.size()), folds_(search.folds.size()) {
+NestedJudge::NestedJudge(const Found& found)
+    : tests_(found.search.blocks().experiments()), folds_(found.folds.size()) {
   Progress progress("fitting without some tests", folds_.size());
   parallel_for(folds_.size(), [&](std::size_t f) {
-    folds_[f] = std::make_unique<FoldJudge>(search, search.folds[f]);
+    folds_[f] = std::make_unique<FoldJudge>(found.search, found.folds[f]);
     progress.tick();
   });
 }

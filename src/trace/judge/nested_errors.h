@@ -52,7 +52,7 @@ class FoldJudge;
 // Refits of a campaign without each fold of its search.
 class NestedJudge {
 public:
-  explicit NestedJudge(const Search& search);
+  explicit NestedJudge(const Found& found);
   ~NestedJudge();
   // Errors of a law with some of the effects of the search, and without each of these.
   NestedErrors errors(const Rival& law) const;

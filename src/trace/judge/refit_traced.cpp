@@ -26,14 +26,15 @@ public:
   // Fits the law to some experiments; returns nothing if these lack a column.
   std::optional<models::Model> fitted_to(const Dataset& data,
                                          calibrate::ModelFit* uncertain = nullptr) const {
-    TraceOptions options = s_.input.options;
-    options.order = s_.candidates.order_column; // tests of a part are not numbered 1 to n
+    TraceOptions options = s_.input().options;
+    options.order = s_.candidates().order_column; // tests of a part are not numbered 1 to n
     const Dataset none = data.subset({});
-    const TraceInput input{data, none, s_.input.fit, options, s_.input.bootstrap, s_.input.seed};
+    const TraceInput input{data,           none, s_.input().fit, options, s_.input().bootstrap,
+                           s_.input().seed};
     const Search part(input, &rival_.noise);
     std::vector<Cause> causes;
     for (const Cause& cause : rival_.causes) {
-      const auto here = cause_in(part.candidates, cause, s_.candidates);
+      const auto here = cause_in(part.candidates(), cause, s_.candidates());
       if (!here) return std::nullopt;
       causes.push_back(*here);
     }
@@ -82,12 +83,12 @@ std::vector<stats::ErrorSums> cross_validated(const Refitter& refitter, const Da
 } // namespace
 
 std::shared_ptr<const calibrate::ModelFit>
-refit_traced(const Search& search, const Delivery& delivery, const Dataset& all) {
-  const TraceInput& in = search.input;
-  if (delivery.rival.effects.empty() || search.order.found ||
+refit_traced(const Found& found, const Delivery& delivery, const Dataset& all) {
+  const TraceInput& in = found.search.input();
+  if (delivery.rival.effects.empty() || found.order.found ||
       models::is_trained(in.fit.model.law->calibrated))
     return nullptr;
-  const Refitter refitter(search, delivery.rival);
+  const Refitter refitter(found.search, delivery.rival);
   calibrate::ModelFit fit;
   const auto model = refitter.fitted_to(all, &fit);
   if (!model) return nullptr;

@@ -15,6 +15,6 @@ namespace frictab::trace {
 // left out), if a drift over the order of tests was removed, or if the data or a fold lack a
 // column.
 std::shared_ptr<const calibrate::ModelFit>
-refit_traced(const Search& search, const Delivery& delivery, const data::Dataset& all);
+refit_traced(const Found& found, const Delivery& delivery, const data::Dataset& all);
 
 } // namespace frictab::trace

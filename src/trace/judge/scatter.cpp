@@ -11,6 +11,7 @@
 #include "calibrate/replicates.h"
 #include "stats/noise_fit.h"
 #include "stats/projection.h"
+#include "trace/judge/gains.h"
 
 namespace frictab::trace {
 
@@ -63,14 +64,14 @@ double modelled_variance(const Search& search, const Rival& last) {
   const VectorXd residual = search.campaign().measured - last.predicted;
   const MatrixXd& nuisance = search.campaign().nuisance;
   const stats::NoiseModel noise = refit_campaign_noise(
-      search.campaign(), {residual, last.predicted, search.blocks, last.jacobian, nuisance},
+      search.campaign(), {residual, last.predicted, search.blocks(), last.jacobian, nuisance},
       last.noise);
-  return stats::Whitener(noise, last.predicted, search.blocks).variance().mean() +
-         within_blocks(search.input.training, search.blocks);
+  return stats::Whitener(noise, last.predicted, search.blocks()).variance().mean() +
+         within_blocks(search.input().training, search.blocks());
 }
 
 void add_floor(Trace& trace, const Search& search, const Rival& last) {
-  const data::Dataset& training = search.input.training;
+  const data::Dataset& training = search.input().training;
   // Upper bound of the noise: the RMSE of a law, corrected for the fitted parameters. (With few
   // experiments the likelihood may accept any scatter; and under the noise model's weights a law
   // that lacks something within tests may predict tests as a whole far worse than the calibrated
@@ -114,14 +115,14 @@ Repeats scatter_of_repeats(const data::Dataset& data, const VectorXd& gain) {
 
 void add_scatter(Trace& trace, const Search& search, const Rival& last) {
   add_floor(trace, search, last);
-  const data::Dataset& training = search.input.training;
+  const data::Dataset& training = search.input().training;
   const TestGains gains = test_gains(training, calibrate::predict(search.model_of(last), training));
   MatrixXd directions = last.jacobian;
   stats::append_columns(directions, search.campaign().nuisance);
-  const VectorXd law = last.predicted.cwiseMax(1e-3 * search.tau_scale_MPa);
+  const VectorXd law = last.predicted.cwiseMax(1e-3 * search.tau_scale_MPa());
   MatrixXd known = MatrixXd::Ones(gains.gain.size(), 1);
   stats::append_columns(
-      known, search.blocks.experiment_means(law.cwiseInverse().asDiagonal() * directions));
+      known, search.blocks().experiment_means(law.cwiseInverse().asDiagonal() * directions));
   const MatrixXd q = stats::orthonormal(known);
   const VectorXd left = gains.gain - q * (q.transpose() * gains.gain);
   const double free = std::max(1.0, static_cast<double>(gains.gain.size() - q.cols()));

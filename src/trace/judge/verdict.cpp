@@ -76,10 +76,10 @@ Verdict verdict_of(const Trace& t) {
 
 } // namespace
 
-void add_verdict(Trace& t, const Search& search, bool contradicted) {
+void add_verdict(Trace& t, const Found& found, bool contradicted) {
   const bool excess = scatters_more(t);
   contradicted = contradicted && t.effects.empty();
-  t.remaining.p_value = search.leftover.p_value;
+  t.remaining.p_value = found.leftover.p_value;
   t.remaining.structure = t.order.found || excess || t.validation_shift.found || contradicted;
   std::vector<std::string> notes;
   if (t.validation_shift.found) notes.push_back(worlds_sentence(t.validation_shift));

@@ -7,6 +7,6 @@ namespace frictab::trace {
 
 // Fills verdict and remaining; everything else in `trace` must be complete. `contradicted`: in the
 // validation tests a finding is worse than none.
-void add_verdict(Trace& trace, const Search& search, bool contradicted);
+void add_verdict(Trace& trace, const Found& found, bool contradicted);
 
 } // namespace frictab::trace

@@ -42,7 +42,7 @@ using Options = std::vector<Option>;
 // options together they would exhaust memory.)
 MatrixXd basis_of(const Search& search, const PlacedEffect& effect) {
   return search.sensitivities()[site_of(effect)].asDiagonal() *
-         amplitude_basis(effect, search.candidates.by_symbol);
+         amplitude_basis(effect, search.candidates().by_symbol);
 }
 
 Option option_of(const Cause& cause, PlacedEffect effect) {
@@ -69,7 +69,7 @@ void fit_options(const Search& search, const stats::NoiseModel& noise, Options& 
     whitener.apply(basis);
     option.fit = stats::fit_smooth(residual.col(0), basis, option.penalty, known);
     option.criterion = option.fit.criterion +
-                       tuning::cause_step_cost * complexity(option.cause, search.candidates);
+                       tuning::cause_step_cost * complexity(option.cause, search.candidates());
   });
 }
 
@@ -150,18 +150,18 @@ const char* smooth_form(const Cause& cause, bool text, bool two_values) {
 } // namespace
 
 PlacedEffect plain_effect(const Search& search, const Cause& cause) {
-  const char* form = plain_form(cause, starts_with_text(cause, search.candidates));
+  const char* form = plain_form(cause, starts_with_text(cause, search.candidates()));
   const bool both = search.sensitivities()[on_both].size() > 0;
-  return start_effect(*effects::find_effect(form), cause, search.candidates,
-                      sites[both ? on_both : on_mu], search.tau_scale_MPa);
+  return start_effect(*effects::find_effect(form), cause, search.candidates(),
+                      sites[both ? on_both : on_mu], search.tau_scale_MPa());
 }
 
 PlacedEffect smooth_effect(const Search& search, const Cause& cause, effects::ActsOn acts_on) {
-  const Candidates& candidates = search.candidates;
+  const Candidates& candidates = search.candidates();
   const char* form = smooth_form(cause, starts_with_text(cause, candidates),
                                  candidates.columns[cause.columns[0]].two_values);
   return start_effect(*effects::find_effect(form), cause, candidates, acts_on,
-                      search.tau_scale_MPa);
+                      search.tau_scale_MPa());
 }
 
 std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>& suspects) {
@@ -199,7 +199,8 @@ namespace {
 VectorXd to_explain(const Search& search, const Rival& winner, std::size_t index) {
   const PlacedEffect& effect = winner.effects[index];
   const VectorXd& sensitivity = search.sensitivities()[site_of(effect)];
-  const VectorXd change = factor_on(effect, search.candidates.by_symbol).array() - 1; // at its site
+  const VectorXd change =
+      factor_on(effect, search.candidates().by_symbol).array() - 1; // at its site
   return search.campaign().measured - winner.predicted + sensitivity.cwiseProduct(change);
 }
 
@@ -214,16 +215,16 @@ class FormStarts {
 public:
   FormStarts(const Search& search, const Rival& winner, std::size_t index)
       : s_(search), cause_(winner.causes[index]),
-        whitener_(winner.noise, winner.predicted, search.blocks, search.campaign().nuisance) {
-    MatrixXd known = search.base.jacobian;
+        whitener_(winner.noise, winner.predicted, search.blocks(), search.campaign().nuisance) {
+    MatrixXd known = search.base().jacobian;
     stats::append_columns(known, search.trained());
     for (std::size_t i = 0; i < winner.effects.size(); ++i) {
       const VectorXd& sensitivity = search.sensitivities()[site_of(winner.effects[i])];
       // Empty if, with the effects found since, its site no longer changes tau_R anywhere.
       if (i != index && sensitivity.size() > 0)
-        stats::append_columns(known,
-                              sensitivity.asDiagonal() *
-                                  amplitude_basis(winner.effects[i], search.candidates.by_symbol));
+        stats::append_columns(
+            known, sensitivity.asDiagonal() *
+                       amplitude_basis(winner.effects[i], search.candidates().by_symbol));
     }
     whitener_.apply(known);
     known_ = stats::orthonormal(known);
@@ -234,7 +235,7 @@ public:
 
   std::vector<Start> run() const {
     std::vector<Start> starts;
-    const auto shapes = shapes_of(cause_, s_.candidates);
+    const auto shapes = shapes_of(cause_, s_.candidates());
     for (std::size_t p = 0; p < sites.size(); ++p) {
       if (s_.sensitivities()[p].size() == 0) continue;
       add_closed(shapes, p, starts);
@@ -261,7 +262,7 @@ private:
       if (!(size > 0)) continue;
       Start start{shapes[i].effect, along * along / size};
       start.effect.acts_on = sites[site];
-      start.effect.tau_scale_MPa = s_.tau_scale_MPa;
+      start.effect.tau_scale_MPa = s_.tau_scale_MPa();
       if (!start.effect.form->categorical)
         start.effect.parameters[0] = std::clamp(along / size, -0.5, 0.5);
       const auto [at, is_new] = best.try_emplace(start.effect.form, start);

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/parallel.h"
+#include "data/recordings.h"
 #include "stats/projection.h"
+#include "trace/columns/order_test.h"
 #include "trace/columns/shapes.h"
 #include "trace/columns/terms.h"
 #include "trace/search/order_search.h"
@@ -22,23 +25,16 @@ using Eigen::VectorXd;
 class Campaigner {
 public:
   explicit Campaigner(const Search& search)
-      : s_(search), modes_(search.blocks), maker_(search.candidates),
-        floor_(search.last().predicted.cwiseMax(1e-3 * search.tau_scale_MPa)) {}
+      : s_(search), modes_(search.blocks()), maker_(search.candidates()),
+        floor_(search.last().predicted.cwiseMax(1e-3 * search.tau_scale_MPa())) {}
 
   JointResult find() {
     const JointData data = offered_data();
-    JointSettings settings;
-    settings.alpha = s_.input.options.alpha;
-    settings.seed = s_.input.seed;
-    settings.units = s_.units;
-    settings.take = s_.enough_units();
-    settings.flips =
-        std::clamp(tuning::flips_times_terms / std::max<std::size_t>(causes_.size(), 1),
-                   settings.flips, tuning::most_flips);
+    const JointSettings settings = settings_for(data.terms.size());
     const JointPath path = search_jointly(data, offer_, settings);
     JointResult result;
-    const JointChoice choice =
-        choose_jointly(data, modes_, offer_, settings, path, state_means(s_.candidates, s_.blocks));
+    const JointChoice choice = choose_jointly(data, modes_, offer_, settings, path,
+                                              state_means(s_.candidates(), s_.blocks()));
     result.pays = choice.pays;
     for (const JointStep& step : choice.kept)
       result.found.push_back(named(step));
@@ -64,6 +60,27 @@ public:
   }
 
 private:
+  // Flips the signs of recordings if there are enough of them for a p-value of trace.alpha, else of
+  // single tests.
+  JointSettings settings_for(std::size_t terms) const {
+    const double alpha = s_.input().options.alpha;
+    const auto enough = [&](std::size_t units) {
+      return static_cast<double>(units) >= tests_for(alpha);
+    };
+    data::Units units = data::units_of(s_.input().training);
+    if (!enough(units.count)) {
+      units.count = units.of.size();
+      std::iota(units.of.begin(), units.of.end(), 0);
+    }
+    return {alpha,
+            std::clamp(tuning::flips_times_terms / std::max<std::size_t>(terms, 1),
+                       tuning::fewest_flips, tuning::most_flips),
+            tuning::look_ahead_flips,
+            s_.input().seed,
+            units.of,
+            enough(units.count)};
+  }
+
   // Derivative of ln tau_R by the factor at each site, per block. The first site is that at which
   // an effect is searched; others are used only where their derivatives differ.
   void find_sites() {
@@ -89,18 +106,18 @@ private:
 
   bool may_be_offered(const Cause& cause) const {
     if (is_the_order(s_, cause)) return false;
-    return cause.is_joint() || !constant_in_experiments(cause, s_.candidates) ||
-           differs_between_tests(s_.candidates.columns[cause.columns[0]]);
+    return cause.is_joint() || !constant_in_experiments(cause, s_.candidates()) ||
+           differs_between_tests(s_.candidates().columns[cause.columns[0]]);
   }
 
   // A text column needs a level that several tests share.
   bool differs_between_tests(const CandidateColumn& column) const {
     if (!column.between) return false;
     std::map<double, std::size_t> tests; // by value
-    for (std::size_t e = 0; e < s_.blocks.experiments(); ++e)
+    for (std::size_t e = 0; e < s_.blocks().experiments(); ++e)
       ++tests[column.values(static_cast<Index>(s_.first()[e]))];
     if (column.levels.empty() || tests.size() < 2) return tests.size() > 1;
-    return tests.size() < s_.blocks.experiments();
+    return tests.size() < s_.blocks().experiments();
   }
 
   JointData offered_data() {
@@ -110,16 +127,16 @@ private:
   }
 
   void offer_terms() {
-    const auto& columns = s_.candidates.columns;
+    const auto& columns = s_.candidates().columns;
     for (const CandidateColumn& column : columns)
       offer_.in_law.push_back(column.in_law);
     shapes_.resize(columns.size());
     parallel_for(shapes_.size(), [&](std::size_t c) {
-      if (columns[c].levels.empty() && !constant_in_experiments({{c}}, s_.candidates))
-        shapes_[c] = shapes_of({{c}}, s_.candidates);
+      if (columns[c].levels.empty() && !constant_in_experiments({{c}}, s_.candidates()))
+        shapes_[c] = shapes_of({{c}}, s_.candidates());
     });
     find_imitated();
-    for (const Cause& cause : all_causes(s_.candidates)) {
+    for (const Cause& cause : all_causes(s_.candidates())) {
       const auto& in = s_.last().causes;
       if (!may_be_offered(cause) || std::find(in.begin(), in.end(), cause) != in.end()) continue;
       const auto& all = cause.columns;
@@ -132,7 +149,7 @@ private:
             add_term(cause, i, shape.basis, true, shape.effect);
       }
     }
-    if (!s_.candidates.order.empty() && s_.input.options.tool_distance.empty()) add_walk();
+    if (!s_.candidates().order.empty() && s_.input().options.tool_distance.empty()) add_walk();
   }
 
   struct SharpShape {
@@ -181,12 +198,12 @@ private:
   }
 
   void find_imitated() {
-    const MatrixXd states = stats::orthonormal(state_means(s_.candidates, s_.blocks));
-    for (std::size_t c = 0; c < s_.candidates.columns.size(); ++c) {
-      const CandidateColumn& column = s_.candidates.columns[c];
+    const MatrixXd states = stats::orthonormal(state_means(s_.candidates(), s_.blocks()));
+    for (std::size_t c = 0; c < s_.candidates().columns.size(); ++c) {
+      const CandidateColumn& column = s_.candidates().columns[c];
       imitated_.push_back(0);
       if (column.between || !column.within || !column.levels.empty()) continue;
-      VectorXd x = s_.blocks.experiment_means(maker_.of({{c}}).columns.leftCols(1)).col(0);
+      VectorXd x = s_.blocks().experiment_means(maker_.of({{c}}).columns.leftCols(1)).col(0);
       x.array() -= x.mean();
       const VectorXd left = x - states * (states.transpose() * x);
       const auto n = static_cast<double>(x.size()),
@@ -199,11 +216,11 @@ private:
 
   // Adds cosines of the order of tests at each site, the k-th with standard deviation 1/k.
   void add_walk() {
-    MatrixXd waves = order_functions(s_.candidates.order, tuning::walk_waves);
+    MatrixXd waves = order_functions(s_.candidates().order, tuning::walk_waves);
     for (Index k = 0; k < waves.cols(); ++k)
       waves.col(k) *= std::sqrt(static_cast<double>(waves.rows())) /
                       std::max(waves.col(k).norm(), 1e-300) / static_cast<double>(k + 1);
-    MatrixXd per_block(static_cast<Index>(s_.blocks.count()), 0);
+    MatrixXd per_block(static_cast<Index>(s_.blocks().count()), 0);
     for (const auto& [site, changes] : sites_)
       stats::append_columns(per_block, functions_on_blocks(waves, changes, s_.first()));
     offer_.walk = causes_.size();
@@ -295,7 +312,7 @@ private:
     if (!shape_of_[term]) return {causes_[term], smooth_effect(s_, causes_[term], site)};
     effects::PlacedEffect shape = *shape_of_[term];
     shape.acts_on = site;
-    shape.tau_scale_MPa = s_.tau_scale_MPa;
+    shape.tau_scale_MPa = s_.tau_scale_MPa();
     return {causes_[term], shape};
   }
 

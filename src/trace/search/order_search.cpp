@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 #include <Eigen/Cholesky>
 
 #include "stats/projection.h"
+#include "trace/columns/order_test.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
@@ -26,42 +26,26 @@ constexpr const char* of_environment[] = {"humid",    "ambient",  "room",   "wea
 constexpr const char* environment[] = {"lab",  "hall", "air",  "amb",  "baro",  "rh",
                                        "day",  "date", "week", "hour", "month", "season",
                                        "raum", "luft", "tag",  "datum"};
-constexpr const char* reference = "the mean of the campaign's tests";
-
-// At most one function per `experiments_each` experiments.
-MatrixXd slow_functions(const std::vector<double>& order, int most, std::size_t experiments_each) {
-  return order_functions(order, std::min(most, static_cast<int>(order.size() / experiments_each)));
-}
-
-MatrixXd slow_directions(const Search& search, int most, std::size_t experiments_each,
-                         std::size_t site) {
-  return functions_on_blocks(slow_functions(search.candidates.order, most, experiments_each),
-                             search.sensitivities()[site], search.first());
-}
 
 VectorXd scores_of(const Search& search, const stats::Whitener& whitener, std::size_t site) {
   return experiment_scores(search.residual(), search.sensitivities()[site], search.known(),
                            whitener, search.first());
 }
 
-// Computes the size of the structure: root mean square of the part that functions of the order
-// explain.
-void measure_structure(Search& search, MatrixXd columns) {
-  const MatrixXd raw = columns;
-  MatrixXd residual = search.residual();
+// Root mean square of the part of the residual that functions of the order explain.
+double size_of_structure(const Search& search, const MatrixXd& functions) {
+  MatrixXd columns = functions, residual = search.residual();
   const stats::Whitener weights = search.whitener();
   weights.apply(columns);
   weights.apply(residual);
   MatrixXd normal = columns.transpose() * columns;
   normal.diagonal().array() += 1.0; // weak penalty: a coefficient of 100 % is far out of reach
-  const VectorXd explained = raw * normal.ldlt().solve(columns.transpose() * residual.col(0));
-  const double count = static_cast<double>(explained.size());
-  search.order.size_MPa = explained.norm() / std::sqrt(count);
-  search.order.share = search.order.size_MPa / search.tau_scale_MPa;
+  const VectorXd explained = functions * normal.ldlt().solve(columns.transpose() * residual.col(0));
+  return explained.norm() / std::sqrt(static_cast<double>(explained.size()));
 }
 
 bool is_order(const Search& search, const Cause& cause) {
-  const Candidates& candidates = search.candidates;
+  const Candidates& candidates = search.candidates();
   const auto numbers_tests = [&](std::size_t column) {
     const std::string& name = candidates.columns[column].name;
     return name == "test_order" || name == candidates.order_column;
@@ -72,8 +56,8 @@ bool is_order(const Search& search, const Cause& cause) {
 // Whether each level is one stretch of the order, as of batches: the column is then another form of
 // the order.
 bool is_stretch(const Search& search, const Cause& cause) {
-  const CandidateColumn& column = search.candidates.columns[cause.columns[0]];
-  const auto rank = ranks(search.candidates.order);
+  const CandidateColumn& column = search.candidates().columns[cause.columns[0]];
+  const auto rank = ranks(search.candidates().order);
   std::vector<double> by_rank(rank.size());
   for (std::size_t e = 0; e < rank.size(); ++e)
     by_rank[rank[e]] = column.values(static_cast<Index>(search.first()[e]));
@@ -84,20 +68,21 @@ bool is_stretch(const Search& search, const Cause& cause) {
          stretches <= std::set<double>(by_rank.begin(), by_rank.end()).size();
 }
 
-} // namespace
-
 bool is_declared(const Search& search, const Cause& cause) {
-  const std::string& name = search.candidates.columns[cause.columns[0]].name;
-  const std::string& distance = search.input.options.tool_distance;
+  const std::string& name = search.candidates().columns[cause.columns[0]].name;
+  const std::string& distance = search.input().options.tool_distance;
   return !distance.empty() && !cause.is_joint() &&
-         (name == distance || (name == "test_order" && distance == search.candidates.order_column));
+         (name == distance ||
+          (name == "test_order" && distance == search.candidates().order_column));
 }
 
+} // namespace
+
 bool is_the_order(const Search& search, const Cause& cause) {
-  if (search.candidates.order.empty() || is_declared(search, cause)) return false;
+  if (search.candidates().order.empty() || is_declared(search, cause)) return false;
   return is_order(search, cause) ||
          std::any_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
-           return constant_in_experiments({{c}}, search.candidates) && is_stretch(search, {{c}});
+           return constant_in_experiments({{c}}, search.candidates()) && is_stretch(search, {{c}});
          });
 }
 
@@ -124,89 +109,77 @@ bool drifts(const VectorXd& x) {
   return squares > 0 && steps / squares < 2 - 2.33 * 2 / std::sqrt(n);
 }
 
-} // namespace
+// Site where the order has the strongest structure.
+struct AlongOrder {
+  double p_value = 1;
+  std::size_t site = 0;
+};
 
-bool may_stand_for_time(const Search& search, const Cause& cause) {
-  if (!constant_in_experiments(cause, search.candidates)) return false;
-  if (search.order.found) return true;
-  if (!search.candidates.order_column.empty()) return false;
-  return std::any_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
-    const CandidateColumn& column = search.candidates.columns[c];
-    return column.levels.empty() &&
-           (is_environment(column.name) ||
-            (column.is_reading && drifts(search.blocks.experiment_means(column.values).col(0))));
-  });
-}
-
-void prefer_declared(const Search& search, std::vector<Suspect>& suspects) {
-  const auto declared = std::find_if(suspects.begin(), suspects.end(), [&](const Suspect& one) {
-    return is_declared(search, one.cause);
-  });
-  if (declared != suspects.end()) suspects = {*declared};
-}
-
-void note_confounded(Search& search, const std::vector<Suspect>& suspects, double p_value) {
-  for (const Suspect& one : suspects) {
-    if (!constant_in_experiments(one.cause, search.candidates)) continue;
-    search.confounded.push_back({one.cause, p_value, true});
-    return;
-  }
-}
-
-void remove_order_structure(Search& search, double p_value, std::size_t site) {
-  if (search.order.found) return; // only once; faster structure stays unexplained
-  search.order.found = true;
-  search.order.p_value = p_value;
-  search.order.reference = reference;
-  const auto rank = ranks(search.candidates.order);
-  for (std::size_t e = 0; e < rank.size(); ++e)
-    search.units[e] = rank[e] / tuning::neighbours_flipped_together;
-  MatrixXd functions = slow_directions(search, tuning::most_order_functions, 5, site);
-  measure_structure(search, functions);
-  search.campaign().nuisance = std::move(functions);
-  search.fit_again();
-}
-
-OrderFound test_along_order(const Search& search) {
+AlongOrder test_along_order(const Search& search) {
   const stats::Whitener weights = search.whitener();
   std::vector<std::size_t> tried;
-  MatrixXd scores(static_cast<Index>(search.blocks.experiments()), 0);
+  MatrixXd scores(static_cast<Index>(search.blocks().experiments()), 0);
   for (std::size_t site = 0; site < sites.size(); ++site) {
     if (search.sensitivities()[site].size() == 0) continue;
     stats::append_columns(scores, scores_of(search, weights, site));
     tried.push_back(site);
   }
-  const OrderTest test =
-      test_order(scores, search.candidates.order, tuning::order_permutations, search.input.seed);
+  const OrderTest test = test_order(scores, search.candidates().order, tuning::order_permutations,
+                                    search.input().seed);
   return {test.p_value, tried[static_cast<std::size_t>(test.column)]};
 }
 
-bool find_order(Search& search) {
-  if (search.order.found || search.candidates.order_column.empty() || search.negligible())
-    return false;
-  const OrderFound found = test_along_order(search);
-  search.order.p_value = found.p_value;
-  if (found.p_value > tuning::order_share_of_alpha * search.input.options.alpha) return false;
-  remove_order_structure(search, found.p_value, found.site);
-  return true;
+} // namespace
+
+bool may_stand_for_time(const Found& found, const Cause& cause) {
+  const Search& search = found.search;
+  if (!constant_in_experiments(cause, search.candidates())) return false;
+  if (found.order.found) return true;
+  if (!search.candidates().order_column.empty()) return false;
+  return std::any_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
+    const CandidateColumn& column = search.candidates().columns[c];
+    return column.levels.empty() &&
+           (is_environment(column.name) ||
+            (column.is_reading && drifts(search.blocks().experiment_means(column.values).col(0))));
+  });
 }
 
-void reconsider_order(Search& search) {
-  if (search.campaign().nuisance.cols() == 0 || search.findings.empty()) return;
-  MatrixXd nuisance = std::move(search.campaign().nuisance);
-  search.campaign().nuisance.resize(0, 0);
-  Rival with_order = search.last();
-  search.fit_again();
-  const double p = test_along_order(search).p_value;
-  if (p > tuning::order_share_of_alpha * search.input.options.alpha) {
-    search.order = {};
-    search.order.column = search.candidates.order_column;
-    search.order.p_value = p;
-    search.take_units();
-    return;
+std::vector<Suspect> prefer_declared(const Search& search, std::vector<Suspect> suspects) {
+  const auto declared = std::find_if(suspects.begin(), suspects.end(), [&](const Suspect& one) {
+    return is_declared(search, one.cause);
+  });
+  return declared == suspects.end() ? suspects : std::vector{*declared};
+}
+
+Found without_drift(Found found) {
+  const Search& search = found.search;
+  const std::vector<double>& order = search.candidates().order;
+  found.order.column = search.candidates().order_column;
+  if (found.order.column.empty() || search.negligible()) return found;
+  const double level = tuning::order_share_of_alpha * search.input().options.alpha;
+  const AlongOrder along = test_along_order(search);
+  found.order.p_value = along.p_value;
+  if (along.p_value > level) return found;
+  const int count = std::min(tuning::most_order_functions,
+                             static_cast<int>(order.size() / tuning::tests_per_order_function));
+  MatrixXd functions = functions_on_blocks(order_functions(order, count),
+                                           search.sensitivities()[along.site], search.first());
+  Search removed = search.fitted_again(functions);
+  if (!found.findings.empty()) {
+    Search kept = removed.fitted_again({});
+    const double p = test_along_order(kept).p_value;
+    if (p > level) {
+      found.order.p_value = p;
+      found.search = std::move(kept);
+      return found;
+    }
   }
-  search.campaign().nuisance = std::move(nuisance);
-  search.move_to(std::move(with_order));
+  found.order.found = true;
+  found.order.reference = "the mean of the campaign's tests";
+  found.order.size_MPa = size_of_structure(search, functions);
+  found.order.share = found.order.size_MPa / search.tau_scale_MPa();
+  found.search = std::move(removed);
+  return found;
 }
 
 } // namespace frictab::trace

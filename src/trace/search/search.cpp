@@ -1,12 +1,9 @@
 // Start of a search: candidates, the law on blocks, its fit without effects.
 #include "trace/search/search.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/progress.h"
-#include "data/recordings.h"
 #include "stats/noise_fit.h"
 #include "stats/projection.h"
 #include "trace/search/directions.h"
@@ -74,66 +71,75 @@ models::Law with_piece_as_column(const Model& model, const stats::Blocks& blocks
 
 } // namespace
 
-Search::Search(const TraceInput& in, const stats::NoiseModel* earlier) : input(in) {
-  const Progress progress("columns and noise", 0);
-  take_units();
-  blocks = stats::make_blocks(in.training);
-  make_candidates();
-  make_campaign(earlier != nullptr);
-  fit_base(earlier);
-}
-
-void Search::make_candidates() {
-  const Model& model = input.fit.model;
-  candidates = find_candidates(input.training, input.validation, blocks,
-                               calibrate::predict(model, input.training),
-                               models::inputs(*model.law, model.conventions), input.options);
-  order.column = candidates.order_column;
-}
-
-void Search::make_campaign(bool quick) {
-  const Model& model = input.fit.model;
-  surrogate_ = is_trained(*model.law)
-                   ? with_piece_as_column(model, blocks, input.training, candidates.by_symbol)
-                   : *model.law;
-  campaign_ = std::make_unique<Campaign>(Campaign{surrogate_,
-                                                  model.conventions,
-                                                  blocks,
-                                                  candidates,
-                                                  blocks.mean(input.training.values("tau_R_MPa")),
-                                                  {},
-                                                  quick,
-                                                  select_tests(blocks, candidates, input.seed)});
+Search::Ground::Ground(const TraceInput& in) : input(in), blocks(stats::make_blocks(in.training)) {
+  const Model& model = in.fit.model;
+  const std::vector<double> calibrated = calibrate::predict(model, in.training);
+  const std::vector<std::string> inputs = models::inputs(*model.law, model.conventions);
+  candidates = find_candidates(in.training, in.validation, blocks, calibrated, inputs, in.options);
+  surrogate = is_trained(*model.law)
+                  ? with_piece_as_column(model, blocks, in.training, candidates.by_symbol)
+                  : *model.law;
+  const LawOnBlocks law(surrogate, model.conventions, candidates.by_symbol);
+  const VectorXd on_blocks = law.predict(model.parameters);
   // A curved law at a block's mean state differs from its mean over the block. That difference is
   // subtracted from the measured means once, as computed with the calibrated law.
-  const LawOnBlocks law(surrogate_, model.conventions, candidates.by_symbol);
-  campaign_->measured -=
-      blocks.mean(calibrate::predict(model, input.training)) - law.predict(model.parameters);
-  tau_scale_MPa = campaign_->measured.cwiseAbs().mean();
+  measured = blocks.mean(in.training.values("tau_R_MPa"));
+  measured -= blocks.mean(calibrated) - on_blocks;
+  if (is_trained(*model.law)) trained = trained_directions(inputs, candidates.by_symbol, on_blocks);
+  tau_scale_MPa = measured.cwiseAbs().mean();
+  one_factor = one_factor_at_a_time(state_means(candidates, blocks));
 }
 
-void Search::fit_base(const stats::NoiseModel* earlier) {
-  const Model& model = input.fit.model;
-  const LawOnBlocks law(surrogate_, model.conventions, candidates.by_symbol);
+Campaign Search::campaign_on(bool quick) const {
+  const Ground& g = *ground_;
+  return {g.surrogate, g.input.fit.model.conventions,
+          g.blocks,    g.candidates,
+          g.measured,  {},
+          quick,       select_tests(g.blocks, g.candidates, g.input.seed)};
+}
+
+Search::Search(const TraceInput& in, const stats::NoiseModel* earlier) {
+  const Progress progress("columns and noise", 0);
+  ground_ = std::make_shared<const Ground>(in);
+  Campaign campaign = campaign_on(earlier != nullptr);
+  const Model& model = in.fit.model;
+  const LawOnBlocks law(campaign.law, model.conventions, candidates().by_symbol);
   MatrixXd jacobian;
   const VectorXd predicted = law.predict(model.parameters, jacobian);
-  if (is_trained(*model.law))
-    trained_ = trained_directions(models::inputs(*model.law, model.conventions),
-                                  candidates.by_symbol, predicted);
-  const VectorXd residual = campaign_->measured - predicted;
-  const stats::NoiseData data{residual, predicted, blocks, jacobian, trained_};
-  const stats::NoiseModel noise = earlier ? *earlier : fit_campaign_noise(*campaign_, data);
-  base = fit_rival(*campaign_, {}, {}, model.parameters, noise, NoiseSearch::again);
-  one_factor = one_factor_at_a_time(state_means(candidates, blocks));
-  tie_parameters(*campaign_, base,
-                 one_factor ? tuning::tied_share_by_one_factor : tuning::tied_share_of_information);
-  move_to(base);
+  const VectorXd residual = campaign.measured - predicted;
+  const stats::NoiseData data{residual, predicted, blocks(), jacobian, trained()};
+  const stats::NoiseModel noise = earlier ? *earlier : fit_campaign_noise(campaign, data);
+  base_ = std::make_shared<const Rival>(
+      fit_rival(campaign, {}, {}, model.parameters, noise, NoiseSearch::again));
+  tie_parameters(campaign, *base_,
+                 one_factor() ? tuning::tied_share_by_one_factor
+                              : tuning::tied_share_of_information);
+  campaign_ = std::make_shared<const Campaign>(std::move(campaign));
+  *this = at(*base_);
+}
+
+Search Search::at(Rival rival) const {
+  Search there = *this;
+  there.sensitivities_ = sensitivities_of(*campaign_, rival, tau_scale_MPa());
+  there.known_ = fitted_directions(*campaign_, rival, there.sensitivities_);
+  stats::append_columns(there.known_, trained());
+  there.last_ = std::move(rival);
+  return there;
+}
+
+Search Search::fitted_again(MatrixXd nuisance) const {
+  Search again = *this;
+  Campaign campaign = *campaign_;
+  campaign.nuisance = std::move(nuisance);
+  again.campaign_ = std::make_shared<const Campaign>(std::move(campaign));
+  return again.at(fit_rival(again.campaign(), last_.effects, last_.causes, last_.parameters,
+                            last_.noise, NoiseSearch::again));
 }
 
 Model Search::model_of(const Rival& rival) const {
   Model model;
-  model.conventions = input.fit.model.conventions;
-  const models::Law& law = *input.fit.model.law;
+  model.conventions = input().fit.model.conventions;
+  const models::Law& law = *input().fit.model.law;
   model.law = models::unregistered_law(effects::extended_law(
       law, model.conventions, std::span(rival.parameters).first(law.parameters.size()),
       rival.effects, models::traced_name(law.name)));
@@ -141,38 +147,14 @@ Model Search::model_of(const Rival& rival) const {
   return model;
 }
 
-void Search::move_to(Rival rival) {
-  last_ = std::move(rival);
-  sensitivities_ = sensitivities_of(*campaign_, last_, tau_scale_MPa);
-  known_ = fitted_directions(*campaign_, last_, sensitivities_);
-  stats::append_columns(known_, trained_);
-}
-
-void Search::fit_again() {
-  move_to(fit_rival(*campaign_, last_.effects, last_.causes, last_.parameters, last_.noise,
-                    NoiseSearch::again));
-}
-
 stats::Whitener Search::whitener() const {
-  return {last_.noise, last_.predicted, blocks, campaign_->nuisance};
-}
-
-void Search::take_units() {
-  units = data::units_of(input.training).of;
-  if (enough_units()) return;
-  units.resize(input.training.experiments.size());
-  std::iota(units.begin(), units.end(), 0);
-}
-
-bool Search::enough_units() const {
-  const auto count = *std::max_element(units.begin(), units.end()) + 1;
-  return static_cast<double>(count) >= tests_for(input.options.alpha);
+  return {last_.noise, last_.predicted, blocks(), campaign_->nuisance};
 }
 
 bool Search::negligible() const {
   const VectorXd left = residual();
   return left.norm() / std::sqrt(static_cast<double>(left.size())) <
-         tuning::exact_law_share_of_tau * tau_scale_MPa;
+         tuning::exact_law_share_of_tau * tau_scale_MPa();
 }
 
 } // namespace frictab::trace

@@ -1,10 +1,10 @@
-// State of a search for missing effects.
+// Values of a search for missing effects: its law, and everything that it found.
 //
-// A search starts with the calibrated law on blocks and adds effects to it. It stores the law with
-// all effects found so far (`last`), the derivatives at each of its sites (`sensitivities`), and
-// the directions of everything that is fitted already (`known`): only the part of an effect that
-// those cannot imitate counts. search_effects (search_effects.cpp) is the recipe: all terms at
-// once, then structure along the declared order of tests.
+// A search starts with the calibrated law on blocks (Search). Adding an effect gives another value
+// with that law (`last`), the derivatives at each of its sites (`sensitivities`), and the
+// directions of everything that is fitted already (`known`): only the part of an effect that those
+// cannot imitate counts. search_effects (search_effects.cpp) is the recipe: all terms at once, then
+// structure along the declared order of tests.
 #pragma once
 
 #include <limits>
@@ -57,76 +57,83 @@ struct CauseFold {
   std::vector<effects::ActsOn> acts_on; // of each
 };
 
+// A law with effects, fitted to a campaign: a value that never changes.
 class Search {
 public:
   // Prepares candidates, their shapes and the law without effects. Columns that come from the model
-  // (friction work) use the model of `input.fit`. `earlier`: noise of the law on all tests, from
-  // which a fold starts its own coarse fit.
+  // (friction work) use the model of `input.fit`, which must outlive the search. `earlier`: noise
+  // of the law on all tests, from which a fold starts its own coarse fit.
   explicit Search(const TraceInput& input, const stats::NoiseModel* earlier = nullptr);
-  Search(const Search&) = delete;
-  Search& operator=(const Search&) = delete;
 
-  void move_to(Rival rival);
-  // Refits the same effects from their current parameters, after the nuisance has changed.
-  void fit_again();
+  // The same campaign with another law, or with this one fitted again after a change of the
+  // directions (per block) that may not explain anything.
+  Search at(Rival rival) const;
+  Search fitted_again(Eigen::MatrixXd nuisance) const;
+  Search fitted_again() const { return fitted_again(campaign_->nuisance); }
 
-  Campaign& campaign() { return *campaign_; }
+  const TraceInput& input() const { return ground_->input; }
+  const stats::Blocks& blocks() const { return ground_->blocks; }
+  std::span<const std::size_t> first() const { return ground_->blocks.first; }
+  const Candidates& candidates() const { return ground_->candidates; }
+  double tau_scale_MPa() const { return ground_->tau_scale_MPa; }
+  bool one_factor() const { return ground_->one_factor; } // tests change one state at a time
+  // Directions that a trained law (a network) could have absorbed; no columns for other laws.
+  const Eigen::MatrixXd& trained() const { return ground_->trained; }
+  const Rival& base() const { return *base_; } // without effects
+
   const Campaign& campaign() const { return *campaign_; }
-  std::span<const std::size_t> first() const { return blocks.first; }
+  const Rival& last() const { return last_; } // with all effects so far
+  const Sensitivities& sensitivities() const { return sensitivities_; }
+  // Directions of everything that is, or could have been, fitted in `last`: blocks x directions.
+  const Eigen::MatrixXd& known() const { return known_; }
   Eigen::VectorXd residual() const { return campaign_->measured - last_.predicted; }
   stats::Whitener whitener() const;
   // Whether the residual is only rounding, so that nothing can be found.
   bool negligible() const;
-
-  const Rival& last() const { return last_; }
-  const Sensitivities& sensitivities() const { return sensitivities_; }
-  // Directions of everything that is, or could have been, fitted in `last`: blocks x directions.
-  const Eigen::MatrixXd& known() const { return known_; }
-  // Directions that a trained law (a network) could have absorbed; no columns for other laws.
-  const Eigen::MatrixXd& trained() const { return trained_; }
   // Converts a rival to a model as tables, routines and predict() use it.
   models::Model model_of(const Rival& rival) const;
 
-  // Sets `units` to recordings if there are enough of them, else to single tests.
-  void take_units();
-  // Whether there are enough units, whose signs are flipped together, for a p-value of trace.alpha.
-  bool enough_units() const;
-
-  const TraceInput& input;
-  stats::Blocks blocks;
-  Candidates candidates;
-  double tau_scale_MPa = 1;
-  bool one_factor = false;       // tests change one state at a time
-  Rival base;                    // without effects
-  std::vector<Finding> findings; // in the order in which they were added
-  OrderStructure order;
-  std::vector<std::size_t> units; // per experiment: the unit whose sign is flipped as a whole
-  Leftover leftover;
-  std::vector<CauseFold> folds; // of the joint search
-  bool pays = false;            // its findings predict left-out tests better
-  std::vector<std::string> rejected;
-  // Causes that a drift over the order of tests explains as well.
-  struct Confounded {
-    Cause cause;
-    double p_value = 1;
-    bool between = false;
-  };
-  std::vector<Confounded> confounded;
-
 private:
-  void make_candidates();
-  void make_campaign(bool quick);
-  void fit_base(const stats::NoiseModel* earlier);
+  struct Ground { // the same for every law
+    explicit Ground(const TraceInput& input);
+    const TraceInput& input;
+    stats::Blocks blocks;
+    Candidates candidates;
+    models::Law surrogate; // of a trained law: its trained part as a column
+    Eigen::VectorXd measured;
+    Eigen::MatrixXd trained;
+    double tau_scale_MPa = 1;
+    bool one_factor = false;
+  };
+  Campaign campaign_on(bool quick) const;
 
-  models::Law surrogate_;   // of a trained law: its trained part as a column
-  Eigen::MatrixXd trained_; // directions that a trained law could have absorbed
-  std::unique_ptr<Campaign> campaign_;
-  Rival last_; // with all effects so far
+  std::shared_ptr<const Ground> ground_;
+  std::shared_ptr<const Campaign> campaign_;
+  std::shared_ptr<const Rival> base_;
+  Rival last_;
   Sensitivities sensitivities_;
   Eigen::MatrixXd known_;
 };
 
-// Runs the whole search: `last` is then the law with everything that was found.
-std::unique_ptr<Search> search_effects(const TraceInput& input);
+// A cause that a drift over the order of tests explains as well.
+struct Confounded {
+  Cause cause;
+  double p_value = 1;
+};
+
+// Everything that a search found.
+struct Found {
+  Search search;                      // with all effects
+  std::vector<Finding> findings = {}; // in the order in which they were added
+  std::vector<CauseFold> folds = {};  // of the joint search
+  bool pays = false;                  // the findings predict left-out tests better
+  std::vector<Confounded> confounded = {};
+  std::vector<std::string> rejected = {}; // significant causes, each with the reason against it
+  Leftover leftover = {};
+  OrderStructure order = {};
+};
+
+// Runs the whole search.
+Found search_effects(const TraceInput& input);
 
 } // namespace frictab::trace
