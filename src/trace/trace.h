@@ -220,7 +220,7 @@ struct Trace {
   std::vector<std::string> not_identifiable; // candidates that recalibration absorbs
   std::vector<std::string> rejected; // looked significant; with the reason why it was not added
   std::vector<std::string> notes;
-  double alpha = 0.02;
+  double alpha = TraceOptions{}.alpha;
   double least_p_value = 0;     // the least that so many experiments can give
   calibrate::ModelFit extended; // judged like any other fit; model.law is null where none was added
 };

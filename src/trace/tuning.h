@@ -18,6 +18,22 @@
 
 namespace frictab::trace::tuning {
 
+// ---- Guards of the arithmetic ----
+
+// Least divisor: keeps a quotient finite where nothing is there to divide by.
+inline constexpr double smallest_divisor = 1e-300;
+// Step of a parameter for derivatives by differences, as a share of its size, and the size it has
+// at least: between rounding and curvature of formulas in double precision. Chosen, not measured.
+inline constexpr double step_share_of_parameter = 1e-5, smallest_stepped_size = 1e-3;
+// Least stress of a law in a quotient by it, as a share of the campaign's mean stress. Chosen, not
+// measured.
+inline constexpr double smallest_share_of_tau = 1e-3;
+// Share of the squares of a derivative below which a row or a site does not feel an effect. Chosen,
+// not measured.
+inline constexpr double felt_share_of_squares = 1e-6;
+// Probabilities beyond a two-sided 95 % interval at either end, and of a one-sided bound.
+inline constexpr double tail_of_interval = 0.025, confidence_of_bound = 0.95;
+
 // ---- Columns and candidates ----
 
 // Number of columns up to which every pair of them is a candidate. A pair has about a dozen shapes,
@@ -46,6 +62,11 @@ inline constexpr std::size_t quantile_intervals = 30;
 inline constexpr double changed_share_of_range = 0.2;
 // Share of the tests that may change more than one state in such a campaign. Chosen, not measured.
 inline constexpr double share_of_tests_changing_several = 0.05;
+// Tests below which a campaign is not judged to change one state at a time. Chosen, not measured.
+inline constexpr Eigen::Index fewest_tests_for_one_factor = 5;
+// Central range of a number, as a share of its median, from which on it may act together with
+// others. Chosen, not measured.
+inline constexpr double pair_spread_share_of_median = 0.2;
 
 // ---- Terms: coordinates, splines, shapes ----
 
@@ -60,6 +81,11 @@ inline constexpr double ratio_for_log_from_zero = 8;
 inline constexpr double log_shift_quantile = 0.05;
 // Distinct values that such a column must exceed for a logarithm. Chosen, not measured.
 inline constexpr std::size_t values_for_log_from_zero = 6;
+// Ratio of the largest to the least value above which an input of a trained law is taken in ln x.
+// Chosen, not measured.
+inline constexpr double ratio_for_log_of_trained = 5;
+// Values of a column are one if they differ by at most this share of its range: rounding.
+inline constexpr double same_value_share_of_range = 1e-9;
 // Knots of the spline of a column. Chosen, not measured.
 inline constexpr std::size_t most_spline_knots = 9;
 // Least distance between knots, as a share of the column's range. Chosen, not measured.
@@ -69,6 +95,8 @@ inline constexpr double knot_gap_share_of_range = 0.01;
 inline constexpr Eigen::Index bent_columns_of_pair = 3;
 // |cosine| between centred shapes of a grid above which one represents both. Chosen, not measured.
 inline constexpr float same_shape_cosine = 0.999f;
+// Norm below which a shape does not vary: rounding in single precision.
+inline constexpr float smallest_norm_of_shape = 1e-6f;
 // Rounding of a cosine in single precision, granted to the bound that rejects a pair of shapes
 // early. Chosen, not measured.
 inline constexpr float single_precision_slack = 1e-4f;
@@ -78,6 +106,16 @@ inline constexpr double same_sharp_shape_cosine = 0.97;
 // |cosine| between the derivatives at two sites of the law above which the second is not offered.
 // Chosen, not measured.
 inline constexpr double same_site_cosine = 0.995;
+// A saturating form needs a column whose least value is below this share of its largest, and a wave
+// a column of whose range a typical test covers this share: else neither shows. Chosen, not
+// measured.
+inline constexpr double begun_share_of_largest = 0.5, reach_of_wave = 0.5;
+// Least width of a local form, as a share of the widest gap between tested values. Chosen, not
+// measured.
+inline constexpr double narrowest_share_of_gap = 0.5;
+// Limits of a fitted width: the column's range over the first, times the second. Chosen, not
+// measured.
+inline constexpr double spans_over_narrowest_width = 60, widest_width_in_spans = 6;
 
 // ---- The regression: response, modes, term sizes and variances ----
 
@@ -102,9 +140,15 @@ inline constexpr double fewest_class_freedom = 3;
 // Least share of the squares of a class that a term may leave; bounds a logarithm in the likelihood
 // where a term explains everything. Chosen, not measured.
 inline constexpr double smallest_share_left = 1e-6;
+// Alternations of coefficients and noise in a fit that starts from the response's mean square, and
+// after terms have entered: the noise no longer changes. Chosen, not measured.
+inline constexpr int noise_rounds_from_nothing = 4, noise_rounds_with_new_terms = 3;
+// Added to a matrix that is factored, as a share of its largest entry: rounding of sums over rows.
+inline constexpr double information_slack = 1e-9;
 // Ridge of the law's own directions, as a share of their squares: they may be collinear, and are
 // hardly shrunk. Chosen, not measured.
 inline constexpr double law_ridge = 1e-8;
+inline constexpr double smallest_law_ridge = 1e-10; // of a direction that is 0 everywhere
 // Cosines over the order of tests that form the random walk. Chosen, not measured.
 inline constexpr int walk_waves = 8;
 // Log likelihood ratio above which the walk is part of the noise. Chosen, not measured.
@@ -161,6 +205,17 @@ inline constexpr double same_ratio_tolerance = 1e-6;
 // Weight of the theoretical tail of a likelihood ratio (mean excess 1), as a number of values added
 // to those observed. Chosen, not measured.
 inline constexpr double theoretical_tail_values = 5;
+// One of so many flips is in the tail of the largest ratios, beyond which rarity is extrapolated.
+// Chosen, not measured.
+inline constexpr Eigen::Index flips_per_tail_value = 10;
+// Norm below which the fit explains all of a flip, which is then not scaled up: rounding.
+inline constexpr double smallest_norm_of_flip = 1e-15;
+// The test with unequal variances (HC3): norm below which a term is a combination of the others,
+// and the least share of a test that the fit leaves to it. Chosen, not measured.
+inline constexpr double collinear_norm = 1e-9, smallest_leverage_left = 0.02;
+// Steps of the iteration for a term's threshold, which shrinks the error at each. Chosen, not
+// measured.
+inline constexpr int threshold_iterations = 50;
 // Standard deviation of a lead's coefficient, in ln of friction: so large (friction times e) that
 // the estimate is not shrunk. Chosen, not measured.
 inline constexpr double lead_coefficient_size = 1;
@@ -184,6 +239,16 @@ inline constexpr std::size_t selected_tests = stats::uncut_experiments;
 // Steps of a fit to all tests that starts from the end of a fit to selected tests and only serves a
 // choice. Chosen, not measured.
 inline constexpr int most_steps_from_selected = 12;
+// Shares of the cost by which the last step of a fit reduces it: fits of folds and of selected
+// tests; with many tests, where the cost is so large that a millionth is far less than a unit of
+// log likelihood; and fits that only serve a choice. Chosen, not measured.
+inline constexpr double coarse_fit_end = 1e-5, fit_end_with_many_tests = 1e-6;
+inline constexpr double fit_end_of_choice = 1e-8;
+// Widths by which the limit is rounded off, one fit after the other, as shares of the mean stress:
+// otherwise rows below it have no influence on it. Chosen, not measured.
+inline constexpr double rounding_widths_of_limit[] = {0.15, 0.05};
+// Ridge of the effective number of parameters, as a share of the largest information: rounding.
+inline constexpr double freedom_ridge = 1e-12;
 // Change of a factor for central differences by it: +-6 %, so that rows near the limit feel mu as
 // well as the limit. Reason known; the value is chosen, not measured.
 inline constexpr double factor_step = 0.06;
@@ -217,6 +282,12 @@ inline constexpr std::array<double, 4> site_costs = {0.0, 0.5, 1.5, 0.25};
 // Cost of a smooth, in log likelihood: a closed form replaces it if it is at most this much less
 // likely. Chosen, not measured.
 inline constexpr double smooth_cost = 3;
+// Penalty, times the square of an amplitude, where a form has none of its own: so weak that it only
+// makes the smooth's equations solvable. Chosen, not measured.
+inline constexpr double penalty_of_plain_amplitudes = 1e-3;
+// Largest amplitude at which the fit of a closed form starts: half of friction, either way. Chosen,
+// not measured.
+inline constexpr double largest_start_amplitude = 0.5;
 // Closed forms that are fitted at each site, and forms that are then fitted to all tests where the
 // first fits are to selected ones. Chosen, not measured.
 inline constexpr std::size_t most_forms_at_site = 8;
@@ -224,9 +295,22 @@ inline constexpr std::size_t most_forms_on_all_tests = 3;
 // Intervals of an effect's range at whose ends its factor is examined for humps. Chosen, not
 // measured.
 inline constexpr int plausibility_intervals = 32;
+// Costs, in log likelihood: times the square of the largest change of friction (as if changes were
+// normal with a standard deviation of 50 %: 1/(2 x 0.5^2)), and of a factor that is not finite.
+// Chosen, not measured.
+inline constexpr double large_change_cost = 2, infinite_factor_cost = 1e6;
+// Cost of a hump, in log likelihood, times the range of the factor between tested values beyond
+// that at them, in units of the latter: what is tolerated, and the most that counts. Chosen, not
+// measured.
+inline constexpr double hump_cost = 8, tolerated_hump = 0.3, largest_hump = 10;
+// Least range of a factor at tested values in that quotient. Chosen, not measured.
+inline constexpr double smallest_tested_range = 1e-6;
 // Resamples of whole tests by which rivals are compared with the best. A share of 95 % is then
 // known to 1 %. Chosen, not measured.
 inline constexpr std::size_t rival_resamples = 500;
+// Difference of log restricted likelihood below which rivals are in one set: e^2, or 7 to 1.
+// Chosen, not measured.
+inline constexpr double clear_lead_of_criterion = 2;
 
 // ---- Judging on unseen tests ----
 
@@ -238,6 +322,8 @@ inline constexpr double same_setting_std_deviations = 0.25;
 // A term is dropped if the score of left-out tests falls by at most this without it, in standard
 // errors over tests. Chosen, not measured.
 inline constexpr double worth_of_term_std_errors = 1;
+// Least standard error of a score: rounding.
+inline constexpr double smallest_score_error = 1e-12;
 // Degrees of freedom of Student's t in the scores of the regression (per mode) and of the law (per
 // test): one test for which a fold's noise is too small does not outweigh all others. Chosen, not
 // measured.
@@ -275,8 +361,18 @@ inline constexpr double small_share_of_spread = 0.2;
 // repeats determine it poorly, so that a significance test alone would nearly always agree. Chosen,
 // not measured.
 inline constexpr double repeatability_slack = 1.2;
+// Least share of the degrees of freedom that the parameters leave in a bound of the noise, and
+// degrees of freedom of repeats from which on they give a repeatability. Chosen, not measured.
+inline constexpr double smallest_freedom_left = 0.5, fewest_degrees_of_repeats = 3;
+// The scatter between tests lies below this multiple of their variance, plus the least end;
+// halvings of that interval, down to rounding. Variance of a gain at least: rounding.
+inline constexpr double widest_scatter_ratio = 10, smallest_scatter_end = 1e-12;
+inline constexpr int scatter_halvings = 80;
+inline constexpr double smallest_gain_variance = 1e-18;
 // p-value above which chance is the simplest explanation of a lead. Chosen, not measured.
 inline constexpr double chance_p_value = 0.2;
+// Change of mu per e-fold of speed from which on a lead's text gives the law's own: rounding.
+inline constexpr double smallest_rate_named = 1e-9;
 // Channels and outcomes are compared with the residual from this number of tests on. Chosen, not
 // measured.
 inline constexpr Eigen::Index fewest_tests_for_followers = 5;
@@ -295,6 +391,8 @@ inline constexpr double held_share_of_range = 1e-3;
 // Range of a level's tests, as a share of their mean, that the text gives as one value. Chosen, not
 // measured.
 inline constexpr double same_value_share_of_mean = 0.05;
+// Share of a value by which two significant digits may change it in a text. Chosen, not measured.
+inline constexpr double rounded_share_of_value = 0.01;
 // Tests below which aliases are not sought. Chosen, not measured.
 inline constexpr std::size_t fewest_tests_for_aliases = 4;
 
@@ -307,6 +405,11 @@ inline constexpr std::size_t order_permutations = 999;
 inline constexpr double order_share_of_alpha = 0.5;
 // Cosines over the order whose squares the test adds up. Chosen, not measured.
 inline constexpr int order_test_waves = 4;
+// Tests below which their order is not tested. Chosen, not measured.
+inline constexpr std::size_t fewest_tests_for_order = 10;
+// Standard errors by which neighbours by name are more alike than by chance: the normal quantile of
+// 1 %, one-sided.
+inline constexpr double drift_std_errors = 2.33;
 // Maximum distance of tests that may be alike, as in a batch; nearer ones weigh more. Measured:
 // batches of nine show, 97 in place of 92 % of hidden causes along the order are reported.
 inline constexpr Eigen::Index largest_batch_distance = 6;
@@ -353,5 +456,17 @@ inline constexpr std::size_t most_fixed_values = 5, tests_per_fixed_value = 2;
 // Width by which the range of the campaign is extended at either end, as a share of it. Chosen, not
 // measured.
 inline constexpr double range_extension = 0.1;
+// Least value of a positive quantity that is extended downwards, as a share of the least one
+// tested, and the share of the range by which a candidate's rows may exceed it: rounding of
+// settings. Chosen, not measured.
+inline constexpr double kept_share_of_least = 0.5, reach_tolerance = 0.01;
+// Least amplitude of one test, in standard errors: bounds the number of tests needed.
+inline constexpr double smallest_amplitude_of_test = 1e-9;
+
+// ---- Curves for plots ----
+
+// Place of the other inputs of an effect of several, in their ranges from the least value to the
+// largest. Chosen, not measured.
+inline constexpr double place_of_other_inputs = 0.75;
 
 } // namespace frictab::trace::tuning

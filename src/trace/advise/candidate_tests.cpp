@@ -64,7 +64,10 @@ struct Range {
   Range widened() const {
     const double end = tuning::range_extension * width();
     // Non-negative quantities stay non-negative, and positive ones stay away from 0.
-    return {low > 0 ? std::max(low - end, 0.5 * low) : low == 0 ? 0 : low - end, high + end};
+    return {low > 0    ? std::max(low - end, tuning::kept_share_of_least * low)
+            : low == 0 ? 0
+                       : low - end,
+            high + end};
   }
 };
 
@@ -194,7 +197,7 @@ private:
       const Column& column = *data_.find(setting.column);
       if (!column.levels.empty()) return true;
       const Range all = range_of(column.values).widened(), own = range_of(rows.at(setting.column));
-      const double rounding = 0.01 * all.width();
+      const double rounding = tuning::reach_tolerance * all.width();
       return own.low >= all.low - rounding && own.high <= all.high + rounding;
     });
   }

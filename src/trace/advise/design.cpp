@@ -11,6 +11,7 @@
 
 #include "stats/projection.h"
 #include "trace/advise/candidate_tests.h"
+#include "trace/columns/factor_band.h"
 #include "trace/judge/gains.h"
 #include "trace/tuning.h"
 
@@ -73,7 +74,7 @@ private:
 
   static VectorXd slope(models::Model model, std::size_t p, const data::Dataset& data,
                         const std::vector<double>& tau, const stats::Blocks& blocks) {
-    const double step = 1e-5 * std::max(std::abs(model.parameters[p]), 1e-3);
+    const double step = derivative_step(model.parameters[p]);
     model.parameters[p] += step;
     std::vector<double> moved = calibrate::predict(model, data);
     for (std::size_t i = 0; i < moved.size(); ++i)
@@ -200,7 +201,7 @@ private:
   double log_det(const std::vector<std::size_t>& tests) const {
     MatrixXd left = of_rivals(information(tests));
     left.diagonal().array() += 1; // prior: an amplitude is of the order of 1
-    return left.ldlt().vectorD().array().max(1e-300).log().sum();
+    return left.ldlt().vectorD().array().max(tuning::smallest_divisor).log().sum();
   }
 
   // Chooses tests greedily, then exchanges one at a time for the best candidate until nothing
@@ -261,7 +262,8 @@ private:
     const double each = (plan.amplitude * plan.amplitude - plan.before * plan.before) /
                         static_cast<double>(plan.tests.size());
     const double target = limit() + gsl_cdf_ugaussian_Pinv(tuning::wanted_power);
-    const double tests = (target * target - plan.before * plan.before) / std::max(each, 1e-300);
+    const double tests =
+        (target * target - plan.before * plan.before) / std::max(each, tuning::smallest_divisor);
     if (tests > tuning::most_tests_needed) return design;
     if (probability(plan.amplitude) < tuning::smallest_power) return design;
     design.probability = probability(plan.amplitude);
@@ -345,7 +347,7 @@ struct Ends {
 
 Ends ends_by_line(const Setting& setting, const VectorXd& x, const VectorXd& gain) {
   const VectorXd spread = x.array() - x.mean();
-  const double slope = spread.dot(gain) / std::max(spread.squaredNorm(), 1e-300);
+  const double slope = spread.dot(gain) / std::max(spread.squaredNorm(), tuning::smallest_divisor);
   return {0, setting.values.size() - 1, std::abs(slope) * (x.maxCoeff() - x.minCoeff())};
 }
 
@@ -376,7 +378,7 @@ Design design_in_turn(const Search& search, const Cause& cause, std::optional<do
       column.levels.empty() ? ends_by_line(setting, x, gain) : ends_by_level(setting, x, gain);
   if (!scatter) scatter = std::sqrt((gain.array() - gain.mean()).square().mean());
   const auto standardised = [&](double tests) {
-    return ends.apart / (2 * std::max(*scatter, 1e-300) / std::sqrt(tests));
+    return ends.apart / (2 * std::max(*scatter, tuning::smallest_divisor) / std::sqrt(tests));
   };
   const auto probability = [&](std::size_t tests) {
     return gsl_cdf_ugaussian_P(standardised(static_cast<double>(tests)) -
@@ -394,7 +396,7 @@ Design design_in_turn(const Search& search, const Cause& cause, std::optional<do
   design.probability = probability(tests);
   design.tests_needed = std::ceil(
       std::pow((tuning::two_sided_std_errors + gsl_cdf_ugaussian_Pinv(tuning::wanted_power)) /
-                   std::max(standardised(1), 1e-9),
+                   std::max(standardised(1), tuning::smallest_amplitude_of_test),
                2));
   return design;
 }

@@ -6,6 +6,7 @@
 #include "core/columns.h"
 #include "effects/extended_law.h"
 #include "trace/columns/factor_band.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -36,7 +37,8 @@ std::vector<double> plot_positions(const effects::PlacedEffect& effect) {
 FactorOnRows factor_along(const effects::PlacedEffect& effect, const std::vector<double>& x) {
   std::vector<std::vector<double>> columns{x};
   for (std::size_t i = 1; i < effect.inputs.size(); ++i)
-    columns.emplace_back(x.size(), 0.25 * effect.inputs[i].low + 0.75 * effect.inputs[i].high);
+    columns.emplace_back(x.size(), (1 - tuning::place_of_other_inputs) * effect.inputs[i].low +
+                                       tuning::place_of_other_inputs * effect.inputs[i].high);
   return factor_on_rows(effect, pointers(columns), static_cast<Index>(x.size()));
 }
 
@@ -54,7 +56,7 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
   const VectorXd errors =
       std_errors(on_curve.slope, covariance.block(first_one, first_one, count, count));
   for (Index i = 0; i < errors.size(); ++i) {
-    const double f = on_curve.factor(i), d = 1.96 * errors(i);
+    const double f = on_curve.factor(i), d = tuning::two_sided_std_errors * errors(i);
     curve.factor.push_back(f);
     curve.low.push_back(f - d);
     curve.high.push_back(f + d);
@@ -71,7 +73,8 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
       const auto begin = static_cast<Index>(first[e] + part * blocks / parts);
       const auto size = static_cast<Index>(first[e] + (part + 1) * blocks / parts) - begin;
       const VectorXd s = sensitivity.segment(begin, size);
-      if (!(s.squaredNorm() > 1e-6 * sensitivity.squaredNorm() / static_cast<double>(first.back())))
+      if (!(s.squaredNorm() > tuning::felt_share_of_squares * sensitivity.squaredNorm() /
+                                  static_cast<double>(first.back())))
         continue;
       curve.point_x.push_back(x.segment(begin, size).mean());
       curve.point_factor.push_back(s.dot(residual.segment(begin, size)) / s.squaredNorm());

@@ -78,7 +78,7 @@ std::vector<Lead> leads_that_may_follow(const Search& search, const Rival& rival
   if (static_cast<Index>(search.blocks().experiments()) < tuning::fewest_tests_for_followers)
     return leads;
   const VectorXd& measured = search.campaign().measured;
-  const double scale = 1e-3 * measured.cwiseAbs().mean();
+  const double scale = tuning::smallest_share_of_tau * search.tau_scale_MPa();
   const VectorXd residual =
       (measured - rival.predicted).cwiseQuotient(rival.predicted.cwiseMax(scale));
   double looks = 0;

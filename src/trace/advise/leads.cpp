@@ -149,10 +149,12 @@ std::string rate_sentence(const Search& search, const VectorXd& change) {
   const auto sigma = search.candidates().by_symbol.find("sigma_n_MPa");
   if (sigma == search.candidates().by_symbol.end() || !search.candidates().by_symbol.count(speed))
     return "";
-  const VectorXd mu = search.last().predicted.cwiseQuotient(sigma->second.cwiseMax(1e-300));
+  const VectorXd mu =
+      search.last().predicted.cwiseQuotient(sigma->second.cwiseMax(tuning::smallest_divisor));
   const double lead = per_e_fold(search, mu.cwiseProduct(change)), law = per_e_fold(search, mu);
   if (!std::isfinite(lead)) return "";
-  const std::string with_law = std::abs(law) > 1e-9 ? fmt::format(", {:+.2g} by the law", law) : "";
+  const std::string with_law =
+      std::abs(law) > tuning::smallest_rate_named ? fmt::format(", {:+.2g} by the law", law) : "";
   return fmt::format("; mu changes by {:+.2g} per e-fold of speed{} (a - b, in the words of "
                      "rate-and-state friction)",
                      lead, with_law);

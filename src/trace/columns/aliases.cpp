@@ -135,10 +135,11 @@ double explained_by_line(const std::vector<double>& setting, const std::vector<d
 // "800" for 801.3, "1530" for 1532.
 std::string figure(double value) {
   if (value == 0) return "0";
-  const double two = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1);
+  const double two = std::pow(10, std::floor(std::log10(std::abs(value))) - 1);
   const double short_value = two * std::round(value / two);
-  const bool near = std::abs(short_value - value) < 0.01 * std::abs(value);
-  return fmt::format("{:g}", near ? short_value : 0.1 * two * std::round(10 * value / two));
+  const bool near =
+      std::abs(short_value - value) < tuning::rounded_share_of_value * std::abs(value);
+  return fmt::format("{:g}", near ? short_value : two / 10 * std::round(10 * value / two));
 }
 
 std::string values_text(const std::vector<double>& values) {

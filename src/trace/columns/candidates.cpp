@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <set>
 #include <string_view>
@@ -70,7 +71,7 @@ VectorXd golden_direction(Index size) {
   VectorXd direction(size);
   double next = 0.5;
   for (double& d : direction) {
-    next = std::fmod(next + 0.6180339887498949, 1.0);
+    next = std::fmod(next + std::numbers::phi - 1, 1.0);
     d = next - 0.5;
   }
   return direction.normalized();
@@ -426,7 +427,8 @@ bool pairs_every_column(const Candidates& candidates) {
 // follow these, and each further column multiplies the pairs.
 bool may_act_with_others(const CandidateColumn& column) {
   const effects::Spread& s = column.spread;
-  const bool numbers = s.high - s.low > 0.2 * std::max(std::abs(s.median), 1e-300);
+  const bool numbers = s.high - s.low > tuning::pair_spread_share_of_median *
+                                            std::max(std::abs(s.median), tuning::smallest_divisor);
   return (!column.levels.empty() || numbers) &&
          (!column.derived || column.name == "sliding_distance" || column.name == "friction_work" ||
           column.name == "load_ratio" || column.name == "temperature_rise");
@@ -536,7 +538,7 @@ Eigen::MatrixXd state_means(const Candidates& candidates, const stats::Blocks& b
 }
 
 bool one_factor_at_a_time(const Eigen::MatrixXd& states) {
-  if (states.cols() < 2 || states.rows() < 5) return false;
+  if (states.cols() < 2 || states.rows() < tuning::fewest_tests_for_one_factor) return false;
   Eigen::VectorXi count = Eigen::VectorXi::Zero(states.rows());
   for (Eigen::Index s = 0; s < states.cols(); ++s) {
     Eigen::VectorXd sorted = states.col(s);

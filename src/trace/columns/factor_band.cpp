@@ -4,12 +4,18 @@
 #include <cmath>
 
 #include "effects/extended_law.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+double derivative_step(double parameter) {
+  return tuning::step_share_of_parameter *
+         std::max(std::abs(parameter), tuning::smallest_stepped_size);
+}
 
 FactorOnRows factor_on_rows(const effects::PlacedEffect& effect,
                             std::span<const double* const> columns, Index rows) {
@@ -22,7 +28,7 @@ FactorOnRows factor_on_rows(const effects::PlacedEffect& effect,
   };
   FactorOnRows found{factor(), MatrixXd(rows, static_cast<Index>(at.size()))};
   for (std::size_t p = 0; p < at.size(); ++p) {
-    const double step = 1e-5 * std::max(std::abs(at[p]), 1e-3), kept = at[p];
+    const double step = derivative_step(at[p]), kept = at[p];
     at[p] = kept + step;
     const VectorXd up = factor();
     at[p] = kept - step;

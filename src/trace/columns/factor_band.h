@@ -9,6 +9,9 @@
 
 namespace frictab::trace {
 
+// Step of a parameter by which derivatives are differences.
+double derivative_step(double parameter);
+
 struct FactorOnRows {
   Eigen::VectorXd factor; // 1: no effect
   Eigen::MatrixXd slope;  // rows x fitted parameters: its derivatives

@@ -81,7 +81,7 @@ VectorXd experiment_scores(const VectorXd& residual, const VectorXd& sensitivity
     const auto begin = static_cast<Index>(first[static_cast<std::size_t>(e)]);
     const auto count = static_cast<Index>(first[static_cast<std::size_t>(e) + 1]) - begin;
     const auto s = all.col(1).segment(begin, count);
-    scores(e) = s.dot(r.segment(begin, count)) / std::max(s.norm(), 1e-300);
+    scores(e) = s.dot(r.segment(begin, count)) / std::max(s.norm(), tuning::smallest_divisor);
   }
   return scores;
 }
@@ -90,7 +90,7 @@ OrderTest test_order(const MatrixXd& scores, std::span<const double> order,
                      std::size_t permutations, std::uint64_t seed) {
   const auto rank = ranks(order);
   const std::size_t count = rank.size();
-  if (count < 10) return {}; // too few to show any structure
+  if (count < tuning::fewest_tests_for_order) return {}; // too few to show any structure
   MatrixXd z = scores.rowwise() - scores.colwise().mean();
   MatrixXd waves(z.rows(), tuning::order_test_waves);
   for (Index i = 0; i < z.rows(); ++i)

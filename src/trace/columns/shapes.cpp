@@ -95,9 +95,10 @@ bool has_meaning(const effects::EffectForm& form, const CandidateColumn& x) {
   if (form.name == "power" || form.name == "logarithmic")
     return x.spread.median > 0 && x.spread.minimum >= 0;
   if (form.name == "saturation" || form.name == "stribeck")
-    return x.spread.minimum >= 0 && x.spread.minimum < 0.5 * x.spread.maximum;
+    return x.spread.minimum >= 0 &&
+           x.spread.minimum < tuning::begun_share_of_largest * x.spread.maximum;
   // A wave is visible along an experiment; from test to test it imitates any structure.
-  if (form.name == "periodic") return x.reach > 0.5 && is_along(x.name);
+  if (form.name == "periodic") return x.reach > tuning::reach_of_wave && is_along(x.name);
   if (form.name == "cosine") return is_angle(x.name);
   if (form.name == "hysteresis") return x.name == "load_ratio";
   return true;
@@ -116,7 +117,8 @@ bool too_narrow(const PlacedEffect& effect, double gap) {
   if (!is_local(effect)) return false;
   const auto all = effects::parameters_of(effect);
   for (std::size_t p = effects::amplitudes_of(effect); p < all.size(); ++p)
-    if (all[p].lower > 0 && effect.parameters[p] < 0.5 * gap) return true;
+    if (all[p].lower > 0 && effect.parameters[p] < tuning::narrowest_share_of_gap * gap)
+      return true;
   return false;
 }
 
@@ -167,7 +169,7 @@ void keep_different(std::vector<GridShape>& shapes) {
   for (GridShape& shape : shapes) {
     Eigen::VectorXf d = shape.direction.array() - shape.direction.mean();
     const float norm = d.norm();
-    if (!(norm > 1e-6f) || !std::isfinite(norm)) continue;
+    if (!(norm > tuning::smallest_norm_of_shape) || !std::isfinite(norm)) continue;
     Centred centred(d / norm);
     if (std::any_of(seen.begin(), seen.end(),
                     [&](const Centred& other) { return other.resembles(centred); }))
@@ -309,10 +311,12 @@ void bound_shapes(models::Law& extended, std::size_t own, std::span<const Placed
       const effects::EffectInput& input = *of;
       models::Parameter& parameter = extended.parameters[next + p];
       const double span = input.high - input.low;
-      const double gap = is_local(effect) ? 0.5 * gap_of(input.column, candidates) : 0;
+      const double gap =
+          is_local(effect) ? tuning::narrowest_share_of_gap * gap_of(input.column, candidates) : 0;
       const bool width = parameter.lower > 0;
-      parameter.lower = width ? std::max(span / 60, gap) : input.low;
-      parameter.upper = width ? 6 * span : input.high;
+      parameter.lower =
+          width ? std::max(span / tuning::spans_over_narrowest_width, gap) : input.low;
+      parameter.upper = width ? tuning::widest_width_in_spans * span : input.high;
       parameter.start = std::clamp(parameter.start, parameter.lower, parameter.upper);
     }
     next += fitted.size();

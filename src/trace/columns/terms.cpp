@@ -29,7 +29,8 @@ double quantile(const std::vector<double>& sorted, double share) {
 std::vector<double> sorted_values(const VectorXd& x) {
   std::vector<double> all(x.begin(), x.end());
   std::sort(all.begin(), all.end());
-  const double near = 1e-9 * std::max(all.back() - all.front(), 1e-300);
+  const double near = tuning::same_value_share_of_range *
+                      std::max(all.back() - all.front(), tuning::smallest_divisor);
   all.erase(
       std::unique(all.begin(), all.end(), [near](double a, double b) { return b - a <= near; }),
       all.end());
@@ -127,7 +128,7 @@ MatrixXd bends_of(const VectorXd& z) {
   line << VectorXd::Ones(z.size()), z;
   bends -= line * line.colPivHouseholderQr().solve(bends).eval();
   const double size = bends.norm() / std::sqrt(static_cast<double>(z.size()));
-  return bends / std::max(size, 1e-300);
+  return bends / std::max(size, tuning::smallest_divisor);
 }
 
 // One column per level, minus its share.
@@ -138,7 +139,7 @@ MatrixXd factor_of(const CandidateColumn& column) {
     is.col(l) = (column.values.array() == static_cast<double>(l)).cast<double>();
   is.rowwise() -= is.colwise().mean().eval();
   const double size = is.norm() / std::sqrt(static_cast<double>(is.rows()));
-  return is / std::max(size, 1e-300);
+  return is / std::max(size, tuning::smallest_divisor);
 }
 
 void append_products(const Eigen::Ref<const MatrixXd>& a, const Eigen::Ref<const MatrixXd>& b,

@@ -77,7 +77,7 @@ std::optional<double> time_of(const Stamp& stamp, const Reading& as) {
       std::chrono::day(static_cast<unsigned>(stamp.field[as.day]))};
   if (!date.ok()) return std::nullopt;
   const auto days = std::chrono::sys_days(date).time_since_epoch().count();
-  return 86400.0 * static_cast<double>(days) + stamp.seconds;
+  return 86400 * static_cast<double>(days) + stamp.seconds;
 }
 
 // Rank of each value, from 0; equal values share a rank.

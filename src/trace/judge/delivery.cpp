@@ -381,9 +381,10 @@ ValidationShift shift_of(const TestGains& seen, const TestGains& unseen, double 
   const double se = std::sqrt(std::max(own, of_law) / n + open);
   const double shift = unseen.gain.mean() - seen.gain.mean();
   const double degrees = std::min(free, n - 1);
-  apart.p_value = 2 * gsl_cdf_tdist_Q(std::abs(shift) / std::max(se, 1e-300), degrees);
+  apart.p_value =
+      2 * gsl_cdf_tdist_Q(std::abs(shift) / std::max(se, tuning::smallest_divisor), degrees);
   apart.found = apart.p_value < tuning::validation_shift_p_value;
-  const double t = gsl_cdf_tdist_Qinv(0.025, degrees);
+  const double t = gsl_cdf_tdist_Qinv(tuning::tail_of_interval, degrees);
   apart.share = std::expm1(shift);
   apart.interval = {std::expm1(shift - t * se), std::expm1(shift + t * se)};
   return apart;

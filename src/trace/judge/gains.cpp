@@ -25,7 +25,7 @@ double median_of(std::vector<double> x) {
 
 double squares_left(const VectorXd& y, const MatrixXd& columns) {
   const MatrixXd q = stats::orthonormal(columns);
-  return std::max((y - q * (q.transpose() * y)).squaredNorm(), 1e-300);
+  return std::max((y - q * (q.transpose() * y)).squaredNorm(), tuning::smallest_divisor);
 }
 
 } // namespace
@@ -39,7 +39,7 @@ TestGains test_gains(const data::Dataset& data, std::span<const double> predicte
   for (std::size_t e = 0; e < tests; ++e) {
     const std::size_t rows = data.first_row[e + 1] - data.first_row[e];
     const auto ratio = [&](std::size_t i) {
-      const double law = std::max(predicted[i], 1e-300);
+      const double law = std::max(predicted[i], tuning::smallest_divisor);
       return std::log(std::max(measured[i], tuning::smallest_gain_ratio * law) / law);
     };
     const std::size_t wanted = std::min(tuning::most_gain_parts, rows / tuning::rows_per_gain_part);
@@ -79,12 +79,15 @@ double scatter_between(const VectorXd& gain, const VectorXd& variance, const Mat
   const double free = static_cast<double>(gain.size() - stats::orthonormal(known).cols());
   if (free < 1) return 0;
   const auto excess = [&](double scatter) { // positive if the scatter is larger than that
-    const VectorXd w = (scatter + variance.array() + 1e-18).inverse().sqrt();
+    const VectorXd w =
+        (scatter + variance.array() + tuning::smallest_gain_variance).inverse().sqrt();
     return squares_left(w.cwiseProduct(gain), w.asDiagonal() * known) - free;
   };
-  double low = 0, high = 10 * (gain.array() - gain.mean()).square().mean() + 1e-12;
+  double low = 0,
+         high = tuning::widest_scatter_ratio * (gain.array() - gain.mean()).square().mean() +
+                tuning::smallest_scatter_end;
   if (excess(0) <= 0) return 0;
-  for (int i = 0; i < 80; ++i)
+  for (int i = 0; i < tuning::scatter_halvings; ++i)
     (excess(0.5 * (low + high)) > 0 ? low : high) = 0.5 * (low + high);
   return 0.5 * (low + high);
 }

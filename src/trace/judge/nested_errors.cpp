@@ -27,7 +27,7 @@ VectorXd relative_errors(const data::Dataset& data, const std::vector<double>& p
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     double sum = 0;
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
-      const double ratio = measured[i] / std::max(predicted[i], 1e-300);
+      const double ratio = measured[i] / std::max(predicted[i], tuning::smallest_divisor);
       sum +=
           data.row_weight(i) * std::abs(std::log(std::clamp(ratio, 1 / tuning::largest_error_ratio,
                                                             tuning::largest_error_ratio)));

@@ -12,6 +12,7 @@
 #include "stats/noise_fit.h"
 #include "stats/projection.h"
 #include "trace/judge/gains.h"
+#include "trace/tuning.h"
 
 namespace frictab::trace {
 
@@ -79,7 +80,7 @@ void add_floor(Trace& trace, const Search& search, const Rival& last) {
   const calibrate::Metrics &after = trace.after.training, &before = trace.as_calibrated.training;
   const calibrate::Metrics& least = before.rmse_MPa < after.rmse_MPa ? before : after;
   const double experiments = static_cast<double>(training.experiments.size());
-  const double share_left = std::max(0.5, 1 - last.freedom / experiments);
+  const double share_left = std::max(tuning::smallest_freedom_left, 1 - last.freedom / experiments);
   const double rmse =
       std::min(std::sqrt(modelled_variance(search, last)), least.rmse_MPa / std::sqrt(share_left));
   trace.noise_floor.method =
@@ -107,7 +108,8 @@ Repeats scatter_of_repeats(const data::Dataset& data, const VectorXd& gain) {
       sum += std::pow(gain(static_cast<Index>(e)) - mean, 2);
     repeats.degrees += static_cast<double>(group.size() - 1);
   }
-  if (repeats.degrees >= 3) repeats.scatter = std::sqrt(sum / repeats.degrees);
+  if (repeats.degrees >= tuning::fewest_degrees_of_repeats)
+    repeats.scatter = std::sqrt(sum / repeats.degrees);
   return repeats;
 }
 
@@ -119,7 +121,8 @@ void add_scatter(Trace& trace, const Search& search, const Rival& last) {
   const TestGains gains = test_gains(training, calibrate::predict(search.model_of(last), training));
   MatrixXd directions = last.jacobian;
   stats::append_columns(directions, search.campaign().nuisance);
-  const VectorXd law = last.predicted.cwiseMax(1e-3 * search.tau_scale_MPa());
+  const VectorXd law =
+      last.predicted.cwiseMax(tuning::smallest_share_of_tau * search.tau_scale_MPa());
   MatrixXd known = MatrixXd::Ones(gains.gain.size(), 1);
   stats::append_columns(
       known, search.blocks().experiment_means(law.cwiseInverse().asDiagonal() * directions));
@@ -132,8 +135,8 @@ void add_scatter(Trace& trace, const Search& search, const Rival& last) {
     return share * std::sqrt(degrees / gsl_cdf_chisq_Pinv(probability, degrees));
   };
   trace.scatter_between = share;
-  trace.scatter_interval = {bound(0.975), bound(0.025)};
-  trace.scatter_at_least = bound(0.95);
+  trace.scatter_interval = {bound(1 - tuning::tail_of_interval), bound(tuning::tail_of_interval)};
+  trace.scatter_at_least = bound(tuning::confidence_of_bound);
   if (trace.repeatability) {
     trace.repeatability_from = "given";
     return;
@@ -143,7 +146,8 @@ void add_scatter(Trace& trace, const Search& search, const Rival& last) {
   trace.repeatability = repeats.scatter;
   trace.repeatability_from = "repeats";
   // The repeatability is an estimate too, so the bound is that of a ratio of variances (F).
-  trace.scatter_at_least = share / std::sqrt(gsl_cdf_fdist_Pinv(0.95, degrees, repeats.degrees));
+  trace.scatter_at_least =
+      share / std::sqrt(gsl_cdf_fdist_Pinv(tuning::confidence_of_bound, degrees, repeats.degrees));
 }
 
 } // namespace frictab::trace

@@ -45,10 +45,15 @@ MatrixXd basis_of(const Search& search, const PlacedEffect& effect) {
          amplitude_basis(effect, search.candidates().by_symbol);
 }
 
+double clamped_start(double amplitude) {
+  return std::clamp(amplitude, -tuning::largest_start_amplitude, tuning::largest_start_amplitude);
+}
+
 Option option_of(const Cause& cause, PlacedEffect effect) {
   const auto count = static_cast<Index>(effects::amplitudes_of(effect));
   const MatrixXd penalty =
-      effect.form->penalty ? roughness_of(effect) : 1e-3 * MatrixXd::Identity(count, count);
+      effect.form->penalty ? roughness_of(effect)
+                           : tuning::penalty_of_plain_amplitudes * MatrixXd::Identity(count, count);
   return {cause, std::move(effect), penalty, {}, 0};
 }
 
@@ -88,7 +93,7 @@ Rival rival_of(const Search& search, const Campaign& campaign, const Option& opt
     std::vector<double> start(option.fit.coefficients.begin(), option.fit.coefficients.end());
     effects::set_fitted(effect, start);
   } else if (effects::amplitudes_of(effect) == 1 && !effect.form->categorical)
-    effect.parameters[0] = std::clamp(option.fit.coefficients(0), -0.5, 0.5);
+    effect.parameters[0] = clamped_start(option.fit.coefficients(0));
   effects.push_back(std::move(effect));
   causes.push_back(option.cause);
   return fit_rival(campaign, search.last(), std::move(effects), std::move(causes), noise,
@@ -111,7 +116,7 @@ double sureness(const Rival& first, const Rival& other) {
   const VectorXd difference = first.log_likelihood - other.log_likelihood;
   const auto n = static_cast<double>(difference.size());
   const double scatter = (difference.array() - difference.mean()).matrix().norm();
-  return difference.sum() / std::max(scatter * std::sqrt(n / (n - 1)), 1e-300);
+  return difference.sum() / std::max(scatter * std::sqrt(n / (n - 1)), tuning::smallest_divisor);
 }
 
 // Keeps the first option and those that the selected tests cannot distinguish from it. An option
@@ -263,8 +268,7 @@ private:
       Start start{shapes[i].effect, along * along / size};
       start.effect.acts_on = sites[site];
       start.effect.tau_scale_MPa = s_.tau_scale_MPa();
-      if (!start.effect.form->categorical)
-        start.effect.parameters[0] = std::clamp(along / size, -0.5, 0.5);
+      if (!start.effect.form->categorical) start.effect.parameters[0] = clamped_start(along / size);
       const auto [at, is_new] = best.try_emplace(start.effect.form, start);
       if (!is_new && start.explained > at->second.explained) at->second = start;
     }

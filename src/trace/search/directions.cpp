@@ -104,7 +104,8 @@ Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, dou
   all[on_mu] = change(effects::ActsOn::mu);
   if (effects::has_limit(campaign.law, campaign.conventions)) {
     all[1] = change(effects::ActsOn::m);
-    if (all[1].squaredNorm() < 1e-6 * all[0].squaredNorm()) all[1].resize(0);
+    if (all[1].squaredNorm() < tuning::felt_share_of_squares * all[0].squaredNorm())
+      all[1].resize(0);
   }
   if (effects::has_own_limit(campaign.law, campaign.conventions))
     all[on_both] = change(effects::ActsOn::mu_m);

@@ -26,7 +26,8 @@ class Campaigner {
 public:
   explicit Campaigner(const Search& search)
       : s_(search), modes_(search.blocks()), maker_(search.candidates()),
-        floor_(search.last().predicted.cwiseMax(1e-3 * search.tau_scale_MPa())) {}
+        floor_(search.last().predicted.cwiseMax(tuning::smallest_share_of_tau *
+                                                search.tau_scale_MPa())) {}
 
   JointResult find() {
     const JointData data = offered_data();
@@ -219,7 +220,8 @@ private:
     MatrixXd waves = order_functions(s_.candidates().order, tuning::walk_waves);
     for (Index k = 0; k < waves.cols(); ++k)
       waves.col(k) *= std::sqrt(static_cast<double>(waves.rows())) /
-                      std::max(waves.col(k).norm(), 1e-300) / static_cast<double>(k + 1);
+                      std::max(waves.col(k).norm(), tuning::smallest_divisor) /
+                      static_cast<double>(k + 1);
     MatrixXd per_block(static_cast<Index>(s_.blocks().count()), 0);
     for (const auto& [site, changes] : sites_)
       stats::append_columns(per_block, functions_on_blocks(waves, changes, s_.first()));
@@ -249,8 +251,8 @@ private:
       if (directions->cols() > 0)
         stats::append_columns(law, floor_.cwiseInverse().asDiagonal() * *directions);
     for (Index i = 1; i < law.cols(); ++i)
-      law.col(i) /=
-          std::max(law.col(i).norm() / std::sqrt(static_cast<double>(law.rows())), 1e-300);
+      law.col(i) /= std::max(law.col(i).norm() / std::sqrt(static_cast<double>(law.rows())),
+                             tuning::smallest_divisor);
     data.law = law.cols();
     for (JointTerm& term : terms_)
       term.first += data.law;

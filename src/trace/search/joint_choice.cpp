@@ -99,7 +99,10 @@ private:
     Errors errors(static_cast<Index>(modes_.tests()), 2);
     parallel_for(small_.size(), [&](std::size_t f) {
       const JointModel& part = *small_[f];
-      add_errors(found_, out_[f], part.fit(terms, sizes, variance_, part.of_data(), 4), errors);
+      add_errors(
+          found_, out_[f],
+          part.fit(terms, sizes, variance_, part.of_data(), tuning::noise_rounds_from_nothing),
+          errors);
     });
     return errors;
   }
@@ -127,7 +130,7 @@ private:
         their.erase(their.begin() + at);
         without[i] = held(others, their);
         const VectorXd gain = with.col(1) - without[i].col(1);
-        worth[i] = gain.mean() / (std_error(gain) + 1e-12);
+        worth[i] = gain.mean() / (std_error(gain) + tuning::smallest_score_error);
       }
       if (choice.kept.size() < 2) break;
       std::size_t least = 0;

@@ -35,7 +35,7 @@ VectorXd spread_of(const JointTerm& term, TermSize size) {
 // Cholesky factor of I + D C D, where D holds the spreads and C the normal matrix.
 Eigen::LLT<MatrixXd> information_of(const MatrixXd& normal, const VectorXd& spread) {
   MatrixXd information = spread.asDiagonal() * normal * spread.asDiagonal();
-  const double slack = 1e-9 * information.cwiseAbs().maxCoeff();
+  const double slack = tuning::information_slack * information.cwiseAbs().maxCoeff();
   information.diagonal().array() += 1 + slack;
   return information.llt();
 }
@@ -214,7 +214,7 @@ JointFit JointModel::solve(const std::vector<std::size_t>& terms,
   double log_sizes = 0;
   for (Index i = 0; i < coefficients; ++i)
     if (i < data_.law) {
-      penalty(i) = tuning::law_ridge * normal(i, i) + 1e-10;
+      penalty(i) = tuning::law_ridge * normal(i, i) + tuning::smallest_law_ridge;
     } else {
       const double sd = spread[static_cast<std::size_t>(i - data_.law)];
       penalty(i) = 1 / (sd * sd);
@@ -235,7 +235,7 @@ JointFit JointModel::solve(const std::vector<std::size_t>& terms,
   double likelihood = -0.5 * sum_of(weight, fit.squares) - log_sizes - log_root_det(factored);
   for (std::size_t c = 0; c < mode_classes; ++c)
     likelihood -= 0.5 * static_cast<double>(data_.first[c + 1] - data_.first[c]) *
-                  std::log(std::max(variance[c], 1e-300));
+                  std::log(std::max(variance[c], tuning::smallest_divisor));
   for (Index i = data_.law; i < coefficients; ++i)
     likelihood -= 0.5 * penalty(i) * fit.coefficients(i) * fit.coefficients(i);
   fit.log_likelihood = likelihood;
@@ -522,8 +522,12 @@ MatrixXd JointModel::ratios_of(const JointFit& fit, const MatrixXd& responses,
   for (std::size_t c = 0; c < mode_classes; ++c) {
     const Index begin = data_.first[c], rows = data_.first[c + 1] - begin;
     of_fit[c] = responses.middleRows(begin, rows).transpose() * z.middleRows(begin, rows);
-    squares.col(static_cast<Index>(c)) =
-        responses.middleRows(begin, rows).colwise().squaredNorm().transpose().array().max(1e-300);
+    squares.col(static_cast<Index>(c)) = responses.middleRows(begin, rows)
+                                             .colwise()
+                                             .squaredNorm()
+                                             .transpose()
+                                             .array()
+                                             .max(tuning::smallest_divisor);
   }
   MatrixXd best(responses.cols(), static_cast<Index>(terms.size()));
   parallel_for(terms.size(), [&](std::size_t i) {

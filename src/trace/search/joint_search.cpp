@@ -27,7 +27,7 @@ constexpr std::uint64_t joint_stream = 0x6a6f696e74; // "joint"
 
 Rarity rarity_of(VectorXd values) {
   const auto n = static_cast<double>(values.size());
-  const Index count = std::max<Index>(values.size() / 10, 1);
+  const Index count = std::max<Index>(values.size() / tuning::flips_per_tail_value, 1);
   std::nth_element(values.begin(), values.end() - count, values.end());
   Rarity rarity;
   rarity.from = std::max(values(values.size() - count), 0.0);
@@ -48,7 +48,7 @@ Rarity rarity_of(VectorXd values) {
 // the values.
 double gumbel_quantile(const VectorXd& values, double level) {
   const double mean = values.mean(), sd = std::sqrt((values.array() - mean).square().mean());
-  return mean - sd * std::sqrt(6.0) / std::numbers::pi *
+  return mean - sd * std::sqrt(6) / std::numbers::pi *
                     (std::numbers::egamma + std::log(-std::log1p(-level)));
 }
 
@@ -78,7 +78,10 @@ public:
   Walker(const JointModel& model, const JointOffer& offer, const std::vector<std::size_t>& out)
       : m_(model), o_(offer), out_(out) {}
 
-  JointFit start() const { return with_walk(m_.fit({}, {}, {}, m_.of_data(), 4), m_.of_data()); }
+  JointFit start() const {
+    return with_walk(m_.fit({}, {}, {}, m_.of_data(), tuning::noise_rounds_from_nothing),
+                     m_.of_data());
+  }
 
   // Number of terms in the fit, without the walk.
   std::size_t count(const JointFit& fit) const {
@@ -161,7 +164,10 @@ public:
     in.insert(in.end(), path.terms.begin(), path.terms.begin() + static_cast<long>(terms));
     sizes.insert(sizes.end(), path.sizes.begin(), path.sizes.begin() + static_cast<long>(terms));
     const Moments& moments = m_.of_data();
-    return with_walk(m_.tuned(m_.fit(in, sizes, from.variance, moments, 3), moments), moments);
+    return with_walk(
+        m_.tuned(m_.fit(in, sizes, from.variance, moments, tuning::noise_rounds_with_new_terms),
+                 moments),
+        moments);
   }
 
 private:
@@ -192,14 +198,16 @@ double p_by_hc3(const VectorXd& y, const MatrixXd& columns) {
   VectorXd own = columns.rightCols(1);
   own -= q * (q.transpose() * own).eval();
   const auto free = static_cast<double>(y.size() - q.cols() - 1);
-  if (free < 2 || own.norm() < 1e-9) return 0; // no test is possible
+  if (free < 2 || own.norm() < tuning::collinear_norm) return 0; // no test is possible
   own.normalize();
   const VectorXd left = y - q * (q.transpose() * y);
   const double along = own.dot(left);
   const Eigen::ArrayXd leverage = q.rowwise().squaredNorm() + own.cwiseAbs2();
-  const Eigen::ArrayXd error = (left - along * own).array() / (1 - leverage).max(0.02);
+  const Eigen::ArrayXd error =
+      (left - along * own).array() / (1 - leverage).max(tuning::smallest_leverage_left);
   const double variance = (own.array() * error).square().sum();
-  return 2 * gsl_cdf_tdist_Q(std::abs(along) / std::sqrt(variance + 1e-300), free);
+  return 2 *
+         gsl_cdf_tdist_Q(std::abs(along) / std::sqrt(variance + tuning::smallest_divisor), free);
 }
 
 // Weights of the modes from unweighted residuals of a fit.
@@ -296,7 +304,8 @@ private:
       const double size = residual.segment(begin, rows).norm();
       for (Index f = 0; f < flips.cols(); ++f)
         flips.col(f).segment(begin, rows) *=
-            size / std::max(flips.col(f).segment(begin, rows).norm(), 1e-15);
+            size /
+            std::max(flips.col(f).segment(begin, rows).norm(), tuning::smallest_norm_of_flip);
     }
     return flips;
   }
@@ -498,7 +507,7 @@ private:
         footing.of_term[term].value_at(footing.of_cause[o_.cause[term]].value_at(rarity));
     const double free = freedom_of(fit, term);
     double z = 1;
-    for (int i = 0; i < 50; ++i)
+    for (int i = 0; i < tuning::threshold_iterations; ++i)
       z = std::sqrt(free * std::expm1((1 + 2 * ratio + 2 * std::log(z)) / free));
     return z;
   }

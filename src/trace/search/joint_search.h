@@ -37,6 +37,7 @@
 #include <optional>
 #include <vector>
 
+#include "trace/options.h"
 #include "trace/search/joint_model.h"
 #include "trace/tuning.h"
 
@@ -54,7 +55,7 @@ struct JointOffer {
 };
 
 struct JointSettings {
-  double alpha = 0.02; // family-wise, of all rounds
+  double alpha = TraceOptions{}.alpha; // family-wise, of all rounds
   std::size_t flips = tuning::fewest_flips, look_ahead = tuning::look_ahead_flips;
   std::uint64_t seed = 1;
   std::vector<std::size_t> units; // per test: tests of one unit change sign together

@@ -39,7 +39,7 @@ double size_of_structure(const Search& search, const MatrixXd& functions) {
   weights.apply(columns);
   weights.apply(residual);
   MatrixXd normal = columns.transpose() * columns;
-  normal.diagonal().array() += 1.0; // weak penalty: a coefficient of 100 % is far out of reach
+  normal.diagonal().array() += 1; // weak penalty: a coefficient of 100 % is far out of reach
   const VectorXd explained = functions * normal.ldlt().solve(columns.transpose() * residual.col(0));
   return explained.norm() / std::sqrt(static_cast<double>(explained.size()));
 }
@@ -106,7 +106,7 @@ bool drifts(const VectorXd& x) {
   const auto n = static_cast<double>(x.size());
   const double squares = (x.array() - x.mean()).square().sum();
   const double steps = (x.tail(x.size() - 1) - x.head(x.size() - 1)).squaredNorm();
-  return squares > 0 && steps / squares < 2 - 2.33 * 2 / std::sqrt(n);
+  return squares > 0 && steps / squares < 2 - tuning::drift_std_errors * 2 / std::sqrt(n);
 }
 
 // Site where the order has the strongest structure.

@@ -90,10 +90,12 @@ FactorRange factor_range(const effects::PlacedEffect& effect, const CandidateCol
 // cancel there, and humps between those values. Both are penalised.
 double implausibility(const effects::PlacedEffect& effect, const CandidateColumn& column) {
   const FactorRange range = factor_range(effect, column);
-  if (!std::isfinite(range.largest)) return 1e6;
+  if (!std::isfinite(range.largest)) return tuning::infinite_factor_cost;
   const double tested = range.tested_high - range.tested_low;
-  const double beyond = (range.high - range.low - tested) / std::max(tested, 1e-6);
-  return 2 * range.largest * range.largest + 8 * std::clamp(beyond - 0.3, 0.0, 10.0);
+  const double beyond =
+      (range.high - range.low - tested) / std::max(tested, tuning::smallest_tested_range);
+  return tuning::large_change_cost * range.largest * range.largest +
+         tuning::hump_cost * std::clamp(beyond - tuning::tolerated_hump, 0.0, tuning::largest_hump);
 }
 
 } // namespace frictab::trace

@@ -113,7 +113,7 @@ double freedom_of(const Rival& rival, const stats::Whitener& whitener) {
   whitener.apply(jacobian);
   const MatrixXd normal = jacobian.transpose() * jacobian;
   MatrixXd with = normal + penalty;
-  with.diagonal().array() += 1e-12 * with.diagonal().maxCoeff();
+  with.diagonal().array() += tuning::freedom_ridge * with.diagonal().maxCoeff();
   return with.ldlt().solve(normal).trace();
 }
 
@@ -182,10 +182,12 @@ FitEnd end_of_fit(const Campaign& campaign, NoiseSearch search) {
   // With many tests the cost is so large that a millionth of it is far less than a unit of log
   // likelihood, by which rivals are chosen.
   if (campaign.selection)
-    return chooses ? FitEnd{campaign.quick ? 1e-5 : 1e-6, tuning::most_steps_from_selected}
-                   : FitEnd{1e-8};
-  if (campaign.quick || campaign.of_selected) return {1e-5};
-  return {search == NoiseSearch::kept ? 1e-8 : 1e-11};
+    return chooses
+               ? FitEnd{campaign.quick ? tuning::coarse_fit_end : tuning::fit_end_with_many_tests,
+                        tuning::most_steps_from_selected}
+               : FitEnd{tuning::fit_end_of_choice};
+  if (campaign.quick || campaign.of_selected) return {tuning::coarse_fit_end};
+  return search == NoiseSearch::kept ? FitEnd{tuning::fit_end_of_choice} : FitEnd{};
 }
 
 // Fits to the blocks of this campaign. `from_selection`: the start is the end of a fit to selected
@@ -220,8 +222,8 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
   // First with the limit rounded off, otherwise rows below it have no influence on it.
   if (!from_selection && on_limit(rival.effects)) {
     const double usual = campaign.measured.cwiseAbs().mean();
-    for (const double width : {0.15 * usual, 0.05 * usual})
-      refit(LawOnBlocks(extended, campaign.conventions, columns, width));
+    for (const double width : tuning::rounding_widths_of_limit)
+      refit(LawOnBlocks(extended, campaign.conventions, columns, width * usual));
   }
   refit(law);
   for (const bool first : {true, false}) {
@@ -370,7 +372,9 @@ std::vector<bool> indistinguishable_rivals(const std::vector<Rival>& rivals, std
     const VectorXd drawn = times * difference;
     const auto better = static_cast<double>((drawn.array() > 0).count());
     const double lead = 0.5 * (rival.criterion - rivals.front().criterion);
-    same.push_back(better < 0.95 * static_cast<double>(tuning::rival_resamples) || lead < 2);
+    same.push_back(better <
+                       tuning::confidence_of_bound * static_cast<double>(tuning::rival_resamples) ||
+                   lead < tuning::clear_lead_of_criterion);
   }
   return same;
 }

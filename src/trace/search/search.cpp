@@ -31,7 +31,8 @@ MatrixXd trained_directions(const std::vector<std::string>& inputs, const BlockC
   std::vector<VectorXd> z;
   for (const std::string& name : inputs) {
     VectorXd u = columns.at(name);
-    if (u.minCoeff() > 0 && u.maxCoeff() > 5 * u.minCoeff()) u = u.array().log().matrix();
+    if (u.minCoeff() > 0 && u.maxCoeff() > tuning::ratio_for_log_of_trained * u.minCoeff())
+      u = u.array().log().matrix();
     u.array() -= u.mean();
     const double size = u.norm() / std::sqrt(static_cast<double>(u.size()));
     if (size > 0) z.push_back(u / size);
