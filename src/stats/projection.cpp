@@ -25,4 +25,11 @@ void append_columns(MatrixXd& to, const MatrixXd& more) {
   to.rightCols(more.cols()) = more;
 }
 
+bool standardise(Eigen::VectorXd& values) {
+  values.array() -= values.mean();
+  const double size = root_mean_square(values);
+  if (size > 0) values /= size;
+  return size > 0;
+}
+
 } // namespace frictab::stats

@@ -2,6 +2,8 @@
 // projected out of tested ones.
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
 
 namespace frictab::stats {
@@ -13,5 +15,13 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
 
 // Appends the columns of `more` to `to`.
 void append_columns(Eigen::MatrixXd& to, const Eigen::MatrixXd& more);
+
+// Root mean square over rows of the length of a row.
+template <class Columns> double root_mean_square(const Columns& columns) {
+  return columns.norm() / std::sqrt(static_cast<double>(columns.rows()));
+}
+
+// Scales to mean 0 and mean square 1; returns false, and leaves zeros, if the values do not vary.
+bool standardise(Eigen::VectorXd& values);
 
 } // namespace frictab::stats

@@ -167,7 +167,6 @@ std::vector<TracedEffect> effects_of(const Found& found, const Delivery& deliver
   const Search& search = found.search;
   const Rival& rival = delivery.rival;
   std::vector<TracedEffect> traced;
-  std::size_t parameter = search.input().fit.model.law->parameters.size();
   for (std::size_t i = 0; i < rival.effects.size(); ++i) {
     const Finding& finding = found.findings[delivery.findings[i]];
     const Cause& cause = finding.rival.causes.back();
@@ -178,6 +177,7 @@ std::vector<TracedEffect> effects_of(const Found& found, const Delivery& deliver
     effect.derived = names.derived;
     effect.between = finding.between;
     effect.p_value = finding.p_value;
+    const std::size_t parameter = first_parameter(rival, i);
     effect.parameters = parameters_of(effect.placed, fit, uncertainty, parameter);
     effect.alternatives = alternatives_of(finding, search.candidates());
     effect.design = design_for(search, finding);
@@ -187,7 +187,6 @@ std::vector<TracedEffect> effects_of(const Found& found, const Delivery& deliver
     effect.gain_MPa = delivery.gain_MPa[i];
     effect.curve = effect_curve(search.campaign(), rival, search.sensitivities(), i, parameter,
                                 uncertainty.covariance);
-    parameter += effects::fitted_parameters(effect.placed).size();
   }
   return traced;
 }

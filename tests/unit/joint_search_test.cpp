@@ -264,9 +264,8 @@ TEST(JointModel, LikelihoodIsTheRestrictedOneOfTheMixedModel) {
   const trace::JointData data = c.data();
   const trace::JointModel model(data);
   const trace::ByClass variance = {0.0025, 1, 1, 1};
-  const auto likelihood = [&](const std::vector<std::size_t>& terms,
-                              const std::vector<trace::TermSize>& sizes) {
-    return model.solve(terms, sizes, variance, model.of_data()).log_likelihood;
+  const auto likelihood = [&](const std::vector<trace::SizedTerm>& terms) {
+    return model.solve(terms, variance, model.of_data()).log_likelihood;
   };
   const auto columns = [&](std::size_t term, trace::TermSize size) {
     const trace::JointTerm& t = data.terms[term];
@@ -277,12 +276,12 @@ TEST(JointModel, LikelihoodIsTheRestrictedOneOfTheMixedModel) {
   };
   const double none = dense_likelihood(data, MatrixXd(30, 0), 0.0025);
   for (const trace::TermSize size : {trace::TermSize{0.1, 0}, {0, 0.03}, {0.2, 0.1}})
-    EXPECT_NEAR(likelihood({0}, {size}) - likelihood({}, {}),
+    EXPECT_NEAR(likelihood({{0, size}}) - likelihood({}),
                 dense_likelihood(data, columns(0, size), 0.0025) - none, 1e-5);
   MatrixXd both = columns(0, {0.1, 0.02});
   both.conservativeResize(Eigen::NoChange, both.cols() + 3);
   both.rightCols(3) = columns(1, {0.05, 0});
-  EXPECT_NEAR(likelihood({0, 1}, {{0.1, 0.02}, {0.05, 0}}) - likelihood({}, {}),
+  EXPECT_NEAR(likelihood({{0, {0.1, 0.02}}, {1, {0.05, 0}}}) - likelihood({}),
               dense_likelihood(data, both, 0.0025) - none, 1e-5);
 }
 
@@ -290,9 +289,9 @@ TEST(JointModel, RatiosOfManyResponsesAreThoseOfEach) {
   Campaign c(30, 0.05, 8);
   c.add_bystanders(4, 2);
   const trace::JointModel model(c.data());
-  const trace::JointFit fit = model.fit({}, {}, {}, model.of_data(), 3);
+  const trace::JointFit fit = model.fit({}, {}, model.of_data(), 3);
   const std::vector<std::size_t> terms = {0, 1, 2, 3, 4, 5};
-  const MatrixXd together = model.ratios_of(fit, model.residual(fit), terms);
+  const MatrixXd together = model.ratios_of(fit, model.data().residual(fit), terms);
   const auto each = model.ratios(fit, model.of_data(), terms);
   for (std::size_t t = 0; t < terms.size(); ++t)
     EXPECT_NEAR(together(0, static_cast<Index>(t)), each[t].value, 1e-7);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "data/quantity.h"
+#include "trace/columns/candidates.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
@@ -23,24 +24,6 @@ bool is_state(const std::string& name) {
 
 bool is_temperature(const std::string& name) {
   return name == "T_tool_C" || name == "T_contact_C";
-}
-
-std::vector<double> test_means(const Dataset& data, const Column& column) {
-  std::vector<double> means;
-  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-    double sum = 0;
-    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
-      sum += data.row_weight(i) * column.values[i];
-    means.push_back(sum / static_cast<double>(data.source_rows(e)));
-  }
-  return means;
-}
-
-bool is_constant_in_tests(const Dataset& data, const Column& column) {
-  for (std::size_t e = 0; e < data.experiments.size(); ++e)
-    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
-      if (column.values[i] != column.values[data.first_row[e]]) return false;
-  return true;
 }
 
 // Adds the value rounded to three digits, because nobody sets a rig more finely.
@@ -123,7 +106,7 @@ private:
     std::vector<double> away(data_.experiments.size(), 0);
     for (const Column& column : data_.columns) {
       if (!column.levels.empty()) continue;
-      const std::vector<double> means = test_means(data_, column);
+      const std::vector<double> means = test_means(data_, column.values);
       std::vector<double> sorted = means;
       std::sort(sorted.begin(), sorted.end());
       const double width = sorted.back() - sorted.front(), median = sorted[sorted.size() / 2];
@@ -226,11 +209,11 @@ std::vector<Setting> settings_of(const Dataset& data, const std::vector<std::str
       for (std::size_t level = 0; level < column->levels.size(); ++level)
         setting.values.push_back(static_cast<double>(level));
     } else {
-      if (!is_state(name) && !is_constant_in_tests(data, *column)) return;
-      const Range run = range_of(test_means(data, *column));
+      if (!is_state(name) && varies_within(column->values, data)) return;
+      const Range run = range_of(test_means(data, column->values));
       if (!(run.width() > tuning::varied_share_of_mean * std::abs(run.low + run.high) / 2)) return;
       const Range range = run.widened();
-      if (const auto levels = levels_of(test_means(data, *column)); !levels.empty()) {
+      if (const auto levels = levels_of(test_means(data, column->values)); !levels.empty()) {
         for (const double value : {levels.front(), levels[levels.size() / 2], levels.back()})
           if (setting.values.empty() || value != setting.values.back()) add_value(setting, value);
       } else

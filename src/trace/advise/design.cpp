@@ -60,14 +60,11 @@ private:
     return effects::fitted_parameters(rival.effects.back()).size();
   }
 
-  std::size_t last_begin(const Rival& rival) const {
-    std::size_t begin = search_.input().fit.model.law->parameters.size();
-    for (std::size_t i = 0; i + 1 < rival.effects.size(); ++i)
-      begin += effects::fitted_parameters(rival.effects[i]).size();
-    return begin;
+  static std::size_t last_begin(const Rival& rival) {
+    return first_parameter(rival, rival.effects.size() - 1);
   }
 
-  bool is_of_last(const Rival& rival, std::size_t p) const {
+  static bool is_of_last(const Rival& rival, std::size_t p) {
     const std::size_t begin = last_begin(rival);
     return p >= begin && p < begin + last_count(rival);
   }
@@ -167,17 +164,13 @@ private:
     for (Index p = 0; p < shared; ++p)
       scale(p) = scale(p) > 0 ? 1 / std::sqrt(scale(p)) : 1;
     scale.tail(scale.size() - shared).setOnes();
-    for (MatrixXd* m : all())
-      *m = (scale.asDiagonal() * *m * scale.asDiagonal()).eval();
+    const auto scaled = [&](const MatrixXd& m) -> MatrixXd {
+      return scale.asDiagonal() * m * scale.asDiagonal();
+    };
+    known_ = scaled(known_);
+    std::transform(each_.begin(), each_.end(), each_.begin(), scaled);
     for (Index p = 0; p < shared; ++p)
       known_(p, p) += tuning::information_ridge;
-  }
-
-  std::vector<MatrixXd*> all() {
-    std::vector<MatrixXd*> matrices{&known_};
-    for (MatrixXd& m : each_)
-      matrices.push_back(&m);
-    return matrices;
   }
 
   MatrixXd information(const std::vector<std::size_t>& tests) const {
@@ -290,16 +283,13 @@ private:
   std::vector<MatrixXd> each_; // information of every candidate test
 };
 
-} // namespace
-
-Design design_tests(const Search& search, const std::vector<const Rival*>& rivals,
-                    double threshold) {
-  std::vector<const Rival*> some = rivals;
-  if (some.size() > tuning::most_rivals_in_plan) some.resize(tuning::most_rivals_in_plan);
-  return Designer(search, some, threshold).run();
+// `rivals`: laws with one effect each, placed after the effects that they share. With several, the
+// tests are to distinguish the first from each of the others (5 %, two-sided); with one, to show
+// that its effect exists: its amplitude exceeds `threshold` standard errors.
+Design design_tests(const Search& search, std::vector<const Rival*> rivals, double threshold) {
+  if (rivals.size() > tuning::most_rivals_in_plan) rivals.resize(tuning::most_rivals_in_plan);
+  return Designer(search, rivals, threshold).run();
 }
-
-namespace {
 
 // Whether a cause has all columns of another, which is then its special case, so that no test can
 // decide for the smaller and against the larger.
@@ -323,12 +313,8 @@ Design design_for(const Search& search, const Finding& finding) {
 Design design_for_lead(const Search& search, const effects::PlacedEffect& effect,
                        const Cause& cause, double threshold) {
   const Rival& last = search.last();
-  std::vector<effects::PlacedEffect> effects = last.effects;
-  std::vector<Cause> causes = last.causes;
-  effects.push_back(effect);
-  causes.push_back(cause);
   const Rival with =
-      fit_rival(search.campaign(), last, effects, causes, last.noise, NoiseSearch::kept);
+      with_effect(search.campaign(), last, effect, cause, last.noise, NoiseSearch::kept);
   Design design = design_tests(search, {&with}, threshold);
   const double short_of =
       tests_for(search.input().options.alpha) - static_cast<double>(search.blocks().experiments());

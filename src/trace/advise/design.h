@@ -1,4 +1,13 @@
 // Design of the tests to run next, which would settle a question that a campaign leaves open.
+//
+// Three to six tests are chosen by D-optimality (Atkinson, Donev, Tobias 2007) among those that the
+// rig can run (candidate_tests.h); a test may be repeated. They maximise
+//   det of the information about the rivals' amplitudes, all other parameters free.
+// An amplitude is 1 if the effect is as fitted and 0 if it does not exist. The information of a
+// test is D' V^-1 D, where D holds the derivatives of tau_R by each parameter along the test and V
+// is the noise model's covariance (noise.h): tests count by how far they differ, rows by their
+// information. The number of tests is the least that gives a probability of 80 %, at most six. No
+// tests are returned where no setting of the rig makes a difference.
 #pragma once
 
 #include <optional>
@@ -7,21 +16,6 @@
 #include "trace/search/search.h"
 
 namespace frictab::trace {
-
-// Chooses three to six tests by D-optimality (Atkinson, Donev, Tobias 2007) among those that the
-// rig can run (candidate_tests.h); a test may be repeated. They maximise
-//   det of the information about the rivals' amplitudes, all other parameters free.
-// An amplitude is 1 if the effect is as fitted and 0 if it does not exist. The information of a
-// test is D' V^-1 D, where D holds the derivatives of tau_R by each parameter along the test and V
-// is the noise model's covariance (noise.h): tests count by how far they differ, rows by their
-// information. The number of tests is the least that gives a probability of 80 %, at most six.
-//
-// `rivals`: laws with one effect each, placed after the effects that they share. With several, the
-// tests are to distinguish the first from each of the others (5 %, two-sided); with one, to show
-// that its effect exists: its amplitude exceeds `threshold` standard errors. Returns no tests where
-// no setting of the rig makes a difference.
-Design design_tests(const Search& search, const std::vector<const Rival*>& rivals,
-                    double threshold);
 
 // Designs tests that distinguish a finding from the causes in its set; none where the set has no
 // other cause.

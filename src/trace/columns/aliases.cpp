@@ -11,6 +11,7 @@
 #include "data/options.h"
 #include "data/quantity.h"
 #include "data/roles.h"
+#include "trace/columns/candidates.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
@@ -56,16 +57,7 @@ std::vector<State> states_of(const Dataset& data, const models::Model& model) {
   for (const std::string& name : models::inputs(*model.law, unlimited)) {
     const data::Quantity* quantity = data::find_quantity(name);
     if (!quantity || !quantity->state || name == "s_mm" || !data.has(name)) continue;
-    State state{name, {}, {}};
-    const auto values = data.values(name);
-    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-      double sum = 0, rows = 0;
-      for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
-        sum += data.row_weight(i) * values[i];
-        rows += data.row_weight(i);
-      }
-      state.means.push_back(sum / rows);
-    }
+    State state{name, test_means(data, data.values(name)), {}};
     const bool log =
         quantity->log_axis && *std::min_element(state.means.begin(), state.means.end()) > 0;
     for (const double mean : state.means)

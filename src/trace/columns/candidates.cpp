@@ -22,6 +22,7 @@
 #include "data/options.h"
 #include "data/quantity.h"
 #include "data/roles.h"
+#include "stats/projection.h"
 #include "trace/columns/test_dates.h"
 #include "trace/tuning.h"
 
@@ -49,13 +50,6 @@ bool has_two_values(Rows values) {
 std::size_t count_empty(Rows values) {
   return static_cast<std::size_t>(
       std::count_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }));
-}
-
-bool varies_within(Rows values, const Dataset& data) {
-  for (std::size_t e = 0; e < data.experiments.size(); ++e)
-    if (!is_constant(values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])))
-      return true;
-  return false;
 }
 
 // Squared correlation; 0 if a column does not vary.
@@ -308,11 +302,8 @@ private:
     return true;
   }
 
-  // Whether the column is the declared tool wear, which may follow the order of tests.
-  bool declared_wear(const std::string& name) const {
-    return !options_.tool_distance.empty() &&
-           (name == options_.tool_distance ||
-            (name == "test_order" && options_.tool_distance == found_.order_column));
+  bool is_order(const std::string& name) const {
+    return name == "test_order" || name == found_.order_column;
   }
 
   void add_column(const std::string& name, std::vector<std::string> recorded, bool derived,
@@ -330,9 +321,12 @@ private:
     column.reach = usual_reach(values, training_);
     column.gap = widest_gap(column.tested);
     column.is_reading = !derived && is_reading(name);
-    const bool orders = name == "test_order" || name == found_.order_column;
+    column.is_order = is_order(name);
+    const std::string& wear = options_.tool_distance;
+    column.is_wear =
+        !wear.empty() && (name == wear || (name == "test_order" && wear == found_.order_column));
     const bool course = column.within && (name == "time_s" || name == "s_mm");
-    column.between = orders ? declared_wear(name) : !derived && !course;
+    column.between = column.is_order ? column.is_wear : !derived && !course;
     column.in_law =
         std::find(inputs_.begin(), inputs_.end(), effects::symbol_of(name)) != inputs_.end();
     found_.by_symbol[effects::symbol_of(name)] = column.values;
@@ -384,6 +378,7 @@ private:
       text.values(static_cast<Index>(b)) = column.values[blocks_.first_row[b]];
     text.within = varies_within(column.values, training_);
     text.between = !text.within;
+    text.is_order = is_order(column.name);
     found_.by_symbol[effects::symbol_of(column.name)] = text.values;
     const double at = standing(text.values, golden_);
     keep(std::move(text), at);
@@ -436,6 +431,24 @@ bool may_act_with_others(const CandidateColumn& column) {
 
 } // namespace
 
+bool varies_within(Rows values, const Dataset& data) {
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    if (!is_constant(values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])))
+      return true;
+  return false;
+}
+
+std::vector<double> test_means(const Dataset& data, Rows values) {
+  std::vector<double> means;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    double sum = 0;
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
+      sum += data.row_weight(i) * values[i];
+    means.push_back(sum / static_cast<double>(data.source_rows(e)));
+  }
+  return means;
+}
+
 std::size_t values_of_tests(const Column& column, const Dataset& data) {
   std::set<double> values;
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
@@ -470,16 +483,6 @@ Candidates find_candidates(const Dataset& training, const Dataset& validation,
   return found;
 }
 
-Cause joined_cause(const Cause& cause, std::size_t column, const Candidates& candidates) {
-  Cause all = cause;
-  all.columns.push_back(column);
-  const auto is_text = [&](std::size_t c) { return !candidates.columns[c].levels.empty(); };
-  std::sort(all.columns.begin(), all.columns.end(), [&](std::size_t a, std::size_t b) {
-    return is_text(a) != is_text(b) ? is_text(a) : a < b;
-  });
-  return all;
-}
-
 namespace {
 
 // Whether two columns are nearly collinear: they are one quantity, and their product is a parabola.
@@ -488,32 +491,25 @@ bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
          likeness(a.values, b.values) > tuning::near_collinear_r2;
 }
 
-} // namespace
-
-bool may_act_together(const Cause& cause, const Candidates& candidates) {
-  std::size_t text = 0;
-  for (const std::size_t c : cause.columns) {
-    if (!may_act_with_others(candidates.columns[c])) return false;
-    text += !candidates.columns[c].levels.empty();
-    for (const std::size_t other : cause.columns)
-      if (other < c && run_alike(candidates.columns[other], candidates.columns[c])) return false;
-  }
-  return text <= 1;
+// Whether the columns act together as something other than one of them alone.
+bool may_act_together(const CandidateColumn& a, const CandidateColumn& b) {
+  return may_act_with_others(a) && may_act_with_others(b) &&
+         (a.levels.empty() || b.levels.empty()) && !run_alike(a, b);
 }
+
+} // namespace
 
 std::vector<Cause> all_causes(const Candidates& candidates) {
   std::vector<Cause> all;
   const auto& columns = candidates.columns;
   for (std::size_t c = 0; c < columns.size(); ++c)
     all.push_back({{c}});
-  const auto add = [&](const Cause& cause, std::size_t column) {
-    Cause more = joined_cause(cause, column, candidates);
-    if (may_act_together(more, candidates)) all.push_back(std::move(more));
-  };
   const bool every_pair = pairs_every_column(candidates);
   for (std::size_t a = 0; a < columns.size(); ++a)
     for (std::size_t b = a + 1; b < columns.size(); ++b)
-      if (every_pair || columns[a].in_law || columns[b].in_law) add({{a}}, b);
+      if ((every_pair || columns[a].in_law || columns[b].in_law) &&
+          may_act_together(columns[a], columns[b]))
+        all.push_back({columns[b].levels.empty() ? std::vector{a, b} : std::vector{b, a}});
   return all;
 }
 
@@ -528,11 +524,7 @@ Eigen::MatrixXd state_means(const Candidates& candidates, const stats::Blocks& b
   for (const CandidateColumn& column : candidates.columns) {
     if (!is_state(column) || column.name == "sigma_f_MPa") continue; // which follows from others
     Eigen::VectorXd x = blocks.experiment_means(column.values).col(0);
-    x.array() -= x.mean();
-    const double sd = x.norm() / std::sqrt(static_cast<double>(x.size()));
-    if (!(sd > 0)) continue;
-    all.conservativeResize(Eigen::NoChange, all.cols() + 1);
-    all.rightCols(1) = x / sd;
+    if (stats::standardise(x)) stats::append_columns(all, x);
   }
   return all;
 }

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,9 @@ struct CandidateColumn {
   // A recorded number, not declared as a setting, with a value of its own in most tests: it may be
   // a measured result of the test.
   bool is_reading = false;
-  bool between = false; // may differ between tests: not a history, time or distance
+  bool between = false;  // may differ between tests: not a history, time or distance
+  bool is_order = false; // the order of tests itself
+  bool is_wear = false;  // declared by the user as the tool's wear, which may follow the order
 };
 
 inline constexpr const char* not_searched = ": not searched";
@@ -61,6 +64,11 @@ Candidates find_candidates(const data::Dataset& training, const data::Dataset& v
 // order.
 std::size_t values_of_tests(const data::Column& column, const data::Dataset& data);
 
+// Means over the rows of each test, in which a condensed row counts as those it stands for.
+std::vector<double> test_means(const data::Dataset& data, std::span<const double> values);
+// Whether any test has different values.
+bool varies_within(std::span<const double> values, const data::Dataset& data);
+
 // Whether a column is a state that a rig sets and a law may depend on: not time or distance.
 bool is_state(const CandidateColumn& column);
 // Returns the test means of the states that differ between tests, each scaled to mean 0 and
@@ -76,12 +84,9 @@ struct Cause {
   bool is_joint() const { return columns.size() > 1; }
   auto operator<=>(const Cause&) const = default;
 };
-Cause joined_cause(const Cause& cause, std::size_t column, const Candidates& candidates);
 
 // Lists all single columns, then pairs of different ones.
 std::vector<Cause> all_causes(const Candidates& candidates);
-// Whether the columns act together as something other than one of them alone.
-bool may_act_together(const Cause& cause, const Candidates& candidates);
 
 // Finds the same cause in a campaign that may number its columns differently; none if a column is
 // missing there.

@@ -257,6 +257,9 @@ MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns
   return basis;
 }
 
+namespace {
+
+// Whether the form makes sense for the cause: logarithms need positive values, ...
 bool form_fits(const effects::EffectForm& form, const Cause& cause, const Candidates& candidates) {
   const auto columns = columns_of(form, cause, candidates);
   if (form.columns != columns.size() || form.categorical == columns[0]->levels.empty())
@@ -266,8 +269,6 @@ bool form_fits(const effects::EffectForm& form, const Cause& cause, const Candid
   return form.name == "recovery" ? is_recovery(*columns[0], *columns[1])
                                  : has_meaning(form, *columns[0]);
 }
-
-namespace {
 
 // Whether both columns vary within tests: between tests a threshold in two columns fits anything.
 bool both_move(const Cause& cause, const Candidates& candidates) {

@@ -31,8 +31,6 @@ Eigen::MatrixXd roughness_of(const effects::PlacedEffect& effect);
 effects::PlacedEffect start_effect(const effects::EffectForm& form, const Cause& cause,
                                    const Candidates& candidates, effects::ActsOn acts_on,
                                    double tau_scale_MPa);
-// Whether the form makes sense for the cause: logarithms need positive values, ...
-bool form_fits(const effects::EffectForm& form, const Cause& cause, const Candidates& candidates);
 // Limits the shape parameters of effects to what the data can determine: positions to the range;
 // widths to 1/60 to 6 times the range and, for local forms, to at least half of the widest gap
 // between tested values, because data cannot show structure inside a gap.

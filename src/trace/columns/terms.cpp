@@ -9,6 +9,8 @@
 #include <Eigen/QR>
 
 #include "effects/natural_spline.h"
+#include "stats/projection.h"
+#include "stats/resampling.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
@@ -18,13 +20,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-double quantile(const std::vector<double>& sorted, double share) {
-  const double at = share * static_cast<double>(sorted.size() - 1);
-  const auto low = static_cast<std::size_t>(at);
-  const std::size_t high = std::min(low + 1, sorted.size() - 1);
-  return sorted[low] + (at - static_cast<double>(low)) * (sorted[high] - sorted[low]);
-}
 
 std::vector<double> sorted_values(const VectorXd& x) {
   std::vector<double> all(x.begin(), x.end());
@@ -37,38 +32,33 @@ std::vector<double> sorted_values(const VectorXd& x) {
   return all;
 }
 
-void standardise(VectorXd& z) {
-  z.array() -= z.mean();
-  const double sd = z.norm() / std::sqrt(static_cast<double>(z.size()));
-  if (sd > 0) z /= sd;
-}
-
 // Scales to mean 0 and mean square 1.
 VectorXd coordinate(const VectorXd& x) {
-  const std::vector<double> values = sorted_values(x);
+  std::vector<double> values = sorted_values(x);
   const double low = values.front(), high = values.back();
   VectorXd z = x;
   if (low > 0 && high > tuning::ratio_for_log * low) {
     z = x.array().log();
   } else if (low == 0 && values.size() > tuning::values_for_log_from_zero) {
-    const double shift = quantile({values.begin() + 1, values.end()}, tuning::log_shift_quantile);
+    values.erase(values.begin());
+    const double shift = stats::quantile_of(values, tuning::log_shift_quantile);
     if (high > tuning::ratio_for_log_from_zero * shift) z = (x.array() + shift).log();
   }
-  standardise(z);
+  stats::standardise(z);
   return z;
 }
 
 // Knots half way between quantiles and equal distances: quantiles alone leave gaps where few tests
 // are.
 std::vector<double> knots_of(const VectorXd& z) {
-  const std::vector<double> values = sorted_values(z);
+  std::vector<double> values = sorted_values(z);
   if (values.size() <= tuning::most_spline_knots) return values;
   std::vector<double> knots;
   const double range = values.back() - values.front();
   for (std::size_t k = 0; k < tuning::most_spline_knots; ++k) {
     const double share =
         static_cast<double>(k) / static_cast<double>(tuning::most_spline_knots - 1);
-    const double knot = 0.5 * (quantile(values, share) + values.front() + share * range);
+    const double knot = 0.5 * (stats::quantile_of(values, share) + values.front() + share * range);
     if (knots.empty() || knot - knots.back() > tuning::knot_gap_share_of_range * range)
       knots.push_back(knot);
   }
@@ -127,8 +117,7 @@ MatrixXd bends_of(const VectorXd& z) {
   MatrixXd line(z.size(), 2);
   line << VectorXd::Ones(z.size()), z;
   bends -= line * line.colPivHouseholderQr().solve(bends).eval();
-  const double size = bends.norm() / std::sqrt(static_cast<double>(z.size()));
-  return bends / std::max(size, tuning::smallest_divisor);
+  return bends / std::max(stats::root_mean_square(bends), tuning::smallest_divisor);
 }
 
 // One column per level, minus its share.
@@ -138,17 +127,14 @@ MatrixXd factor_of(const CandidateColumn& column) {
   for (Index l = 0; l < levels; ++l)
     is.col(l) = (column.values.array() == static_cast<double>(l)).cast<double>();
   is.rowwise() -= is.colwise().mean().eval();
-  const double size = is.norm() / std::sqrt(static_cast<double>(is.rows()));
-  return is / std::max(size, tuning::smallest_divisor);
+  return is / std::max(stats::root_mean_square(is), tuning::smallest_divisor);
 }
 
 void append_products(const Eigen::Ref<const MatrixXd>& a, const Eigen::Ref<const MatrixXd>& b,
                      MatrixXd& all) {
   for (Index i = 0; i < a.cols(); ++i)
-    for (Index j = 0; j < b.cols(); ++j) {
-      all.conservativeResize(a.rows(), all.cols() + 1);
-      all.rightCols(1) = a.col(i).cwiseProduct(b.col(j));
-    }
+    for (Index j = 0; j < b.cols(); ++j)
+      stats::append_columns(all, a.col(i).cwiseProduct(b.col(j)));
 }
 
 } // namespace

@@ -31,7 +31,9 @@ public:
   explicit Deliverer(const Found& found) : f_(found), s_(found.search), in_(s_.input()) {}
 
   Delivery run() {
-    take(all_found());
+    std::vector<std::size_t> all(f_.findings.size());
+    std::iota(all.begin(), all.end(), 0);
+    take(std::move(all));
     if (d_.findings.empty() && !in_.searched.empty() && f_.order.found) judge_by_folds();
     if (!d_.findings.empty()) {
       judge_by_folds();
@@ -49,8 +51,8 @@ public:
     }
     drop_contradicted();
     compare_errors();
-    while (const std::size_t reading = too_good())
-      take_off(reading - 1, another_reading(d_.findings[reading - 1]));
+    while (const auto reading = too_good())
+      take_off(*reading, another_reading(*reading));
     if (!d_.findings.empty() && by_validation()) {
       Difference gain = against_calibrated();
       if (gain.value_MPa <= 0 && weights_ == 0) {
@@ -73,12 +75,6 @@ public:
 private:
   Rival weighted(const Rival& rival) const {
     return weights_ == 0 ? rival : with_weights(s_.campaign(), rival, rows_alike(rival.noise));
-  }
-
-  std::vector<std::size_t> all_found() const {
-    std::vector<std::size_t> all(f_.findings.size());
-    std::iota(all.begin(), all.end(), 0);
-    return all;
   }
 
   // Takes the law with these findings, under the chosen weights.
@@ -134,9 +130,7 @@ private:
       if (!(loss < 0)) return;
       d_.against[worst] = {
           fmt::format("left-out tests are predicted {:.2g} MPa better without it", -loss)};
-      std::vector<std::size_t> kept = d_.findings;
-      std::erase(kept, worst);
-      take(std::move(kept));
+      take(without(worst));
       judge_by_folds();
     }
   }
@@ -201,12 +195,12 @@ private:
         d_.gain_MPa.push_back(nested_gain(f));
       return;
     }
-    std::vector<Rival> without(d_.findings.size());
+    std::vector<Rival> fewer(d_.findings.size());
     std::vector<Difference> gains(d_.findings.size());
     std::size_t worst = d_.findings.size();
     for (std::size_t i = 0; i < d_.findings.size(); ++i) {
-      without[i] = weighted(without_effect(s_.campaign(), d_.rival, i));
-      gains[i] = gained(on_validation(d_.rival), on_validation(without[i]));
+      fewer[i] = weighted(without_effect(s_.campaign(), d_.rival, i));
+      gains[i] = gained(on_validation(d_.rival), on_validation(fewer[i]));
       const bool out =
           gains[i].interval.high < 0 ||
           (gains[i].value_MPa < 0 && d_.findings.size() > 1 && !is_parent(d_.findings[i]));
@@ -222,7 +216,7 @@ private:
             : Against{fmt::format("the validation tests are predicted {:.2g} MPa better without it",
                                   -loss.value_MPa),
                       false, true};
-    d_.rival = without[worst];
+    d_.rival = fewer[worst];
     d_.findings.erase(d_.findings.begin() + static_cast<long>(worst));
     drop_contradicted();
   }
@@ -252,16 +246,18 @@ private:
     d_.improvement = gained(with, without);
   }
 
-  // Returns the number, counted from 1, of the first effect of a column that was read rather than
-  // set, if the effects leave less of the scatter of tests than any friction law does: the column
-  // is then more likely another reading of the friction. 0: none.
-  std::size_t too_good() const {
-    if (d_.findings.empty()) return 0;
+  // Returns the first finding of a column that was read rather than set, if the effects leave less
+  // of the scatter of tests than any friction law does: the column is then more likely another
+  // reading of the friction.
+  std::optional<std::size_t> too_good() const {
     const double before = d_.before.validation.rmse_MPa, after = d_.after.validation.rmse_MPa;
-    if (!(after * after < tuning::implausible_share_left * before * before)) return 0;
-    for (std::size_t i = 0; i < d_.findings.size(); ++i)
-      if (reads_something(d_.findings[i])) return i + 1;
-    return 0;
+    const auto reading =
+        std::find_if(d_.findings.begin(), d_.findings.end(),
+                     [&](std::size_t finding) { return reads_something(finding); });
+    if (reading == d_.findings.end() ||
+        !(after * after < tuning::implausible_share_left * before * before))
+      return std::nullopt;
+    return *reading;
   }
 
   bool reads_something(std::size_t finding) const {
@@ -313,13 +309,16 @@ private:
         name)};
   }
 
-  void take_off(std::size_t place, const Against& against) {
-    const std::size_t finding = d_.findings[place];
-    d_.against[finding] = against;
+  std::vector<std::size_t> without(std::size_t finding) const {
     std::vector<std::size_t> kept = d_.findings;
-    kept.erase(kept.begin() + static_cast<long>(place));
+    std::erase(kept, finding);
+    return kept;
+  }
+
+  void take_off(std::size_t finding, const Against& against) {
+    d_.against[finding] = against;
     d_.gain_MPa.clear();
-    take(std::move(kept));
+    take(without(finding));
     if (!d_.findings.empty()) judge_by_folds();
     drop_contradicted();
     compare_errors();

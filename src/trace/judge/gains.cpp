@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/middle.h"
 #include "data/shares.h"
 #include "stats/projection.h"
 #include "trace/tuning.h"
@@ -15,13 +16,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-double median_of(std::vector<double> x) {
-  const auto middle = x.begin() + static_cast<long>(x.size() / 2);
-  std::nth_element(x.begin(), middle, x.end());
-  if (x.size() % 2) return *middle;
-  return 0.5 * (*middle + *std::max_element(x.begin(), middle));
-}
 
 double squares_left(const VectorXd& y, const MatrixXd& columns) {
   const MatrixXd q = stats::orthonormal(columns);
@@ -68,7 +62,7 @@ TestGains test_gains(const data::Dataset& data, std::span<const double> predicte
     out.variance(at) = (m.array() - m.mean()).square().sum() / ((k - 1) * k);
     per_row.push_back(out.variance(at) * static_cast<double>(rows));
   }
-  const double usual = per_row.empty() ? 0 : median_of(per_row);
+  const double usual = data::median_of(per_row);
   for (const std::size_t e : unknown)
     out.variance(static_cast<Index>(e)) =
         usual / static_cast<double>(data.first_row[e + 1] - data.first_row[e]);

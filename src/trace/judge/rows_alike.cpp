@@ -49,13 +49,12 @@ struct LeastCertain {
 LeastCertain least_certain(const Campaign& campaign, const Rival& rival) {
   LeastCertain found;
   const MatrixXd covariance = uncertainty_of(campaign, rival).covariance;
-  auto first = static_cast<Index>(campaign.law.parameters.size());
   for (std::size_t i = 0; i < rival.effects.size(); ++i) {
-    const auto count = static_cast<Index>(effects::fitted_parameters(rival.effects[i]).size());
+    const auto first = static_cast<Index>(first_parameter(rival, i)),
+               count = static_cast<Index>(effects::fitted_parameters(rival.effects[i]).size());
     const double one =
         certainty(campaign, rival.effects[i], covariance.block(first, first, count, count));
     if (one < found.certainty) found = {i, one};
-    first += count;
   }
   return found;
 }

@@ -85,8 +85,6 @@ void sort_options(Options& options) {
 
 Rival rival_of(const Search& search, const Campaign& campaign, const Option& option,
                const stats::NoiseModel& noise) {
-  std::vector<PlacedEffect> effects = search.last().effects;
-  std::vector<Cause> causes = search.last().causes;
   PlacedEffect effect = option.effect;
   if (effect.form->penalty) {
     effect.stiffness = option.fit.stiffness;
@@ -94,10 +92,8 @@ Rival rival_of(const Search& search, const Campaign& campaign, const Option& opt
     effects::set_fitted(effect, start);
   } else if (effects::amplitudes_of(effect) == 1 && !effect.form->categorical)
     effect.parameters[0] = clamped_start(option.fit.coefficients(0));
-  effects.push_back(std::move(effect));
-  causes.push_back(option.cause);
-  return fit_rival(campaign, search.last(), std::move(effects), std::move(causes), noise,
-                   NoiseSearch::kept);
+  return with_effect(campaign, search.last(), std::move(effect), option.cause, noise,
+                     NoiseSearch::kept);
 }
 
 std::vector<Rival> rivals_of(const Search& search, const Campaign& campaign, const Options& options,
@@ -131,10 +127,6 @@ void drop_distinguishable(const Search& search, const stats::NoiseModel& noise, 
       kept.push_back(std::move(options[i]));
   options = std::move(kept);
 }
-
-} // namespace
-
-namespace {
 
 // Whether the cause has a text column, which comes first.
 bool starts_with_text(const Cause& cause, const Candidates& candidates) {
@@ -175,13 +167,11 @@ std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>
     options.push_back(option_of(suspect.cause, suspect.effect));
   // Fits one noise model for all options, with the first one's effect included; otherwise that
   // effect would count as noise.
-  std::vector<PlacedEffect> effects = search.last().effects;
-  std::vector<Cause> causes = search.last().causes;
-  effects.push_back(plain_effect(search, suspects.front().cause));
-  causes.push_back(suspects.front().cause);
-  const stats::NoiseModel noise = fit_rival(search.campaign(), search.last(), effects, causes,
-                                            search.last().noise, NoiseSearch::again)
-                                      .noise;
+  const Cause& first = suspects.front().cause;
+  const stats::NoiseModel noise =
+      with_effect(search.campaign(), search.last(), plain_effect(search, first), first,
+                  search.last().noise, NoiseSearch::again)
+          .noise;
   fit_options(search, noise, options);
   sort_options(options);
   Options best; // best option of each cause
@@ -296,10 +286,6 @@ private:
   MatrixXd known_;
   VectorXd target_;
 };
-
-} // namespace
-
-namespace {
 
 std::vector<Rival> fit_forms(const Campaign& campaign, const Rival& winner, std::size_t index,
                              const std::vector<Start>& starts) {

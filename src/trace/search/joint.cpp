@@ -46,8 +46,8 @@ public:
     for (const JointFold& fold : choice.folds) {
       CauseFold& named = result.folds.emplace_back(CauseFold{fold.out, {}, {}});
       for (const std::size_t term : fold.terms) {
-        named.causes.push_back(causes_[term]);
-        named.acts_on.push_back(sites[site_of_[term]]);
+        named.causes.push_back(offered_[term].cause);
+        named.acts_on.push_back(sites[offered_[term].site]);
       }
     }
     result.leftover = leftover(path.left, settings);
@@ -94,7 +94,7 @@ private:
     for (std::size_t site = 0; site < all.size(); ++site) {
       if (site == first || all[site].size() == 0) continue;
       VectorXd own = relative(site);
-      const double size = own.norm() / std::sqrt(static_cast<double>(own.size()));
+      const double size = stats::root_mean_square(own);
       if (!(size > 0)) continue;
       own /= size;
       const auto alike = [&](const auto& other) {
@@ -162,11 +162,8 @@ private:
     std::vector<SharpShape> all;
     for (const GridShape& shape : shapes_[cause.columns[0]]) {
       VectorXd x = shape.direction.cast<double>();
-      x.array() -= x.mean();
-      const double size = x.norm() / std::sqrt(static_cast<double>(x.size()));
-      if (!(size > 0)) continue;
-      x /= size;
-      if (std::none_of(all.begin(), all.end(), [&](const SharpShape& other) {
+      if (stats::standardise(x) &&
+          std::none_of(all.begin(), all.end(), [&](const SharpShape& other) {
             return std::abs(x.dot(other.basis.columns.col(0))) >
                    tuning::same_sharp_shape_cosine * static_cast<double>(x.size());
           }))
@@ -177,14 +174,12 @@ private:
 
   void add_term(const Cause& cause, std::size_t site, const TermBasis& basis, bool first,
                 const effects::PlacedEffect* shape) {
-    if (causes_.empty() || causes_.back() != cause) ++count_of_causes_;
+    if (offered_.empty() || offered_.back().cause != cause) ++count_of_causes_;
     offer_.cause.push_back(count_of_causes_ - 1);
-    causes_.push_back(cause);
-    site_of_.push_back(sites_[site].first);
+    offered_.push_back({cause, sites_[site].first, shape});
     offer_.columns.push_back(cause.columns);
     offer_.first.push_back(first);
     offer_.sharp.push_back(shape != nullptr);
-    shape_of_.push_back(shape);
     const MatrixXd changes = sites_[site].second.asDiagonal() * basis.columns;
     terms_.push_back({count_, basis.straight, changes.cols(), is_imitated(cause)});
     count_ += changes.cols();
@@ -225,14 +220,12 @@ private:
     MatrixXd per_block(static_cast<Index>(s_.blocks().count()), 0);
     for (const auto& [site, changes] : sites_)
       stats::append_columns(per_block, functions_on_blocks(waves, changes, s_.first()));
-    offer_.walk = causes_.size();
-    causes_.emplace_back();
+    offer_.walk = offered_.size();
+    offered_.push_back({{}, on_mu, nullptr});
     offer_.cause.push_back(count_of_causes_++);
-    site_of_.push_back(on_mu);
     offer_.columns.emplace_back();
     offer_.first.push_back(0);
     offer_.sharp.push_back(0);
-    shape_of_.push_back(nullptr);
     terms_.push_back({count_, 0, per_block.cols(), false});
     count_ += per_block.cols();
     parts_.push_back(modes_.of(per_block));
@@ -251,8 +244,7 @@ private:
       if (directions->cols() > 0)
         stats::append_columns(law, floor_.cwiseInverse().asDiagonal() * *directions);
     for (Index i = 1; i < law.cols(); ++i)
-      law.col(i) /= std::max(law.col(i).norm() / std::sqrt(static_cast<double>(law.rows())),
-                             tuning::smallest_divisor);
+      law.col(i) /= std::max(stats::root_mean_square(law.col(i)), tuning::smallest_divisor);
     data.law = law.cols();
     for (JointTerm& term : terms_)
       term.first += data.law;
@@ -271,18 +263,18 @@ private:
   Leftover leftover(const JointLeft& from, const JointSettings& settings) const {
     Leftover all;
     all.p_value = from.p_value;
-    all.terms = causes_.size();
+    all.terms = offered_.size();
     all.flips = settings.flips;
     for (const JointLead& lead : from.leads) {
       Suspect of = suspect(lead.term);
-      if (!shape_of_[lead.term] && lead.size.bent == 0) of.effect = plain_effect(s_, of.cause);
+      if (!offered_[lead.term].shape && lead.size.bent == 0) of.effect = plain_effect(s_, of.cause);
       all.left.push_back({of.cause, std::move(of.effect), lead.p_value, lead.threshold,
                           change_of(lead.term, lead.coefficients)});
     }
     for (const JointSeen& one : from.seen)
-      if (site_of_[one.term] == sites_.front().first)
-        all.seen.push_back(
-            {causes_[one.term], one.own > tuning::identifiable_share_of_information, one.size});
+      if (offered_[one.term].site == sites_.front().first)
+        all.seen.push_back({offered_[one.term].cause,
+                            one.own > tuning::identifiable_share_of_information, one.size});
     if (settings.take && from.smallest_half > 0)
       all.smallest_seen = std::expm1(2 * from.smallest_half);
     return all;
@@ -290,32 +282,32 @@ private:
 
   // Change of ln tau_R, per block.
   VectorXd change_of(std::size_t term, const VectorXd& coefficients) const {
+    const Offered& of = offered_[term];
     const auto site = std::find_if(sites_.begin(), sites_.end(),
-                                   [&](const auto& one) { return one.first == site_of_[term]; });
+                                   [&](const auto& one) { return one.first == of.site; });
     MatrixXd basis;
-    if (shape_of_[term]) {
-      for (const SharpShape& shape : sharp_shapes(causes_[term]))
-        if (shape.effect == shape_of_[term]) basis = shape.basis.columns;
+    if (of.shape) {
+      for (const SharpShape& shape : sharp_shapes(of.cause))
+        if (shape.effect == of.shape) basis = shape.basis.columns;
     } else
-      basis = maker_.of(causes_[term]).columns;
+      basis = maker_.of(of.cause).columns;
     return site->second.cwiseProduct(basis * coefficients);
   }
 
   JointFinding named(const JointStep& step) const {
-    JointFinding finding{causes_[step.term], step.p_value, {}};
-    finding.suspects.push_back(suspect(step.term));
+    JointFinding finding{offered_[step.term].cause, step.p_value, {suspect(step.term)}};
     for (const std::size_t other : step.near)
       finding.suspects.push_back(suspect(other));
     return finding;
   }
 
   Suspect suspect(std::size_t term) const {
-    const effects::ActsOn site = sites[site_of_[term]];
-    if (!shape_of_[term]) return {causes_[term], smooth_effect(s_, causes_[term], site)};
-    effects::PlacedEffect shape = *shape_of_[term];
-    shape.acts_on = site;
-    shape.tau_scale_MPa = s_.tau_scale_MPa();
-    return {causes_[term], shape};
+    const Offered& of = offered_[term];
+    if (!of.shape) return {of.cause, smooth_effect(s_, of.cause, sites[of.site])};
+    Suspect single{of.cause, *of.shape};
+    single.effect.acts_on = sites[of.site];
+    single.effect.tau_scale_MPa = s_.tau_scale_MPa();
+    return single;
   }
 
   const Search& s_;
@@ -325,9 +317,12 @@ private:
   std::vector<std::pair<std::size_t, VectorXd>> sites_;
   std::vector<std::vector<GridShape>> shapes_; // per column that varies within tests
   std::vector<char> imitated_;                 // per column
-  std::vector<Cause> causes_;                  // per term
-  std::vector<std::size_t> site_of_;
-  std::vector<const effects::PlacedEffect*> shape_of_; // for terms of a single shape; else null
+  struct Offered {
+    Cause cause;
+    std::size_t site = on_mu;
+    const effects::PlacedEffect* shape = nullptr; // of a term of a single shape
+  };
+  std::vector<Offered> offered_; // per term
   JointOffer offer_;
   std::vector<JointTerm> terms_;
   std::vector<MatrixXd> parts_;

@@ -73,13 +73,12 @@ private:
       for (const std::size_t t : fold.out)
         kept_.back()[t] = 0;
       small_.push_back(std::make_unique<JointModel>(weighted.part(kept_.back())));
-      out_.push_back(fold.out);
     }
   }
 
   void add_errors(const JointData& data, const std::vector<std::size_t>& out, const JointFit& fit,
                   Errors& errors) const {
-    const VectorXd left = data.response - data.columns(Eigen::all, fit.columns) * fit.coefficients;
+    const VectorXd left = data.residual(fit);
     for (const std::size_t t : out) {
       const auto at = static_cast<Index>(t);
       errors(at, 0) = modes_.mean_size(left, t);
@@ -95,59 +94,51 @@ private:
   }
 
   // Errors of some of the terms found, refitted without each fold.
-  Errors held(const std::vector<std::size_t>& terms, const std::vector<TermSize>& sizes) const {
+  Errors held(const std::vector<JointFold>& folds, const std::vector<SizedTerm>& terms) const {
     Errors errors(static_cast<Index>(modes_.tests()), 2);
     parallel_for(small_.size(), [&](std::size_t f) {
       const JointModel& part = *small_[f];
-      add_errors(
-          found_, out_[f],
-          part.fit(terms, sizes, variance_, part.of_data(), tuning::noise_rounds_from_nothing),
-          errors);
+      add_errors(found_, folds[f].out,
+                 part.fit(terms, variance_, part.of_data(), tuning::noise_rounds_from_nothing),
+                 errors);
     });
     return errors;
   }
 
+  // Number of a term among those found.
+  std::size_t number_of(const JointStep& step) const {
+    const auto& terms = path_.fit.terms;
+    return static_cast<std::size_t>(
+        std::find_if(terms.begin(), terms.end(),
+                     [&](const SizedTerm& one) { return one.term == step.term; }) -
+        terms.begin());
+  }
+
   void keep_what_pays(JointChoice& choice) const {
-    std::vector<std::size_t> terms(path_.fit.terms.size()); // indices in found_
-    std::iota(terms.begin(), terms.end(), 0);
-    std::vector<TermSize> sizes = path_.fit.sizes;
+    JointFit fit;
+    for (const SizedTerm& one : path_.fit.terms)
+      fit.terms.push_back({fit.terms.size(), one.size});
     choice.kept = path_.steps;
-    Errors with = held(terms, sizes);
-    const auto place_of = [&](const JointStep& step) {
-      const auto number = static_cast<std::size_t>(
-          std::find(path_.fit.terms.begin(), path_.fit.terms.end(), step.term) -
-          path_.fit.terms.begin());
-      return std::find(terms.begin(), terms.end(), number) - terms.begin();
-    };
-    for (;;) {
-      std::vector<double> worth(choice.kept.size()); // in standard errors of the score
-      std::vector<Errors> without(choice.kept.size());
+    Errors with = held(choice.folds, fit.terms);
+    while (choice.kept.size() > 1) {
+      std::size_t least = choice.kept.size();
+      double smallest = tuning::worth_of_term_std_errors; // in standard errors of the score
+      Errors without_least;
       for (std::size_t i = 0; i < choice.kept.size(); ++i) {
-        std::vector<std::size_t> others = terms;
-        std::vector<TermSize> their = sizes;
-        const auto at = place_of(choice.kept[i]);
-        others.erase(others.begin() + at);
-        their.erase(their.begin() + at);
-        without[i] = held(others, their);
-        const VectorXd gain = with.col(1) - without[i].col(1);
-        worth[i] = gain.mean() / (std_error(gain) + tuning::smallest_score_error);
+        if (is_parent(choice.kept, i)) continue;
+        const Errors without = held(choice.folds, fit.terms_without(number_of(choice.kept[i])));
+        const VectorXd gain = with.col(1) - without.col(1);
+        const double worth = gain.mean() / (std_error(gain) + tuning::smallest_score_error);
+        if (!(worth <= smallest)) continue;
+        least = i;
+        smallest = worth;
+        without_least = without;
       }
-      if (choice.kept.size() < 2) break;
-      std::size_t least = 0;
-      double smallest = tuning::worth_of_term_std_errors;
-      for (std::size_t i = 0; i < worth.size(); ++i)
-        if (worth[i] <= smallest && !is_parent(choice.kept, i)) {
-          least = i;
-          smallest = worth[i];
-        }
-      if (worth[least] > smallest || is_parent(choice.kept, least)) break;
-      const JointStep step = choice.kept[least];
-      const auto at = place_of(step);
-      terms.erase(terms.begin() + at);
-      sizes.erase(sizes.begin() + at);
-      choice.dropped.push_back(step);
+      if (least == choice.kept.size()) break;
+      fit.terms = fit.terms_without(number_of(choice.kept[least]));
+      choice.dropped.push_back(choice.kept[least]);
       choice.kept.erase(choice.kept.begin() + static_cast<long>(least));
-      with = without[least];
+      with = without_least;
     }
   }
 
@@ -164,26 +155,11 @@ private:
   const JointOffer& o_;
   const JointPath& path_;
   const ByClass variance_;
-  std::vector<std::vector<char>> kept_; // per fold, the tests kept
-  std::vector<std::vector<std::size_t>> out_;
+  std::vector<std::vector<char>> kept_;            // per fold, the tests kept
   std::vector<std::unique_ptr<JointModel>> small_; // for found_
 };
 
-} // namespace
-
-bool is_in_product(const std::vector<std::size_t>& columns,
-                   const std::vector<std::vector<std::size_t>>& of_all) {
-  return columns.size() == 1 && std::any_of(of_all.begin(), of_all.end(), [&](const auto& other) {
-           return other.size() > 1 &&
-                  std::find(other.begin(), other.end(), columns[0]) != other.end();
-         });
-}
-
-double std_error(const VectorXd& per_test) {
-  const auto n = static_cast<double>(per_test.size());
-  return std::sqrt((per_test.array() - per_test.mean()).square().sum() / (n - 1) / n);
-}
-
+// Assigns each test to a fold: units and tests at one setting together.
 std::vector<std::size_t> folds_of_settings(const std::vector<std::size_t>& units,
                                            const MatrixXd& states, std::size_t folds,
                                            std::uint64_t seed) {
@@ -220,6 +196,21 @@ std::vector<std::size_t> folds_of_settings(const std::vector<std::size_t>& units
     size[at] += group.size();
   }
   return fold;
+}
+
+} // namespace
+
+bool is_in_product(const std::vector<std::size_t>& columns,
+                   const std::vector<std::vector<std::size_t>>& of_all) {
+  return columns.size() == 1 && std::any_of(of_all.begin(), of_all.end(), [&](const auto& other) {
+           return other.size() > 1 &&
+                  std::find(other.begin(), other.end(), columns[0]) != other.end();
+         });
+}
+
+double std_error(const VectorXd& per_test) {
+  const auto n = static_cast<double>(per_test.size());
+  return std::sqrt((per_test.array() - per_test.mean()).square().sum() / (n - 1) / n);
 }
 
 JointChoice choose_jointly(const JointData& data, const Modes& modes, const JointOffer& offer,

@@ -42,9 +42,4 @@ bool is_in_product(const std::vector<std::size_t>& columns,
 // Standard error of the mean over tests.
 double std_error(const Eigen::VectorXd& per_test);
 
-// Assigns each test to a fold.
-std::vector<std::size_t> folds_of_settings(const std::vector<std::size_t>& units,
-                                           const Eigen::MatrixXd& states, std::size_t folds,
-                                           std::uint64_t seed);
-
 } // namespace frictab::trace

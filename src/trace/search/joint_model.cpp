@@ -47,7 +47,14 @@ double log_root_det(const Eigen::LLT<MatrixXd>& factored) {
 } // namespace
 
 bool JointFit::has(std::size_t term) const {
-  return std::find(terms.begin(), terms.end(), term) != terms.end();
+  return std::any_of(terms.begin(), terms.end(),
+                     [&](const SizedTerm& one) { return one.term == term; });
+}
+
+std::vector<SizedTerm> JointFit::terms_without(std::size_t term) const {
+  std::vector<SizedTerm> others = terms;
+  std::erase_if(others, [&](const SizedTerm& one) { return one.term == term; });
+  return others;
 }
 
 JointData JointData::part(const std::vector<char>& keep_test) const {
@@ -68,7 +75,7 @@ JointData JointData::part(const std::vector<char>& keep_test) const {
   return some;
 }
 
-JointData JointData::with_terms(const std::vector<std::size_t>& some) const {
+JointData JointData::with_terms(const std::vector<SizedTerm>& some) const {
   JointData few;
   few.response = response;
   few.law = law;
@@ -76,11 +83,12 @@ JointData JointData::with_terms(const std::vector<std::size_t>& some) const {
   few.test = test;
   std::vector<Index> kept(static_cast<std::size_t>(law));
   std::iota(kept.begin(), kept.end(), 0);
-  for (const std::size_t t : some) {
-    few.terms.push_back(terms[t]);
+  for (const SizedTerm& one : some) {
+    const JointTerm& term = terms[one.term];
+    few.terms.push_back(term);
     few.terms.back().first = static_cast<Index>(kept.size());
-    for (Index k = 0; k < terms[t].count; ++k)
-      kept.push_back(terms[t].first + k);
+    for (Index k = 0; k < term.count; ++k)
+      kept.push_back(term.first + k);
   }
   few.columns = columns(Eigen::all, kept);
   return few;
@@ -91,6 +99,10 @@ JointData JointData::weighted(const VectorXd& factor) const {
   all.response = response.cwiseProduct(factor);
   all.columns = factor.asDiagonal() * columns;
   return all;
+}
+
+VectorXd JointData::residual(const JointFit& fit) const {
+  return response - columns(Eigen::all, fit.columns) * fit.coefficients;
 }
 
 JointModel::JointModel(JointData data)
@@ -122,10 +134,6 @@ std::vector<Moments> JointModel::moments(const MatrixXd& responses) const {
   return all;
 }
 
-VectorXd JointModel::residual(const JointFit& fit) const {
-  return data_.response - data_.columns(Eigen::all, fit.columns) * fit.coefficients;
-}
-
 const JointModel::Cross& JointModel::cross_of(Index first, Index count) const {
   {
     const std::lock_guard lock(mutex_);
@@ -147,54 +155,43 @@ ByClass JointModel::weights(const JointFit& fit) const {
   return weight;
 }
 
-std::vector<const JointModel::Cross*> JointModel::crosses_of(const JointFit& fit) const {
-  std::vector<const Cross*> all{&cross_of(0, data_.law)};
-  for (const std::size_t t : fit.terms)
-    all.push_back(&cross_of(data_.terms[t].first, data_.terms[t].count));
+std::vector<JointModel::CrossColumn> JointModel::columns_of(const JointFit& fit) const {
+  std::vector<CrossColumn> all;
+  const auto add = [&](Index first, Index count) {
+    const Cross& cross = cross_of(first, count);
+    for (const Index column : fit.columns)
+      if (column >= first && column < first + count) all.emplace_back(&cross, column - first);
+  };
+  add(0, data_.law);
+  for (const SizedTerm& one : fit.terms)
+    add(data_.terms[one.term].first, data_.terms[one.term].count);
   return all;
 }
 
-// Calls take(cross products with all columns, column of these, position among the fit's columns).
-template <class Take> void JointModel::for_columns(const JointFit& fit, const Take& take) const {
-  const std::vector<const Cross*> crosses = crosses_of(fit);
-  std::size_t part = 0;
-  for (std::size_t at = 0; at < fit.columns.size(); ++at) {
-    const auto first = [&](std::size_t p) {
-      return p == 0 ? 0 : data_.terms[fit.terms[p - 1]].first;
-    };
-    const auto end = [&](std::size_t p) {
-      return p == 0 ? data_.law : first(p) + data_.terms[fit.terms[p - 1]].count;
-    };
-    while (fit.columns[at] < first(part) || fit.columns[at] >= end(part))
-      ++part;
-    take(*crosses[part], fit.columns[at] - first(part), static_cast<Index>(at));
-  }
-}
-
-std::array<MatrixXd, mode_classes> JointModel::products_of(const JointFit& fit) const {
+JointModel::Cross JointModel::products_of(const JointFit& fit) const {
   const auto count = static_cast<Index>(fit.columns.size());
-  std::array<MatrixXd, mode_classes> all;
+  Cross all;
   all.fill(MatrixXd(count, count));
-  for_columns(fit, [&](const Cross& cross, Index column, Index at) {
+  Index at = 0;
+  for (const auto& [cross, column] : columns_of(fit)) {
     for (std::size_t c = 0; c < mode_classes; ++c)
-      all[c].col(at) = cross[c].col(column)(fit.columns);
-  });
+      all[c].col(at) = (*cross)[c].col(column)(fit.columns);
+    ++at;
+  }
   return all;
 }
 
-JointFit JointModel::solve(const std::vector<std::size_t>& terms,
-                           const std::vector<TermSize>& sizes, const ByClass& variance,
+JointFit JointModel::solve(const std::vector<SizedTerm>& terms, const ByClass& variance,
                            const Moments& moments) const {
   JointFit fit;
   fit.terms = terms;
-  fit.sizes = sizes;
   fit.variance = variance;
   std::vector<double> spread; // standard deviations of the terms' columns
   for (Index i = 0; i < data_.law; ++i)
     fit.columns.push_back(i);
-  for (std::size_t t = 0; t < terms.size(); ++t) {
-    const JointTerm& term = data_.terms[terms[t]];
-    const VectorXd own = spread_of(term, sizes[t]);
+  for (const SizedTerm& one : terms) {
+    const JointTerm& term = data_.terms[one.term];
+    const VectorXd own = spread_of(term, one.size);
     for (Index k = 0; k < term.count; ++k)
       if (own(k) > 0) {
         fit.columns.push_back(term.first + k);
@@ -258,8 +255,8 @@ ByClass JointModel::estimated_noise(const JointFit& fit) const {
   return variance;
 }
 
-JointFit JointModel::fit(const std::vector<std::size_t>& terms, const std::vector<TermSize>& sizes,
-                         const ByClass& start, const Moments& moments, int rounds) const {
+JointFit JointModel::fit(const std::vector<SizedTerm>& terms, const ByClass& start,
+                         const Moments& moments, int rounds) const {
   ByClass variance = start;
   for (std::size_t c = 0; c < mode_classes; ++c)
     if (!(variance[c] > 0))
@@ -267,29 +264,23 @@ JointFit JointModel::fit(const std::vector<std::size_t>& terms, const std::vecto
                         std::max(1.0, static_cast<double>(data_.first[c + 1] - data_.first[c])) +
                     tuning::smallest_class_variance;
   for (int round = 0; round < rounds; ++round)
-    variance = estimated_noise(solve(terms, sizes, variance, moments));
-  return solve(terms, sizes, variance, moments);
+    variance = estimated_noise(solve(terms, variance, moments));
+  return solve(terms, variance, moments);
 }
 
-JointFit JointModel::tuned(const JointFit& from, const Moments& moments) const {
-  std::vector<TermSize> sizes = from.sizes;
-  for (std::size_t i = 0; i < from.terms.size(); ++i) {
-    std::vector<std::size_t> others = from.terms;
-    std::vector<TermSize> their = sizes;
-    others.erase(others.begin() + static_cast<long>(i));
-    their.erase(their.begin() + static_cast<long>(i));
-    sizes[i] =
-        fine_ratio(solve(others, their, from.variance, moments), moments, from.terms[i]).size;
+JointFit JointModel::tuned(JointFit from, const Moments& moments) const {
+  for (SizedTerm& one : from.terms) {
+    const JointFit others = solve(from.terms_without(one.term), from.variance, moments);
+    one.size = fine_ratio(others, moments, one.term).size;
   }
-  return fit(from.terms, sizes, from.variance, moments, 2);
+  return fit(from.terms, from.variance, moments, 2);
 }
 
 // Quantities of a fit with columns Z.
 struct JointModel::Beside {
   const JointFit& fit;
-  ByClass weight, free; // free: remaining degrees of freedom
-  // per column of Z, its products with all columns
-  std::vector<std::pair<const Cross*, Index>> columns;
+  ByClass weight, free;                       // free: remaining degrees of freedom
+  std::vector<CrossColumn> columns;           // of Z
   std::array<MatrixXd, mode_classes> product; // Z' Z
 };
 
@@ -306,10 +297,7 @@ ByClass JointModel::counted(const Beside& with, const JointTerm& term) {
 }
 
 JointModel::Beside JointModel::beside(const JointFit& fit) const {
-  Beside out{fit, weights(fit), {}, {}, products_of(fit)};
-  for_columns(fit, [&](const Cross& cross, Index column, Index) {
-    out.columns.emplace_back(&cross, column);
-  });
+  Beside out{fit, weights(fit), {}, columns_of(fit), products_of(fit)};
   for (std::size_t c = 0; c < mode_classes; ++c)
     out.free[c] =
         std::max(static_cast<double>(data_.first[c + 1] - data_.first[c]) - fit.used[c], 0.0);

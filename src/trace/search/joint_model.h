@@ -32,12 +32,20 @@ struct TermSize {
   double straight = 0, bent = 0;
 };
 
+// A term of a fit.
+struct SizedTerm {
+  std::size_t term = 0;
+  TermSize size;
+};
+
 struct JointTerm {
   Eigen::Index first = 0, straight = 0, count = 0; // columns; the straight ones first
   // The likelihood ratio counts only the explained structure within tests, because other columns
   // imitate the term between tests.
   bool within = false;
 };
+
+struct JointFit;
 
 // Response and columns of the regression. Rows are modes, sorted by class.
 struct JointData {
@@ -51,9 +59,10 @@ struct JointData {
   // Keeps only the rows of some tests.
   JointData part(const std::vector<char>& keep_test) const;
   // Keeps only some terms, renumbered in that order.
-  JointData with_terms(const std::vector<std::size_t>& some) const;
+  JointData with_terms(const std::vector<SizedTerm>& some) const;
   // Multiplies every row by its own factor.
   JointData weighted(const Eigen::VectorXd& factor) const;
+  Eigen::VectorXd residual(const JointFit& fit) const;
 };
 
 using ByClass = std::array<double, mode_classes>;
@@ -65,8 +74,7 @@ struct Moments {
 };
 
 struct JointFit {
-  std::vector<std::size_t> terms;
-  std::vector<TermSize> sizes;
+  std::vector<SizedTerm> terms;
   ByClass variance{};
   std::vector<Eigen::Index> columns; // those with a coefficient
   Eigen::VectorXd coefficients;
@@ -75,6 +83,8 @@ struct JointFit {
   ByClass used{};            // degrees of freedom spent
   double log_likelihood = 0; // restricted
 
+  // Terms without one of them; all if it is not in.
+  std::vector<SizedTerm> terms_without(std::size_t term) const;
   bool has(std::size_t term) const;
 };
 
@@ -86,17 +96,16 @@ public:
   // of responses: modes x responses
   std::vector<Moments> moments(const Eigen::MatrixXd& responses) const;
   const Moments& of_data() const { return of_data_; }
-  Eigen::VectorXd residual(const JointFit& fit) const;
 
   // Estimates coefficients at given sizes and variances.
-  JointFit solve(const std::vector<std::size_t>& terms, const std::vector<TermSize>& sizes,
-                 const ByClass& variance, const Moments& moments) const;
+  JointFit solve(const std::vector<SizedTerm>& terms, const ByClass& variance,
+                 const Moments& moments) const;
   // The same with the noise estimated, in `rounds` alternations, starting from `variance` or, where
   // that is 0, from the response's own mean square.
-  JointFit fit(const std::vector<std::size_t>& terms, const std::vector<TermSize>& sizes,
-               const ByClass& variance, const Moments& moments, int rounds) const;
+  JointFit fit(const std::vector<SizedTerm>& terms, const ByClass& variance, const Moments& moments,
+               int rounds) const;
   // Re-estimates each size given the others on a fine grid, then the noise.
-  JointFit tuned(const JointFit& fit, const Moments& moments) const;
+  JointFit tuned(JointFit fit, const Moments& moments) const;
 
   // Likeliest size of a term added to a fit, and the gain of log likelihood compared with size 0.
   // The noise is estimated with the term: otherwise a large effect would count as noise.
@@ -128,9 +137,10 @@ private:
   using Cross = std::array<Eigen::MatrixXd, mode_classes>; // all columns x those of a term
 
   const Cross& cross_of(Eigen::Index first, Eigen::Index count) const;
-  std::vector<const Cross*> crosses_of(const JointFit& fit) const;
-  template <class Take> void for_columns(const JointFit& fit, const Take& take) const;
-  std::array<Eigen::MatrixXd, mode_classes> products_of(const JointFit& fit) const; // Z' Z
+  // Products of all columns with one of a fit: the matrices, and the column of these.
+  using CrossColumn = std::pair<const Cross*, Eigen::Index>;
+  std::vector<CrossColumn> columns_of(const JointFit& fit) const;
+  Cross products_of(const JointFit& fit) const; // Z' Z
   ByClass weights(const JointFit& fit) const;
   ByClass estimated_noise(const JointFit& fit) const;
   // Intermediate results for adding terms to a fit: those of the fit, of one term, and of the

@@ -67,8 +67,7 @@ double threshold_of(const VectorXd& flipped, double level) {
 
 // Greedy path of terms from a fit on.
 struct Ahead {
-  std::vector<std::size_t> terms;
-  std::vector<TermSize> sizes;
+  std::vector<SizedTerm> terms;
   std::vector<double> ratios, gains; // gains: of log likelihood over the start of the path
 };
 
@@ -79,8 +78,7 @@ public:
       : m_(model), o_(offer), out_(out) {}
 
   JointFit start() const {
-    return with_walk(m_.fit({}, {}, {}, m_.of_data(), tuning::noise_rounds_from_nothing),
-                     m_.of_data());
+    return with_walk(m_.fit({}, {}, m_.of_data(), tuning::noise_rounds_from_nothing), m_.of_data());
   }
 
   // Number of terms in the fit, without the walk.
@@ -91,14 +89,15 @@ public:
   // Terms that may enter in a round; excludes causes that are already in.
   std::vector<std::size_t> open(const JointFit& fit, std::size_t round, bool sharp = true) const {
     std::vector<char> parent = o_.in_law;
-    for (const std::size_t t : fit.terms)
-      for (const std::size_t c : o_.columns[t])
+    for (const SizedTerm& in : fit.terms)
+      for (const std::size_t c : o_.columns[in.term])
         parent[c] = 1;
     std::vector<std::size_t> all;
     for (std::size_t t = 0; t < o_.columns.size(); ++t) {
       const auto& own = o_.columns[t];
-      const bool is_in = std::any_of(fit.terms.begin(), fit.terms.end(),
-                                     [&](std::size_t in) { return o_.columns[in] == own; });
+      const bool is_in = std::any_of(fit.terms.begin(), fit.terms.end(), [&](const SizedTerm& in) {
+        return o_.columns[in.term] == own;
+      });
       const bool is_out = std::find(out_.begin(), out_.end(), o_.cause[t]) != out_.end();
       if (o_.walk == t || is_in || is_out || (o_.sharp[t] && !sharp)) continue;
       const bool has_parent =
@@ -131,7 +130,7 @@ public:
   Ahead ahead(const JointFit& from, const Moments& moments, const Footing& footing,
               std::size_t round, std::size_t depth, bool sharp,
               std::optional<std::size_t> first = {}) const {
-    JointFit fit = m_.solve(from.terms, from.sizes, from.variance, moments);
+    JointFit fit = m_.solve(from.terms, from.variance, moments);
     const double before = fit.log_likelihood;
     Ahead path;
     for (std::size_t k = 0; k < depth; ++k) {
@@ -144,14 +143,10 @@ public:
         ratios.push_back(one.value);
       const std::size_t best = rarest(footing, terms, ratios);
       if (!(ratios[best] > 0)) break;
-      path.terms.push_back(terms[best]);
-      path.sizes.push_back(found[best].size);
+      path.terms.push_back({terms[best], found[best].size});
       path.ratios.push_back(ratios[best]);
-      std::vector<std::size_t> in = fit.terms;
-      std::vector<TermSize> sizes = fit.sizes;
-      in.push_back(terms[best]);
-      sizes.push_back(found[best].size);
-      fit = m_.fit(in, sizes, fit.variance, moments, 2);
+      fit.terms.push_back(path.terms.back());
+      fit = m_.fit(fit.terms, fit.variance, moments, 2);
       path.gains.push_back(fit.log_likelihood - before);
     }
     return path;
@@ -159,31 +154,22 @@ public:
 
   // Adds the first terms of a path, and re-estimates sizes and noise.
   JointFit taken(const JointFit& from, const Ahead& path, std::size_t terms) const {
-    std::vector<std::size_t> in = from.terms;
-    std::vector<TermSize> sizes = from.sizes;
+    std::vector<SizedTerm> in = from.terms;
     in.insert(in.end(), path.terms.begin(), path.terms.begin() + static_cast<long>(terms));
-    sizes.insert(sizes.end(), path.sizes.begin(), path.sizes.begin() + static_cast<long>(terms));
     const Moments& moments = m_.of_data();
     return with_walk(
-        m_.tuned(m_.fit(in, sizes, from.variance, moments, tuning::noise_rounds_with_new_terms),
-                 moments),
+        m_.tuned(m_.fit(in, from.variance, moments, tuning::noise_rounds_with_new_terms), moments),
         moments);
   }
 
 private:
   JointFit with_walk(JointFit fit, const Moments& moments) const {
     if (!o_.walk) return fit;
-    if (const auto at = std::find(fit.terms.begin(), fit.terms.end(), *o_.walk);
-        at != fit.terms.end()) {
-      fit.sizes.erase(fit.sizes.begin() + (at - fit.terms.begin()));
-      fit.terms.erase(at);
-      fit = m_.fit(fit.terms, fit.sizes, fit.variance, moments, 2);
-    }
+    if (fit.has(*o_.walk)) fit = m_.fit(fit.terms_without(*o_.walk), fit.variance, moments, 2);
     const JointModel::Ratio walk = m_.fine_ratio(fit, moments, *o_.walk);
     if (walk.value < tuning::walk_log_likelihood_ratio) return fit;
-    fit.terms.insert(fit.terms.begin(), *o_.walk);
-    fit.sizes.insert(fit.sizes.begin(), walk.size);
-    return m_.fit(fit.terms, fit.sizes, fit.variance, moments, 2);
+    fit.terms.insert(fit.terms.begin(), {*o_.walk, walk.size});
+    return m_.fit(fit.terms, fit.variance, moments, 2);
   }
 
   const JointModel& m_;
@@ -256,9 +242,7 @@ private:
   std::size_t count(const JointFit& fit) const { return walker().count(fit); }
 
   VectorXd weights_of(const JointFit& fit) const {
-    const VectorXd residual =
-        data_.response - data_.columns(Eigen::all, fit.columns) * fit.coefficients;
-    return root_weights(data_, residual, fit.variance);
+    return root_weights(data_, data_.residual(fit), fit.variance);
   }
 
   // Recomputes the weights, and the fit under them, after a term has entered.
@@ -267,15 +251,14 @@ private:
     by_chance_.clear();
     path_.weights = weights_of(path_.fit);
     model_ = std::make_unique<JointModel>(data_.weighted(path_.weights));
-    path_.fit =
-        model_->fit(path_.fit.terms, path_.fit.sizes, path_.fit.variance, model_->of_data(), 2);
+    path_.fit = model_->fit(path_.fit.terms, path_.fit.variance, model_->of_data(), 2);
   }
 
   // Residuals with the signs of whole units flipped and, if each test is a unit, the gains
   // permuted; one column per flip.
   MatrixXd flipped(const JointFit& fit) {
     const JointData& data = model_->data();
-    const VectorXd residual = model_->residual(fit);
+    const VectorXd residual = data.residual(fit);
     const std::size_t units = *std::max_element(s_.units.begin(), s_.units.end()) + 1;
     MatrixXd flips(residual.size(), static_cast<Index>(s_.flips));
     ++draws_;
@@ -330,12 +313,11 @@ private:
     if (terms.empty() || path_.unsure.size() > tuning::most_unsure_terms) return false;
     const double level = s_.alpha * tuning::round_shares_of_alpha[round];
     draw(fit, terms);
-    VectorXd largest;
-    Footing footing = footing_of(terms, largest);
+    auto [footing, largest] = footing_of(terms);
     footing.enough = tuning::thresholds_for_ranking_by_likelihood * threshold_of(largest, level);
     Ahead path = walker.ahead(fit, m.of_data(), footing, round, 1, true);
     if (path.terms.empty()) return false;
-    const double first = walker.rarity(footing, path.terms[0], path.ratios[0]);
+    const double first = walker.rarity(footing, path.terms[0].term, path.ratios[0]);
     std::size_t take = first > threshold_of(largest, level);
     double p = rank_of(first, largest);
     if (!take && round == 0) {
@@ -350,13 +332,13 @@ private:
     }
     JointFit next = walker.taken(fit, path, take);
     for (std::size_t i = 0; i < take; ++i)
-      if (!holds(next, path.terms[i])) {
-        path_.unsure.push_back({path.terms[i], path.ratios[i], p, {}});
-        path_.record.unsure.push_back(o_.cause[path.terms[i]]);
+      if (const std::size_t term = path.terms[i].term; !holds(next, term)) {
+        path_.unsure.push_back({term, path.ratios[i], p, {}});
+        path_.record.unsure.push_back(o_.cause[term]);
         return true;
       }
     for (std::size_t i = 0; i < take; ++i)
-      path_.steps.push_back({path.terms[i], path.ratios[i], p, {}});
+      path_.steps.push_back({path.terms[i].term, path.ratios[i], p, {}});
     path_.record.lengths[round] += take;
     path_.record.footings[round].push_back(footing);
     path_.fit = std::move(next);
@@ -372,23 +354,20 @@ private:
       if (model_->squares(term, c) > 0) return true; // it also explains other modes
     const Index tests = data.first[1];
     MatrixXd columns = data.columns.topLeftCorner(tests, data.law);
-    std::vector<std::size_t> terms = fit.terms; // this one last
-    std::erase(terms, term);
-    terms.push_back(term);
-    for (const std::size_t t : terms) {
+    std::vector<SizedTerm> terms = fit.terms_without(term);
+    terms.push_back({term, {}}); // this one last
+    for (const SizedTerm& one : terms) {
+      const VectorXd coefficients = coefficients_in(fit, one.term);
       VectorXd curve = VectorXd::Zero(tests);
-      const JointTerm& own = data.terms[t];
-      for (std::size_t i = 0; i < fit.columns.size(); ++i)
-        if (fit.columns[i] >= own.first && fit.columns[i] < own.first + own.count)
-          curve += fit.coefficients(static_cast<Index>(i)) *
-                   data.columns.col(fit.columns[i]).head(tests);
+      for (Index k = 0; k < coefficients.size(); ++k)
+        curve += coefficients(k) * data.columns.col(data.terms[one.term].first + k).head(tests);
       stats::append_columns(columns, curve);
     }
     return p_by_hc3(data.response.head(tests), columns) < s_.alpha;
   }
 
   // Also returns the largest rarity of each flip.
-  Footing footing_of(const std::vector<std::size_t>& terms, VectorXd& largest) const {
+  std::pair<Footing, VectorXd> footing_of(const std::vector<std::size_t>& terms) const {
     const std::size_t causes = *std::max_element(o_.cause.begin(), o_.cause.end()) + 1;
     Footing footing{std::vector<Rarity>(o_.cause.size()), std::vector<Rarity>(causes)};
     std::vector<VectorXd> of_cause(causes);
@@ -400,14 +379,14 @@ private:
       VectorXd& best = of_cause[o_.cause[term]];
       best = best.size() == 0 ? own : VectorXd(best.cwiseMax(own));
     }
-    largest = VectorXd::Zero(flips_.cols());
+    VectorXd largest = VectorXd::Zero(flips_.cols());
     for (std::size_t c = 0; c < causes; ++c) {
       if (of_cause[c].size() == 0) continue;
       footing.of_cause[c] = rarity_of(of_cause[c]);
       for (Index f = 0; f < largest.size(); ++f)
         largest(f) = std::max(largest(f), footing.of_cause[c].of(of_cause[c](f)));
     }
-    return footing;
+    return {std::move(footing), std::move(largest)};
   }
 
   struct Looked {
@@ -478,12 +457,7 @@ private:
   // Terms that come near one that is in, with all others in the fit.
   std::vector<std::size_t> rivals_of(std::size_t term) const {
     const JointModel& m = *model_;
-    std::vector<std::size_t> in = path_.fit.terms;
-    std::vector<TermSize> sizes = path_.fit.sizes;
-    const auto at = std::find(in.begin(), in.end(), term) - in.begin();
-    in.erase(in.begin() + at);
-    sizes.erase(sizes.begin() + at);
-    const JointFit fit = m.fit(in, sizes, path_.fit.variance, m.of_data(), 2);
+    const JointFit fit = m.fit(path_.fit.terms_without(term), path_.fit.variance, m.of_data(), 2);
     const std::vector<std::size_t> others = walker().open(fit, o_.first[term] ? 0 : 1);
     const auto ratios = m.ratios(fit, m.of_data(), others);
     const double own = m.ratios(fit, m.of_data(), {term}).front().value;
@@ -567,19 +541,21 @@ private:
                        [&](const JointLead& lead) { return o_.cause[lead.term] == cause; });
   }
 
-  VectorXd coefficients_of(const JointFit& from, std::size_t term, TermSize size) const {
-    std::vector<std::size_t> terms = from.terms;
-    std::vector<TermSize> sizes = from.sizes;
-    terms.push_back(term);
-    sizes.push_back({tuning::lead_coefficient_size,
-                     size.bent}); // with few tests an estimated size would shrink it
-    const JointFit fit = model_->fit(terms, sizes, from.variance, model_->of_data(), 1);
+  // Coefficients of all columns of a term.
+  VectorXd coefficients_in(const JointFit& fit, std::size_t term) const {
     const JointTerm& own = model_->data().terms[term];
     VectorXd all = VectorXd::Zero(own.count);
     for (std::size_t i = 0; i < fit.columns.size(); ++i)
-      if (fit.columns[i] >= own.first && fit.columns[i] < own.first + own.count)
-        all(fit.columns[i] - own.first) = fit.coefficients(static_cast<Index>(i));
+      if (const Index k = fit.columns[i] - own.first; k >= 0 && k < own.count)
+        all(k) = fit.coefficients(static_cast<Index>(i));
     return all;
+  }
+
+  // The same of a term added to a fit; with few tests an estimated size would shrink it.
+  VectorXd coefficients_of(const JointFit& from, std::size_t term, TermSize size) const {
+    std::vector<SizedTerm> terms = from.terms;
+    terms.push_back({term, {tuning::lead_coefficient_size, size.bent}});
+    return coefficients_in(model_->fit(terms, from.variance, model_->of_data(), 1), term);
   }
 
   void note_seen(const JointFit& fit, const Footing& footing, const std::vector<std::size_t>& open,
@@ -646,7 +622,7 @@ JointPath walk_again(const JointModel& part, const JointOffer& offer, const Join
       const Footing& footing = footings[std::min(taken, footings.size() - 1)];
       const Ahead next = walker.ahead(path.fit, part.of_data(), footing, round, 1, true);
       if (next.terms.empty()) break;
-      path.steps.push_back({next.terms[0], next.ratios[0], 1, {}});
+      path.steps.push_back({next.terms[0].term, next.ratios[0], 1, {}});
       path.fit = walker.taken(path.fit, next, 1);
     }
   return path;

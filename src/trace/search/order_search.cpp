@@ -41,22 +41,13 @@ double size_of_structure(const Search& search, const MatrixXd& functions) {
   MatrixXd normal = columns.transpose() * columns;
   normal.diagonal().array() += 1; // weak penalty: a coefficient of 100 % is far out of reach
   const VectorXd explained = functions * normal.ldlt().solve(columns.transpose() * residual.col(0));
-  return explained.norm() / std::sqrt(static_cast<double>(explained.size()));
-}
-
-bool is_order(const Search& search, const Cause& cause) {
-  const Candidates& candidates = search.candidates();
-  const auto numbers_tests = [&](std::size_t column) {
-    const std::string& name = candidates.columns[column].name;
-    return name == "test_order" || name == candidates.order_column;
-  };
-  return std::any_of(cause.columns.begin(), cause.columns.end(), numbers_tests);
+  return stats::root_mean_square(explained);
 }
 
 // Whether each level is one stretch of the order, as of batches: the column is then another form of
 // the order.
-bool is_stretch(const Search& search, const Cause& cause) {
-  const CandidateColumn& column = search.candidates().columns[cause.columns[0]];
+bool is_stretch(const Search& search, std::size_t c) {
+  const CandidateColumn& column = search.candidates().columns[c];
   const auto rank = ranks(search.candidates().order);
   std::vector<double> by_rank(rank.size());
   for (std::size_t e = 0; e < rank.size(); ++e)
@@ -69,21 +60,17 @@ bool is_stretch(const Search& search, const Cause& cause) {
 }
 
 bool is_declared(const Search& search, const Cause& cause) {
-  const std::string& name = search.candidates().columns[cause.columns[0]].name;
-  const std::string& distance = search.input().options.tool_distance;
-  return !distance.empty() && !cause.is_joint() &&
-         (name == distance ||
-          (name == "test_order" && distance == search.candidates().order_column));
+  return !cause.is_joint() && search.candidates().columns[cause.columns[0]].is_wear;
 }
 
 } // namespace
 
 bool is_the_order(const Search& search, const Cause& cause) {
   if (search.candidates().order.empty() || is_declared(search, cause)) return false;
-  return is_order(search, cause) ||
-         std::any_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
-           return constant_in_experiments({{c}}, search.candidates()) && is_stretch(search, {{c}});
-         });
+  return std::any_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
+    return search.candidates().columns[c].is_order ||
+           (constant_in_experiments({{c}}, search.candidates()) && is_stretch(search, c));
+  });
 }
 
 namespace {

@@ -24,13 +24,18 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-void take_parameters(Rival& rival, std::size_t own) {
-  std::size_t next = own;
-  for (PlacedEffect& effect : rival.effects) {
-    const std::size_t count = effects::fitted_parameters(effect).size();
-    effects::set_fitted(effect, std::span(rival.parameters).subspan(next, count));
-    next += count;
-  }
+void take_fit(Rival& rival, BlockFit fit) {
+  rival.parameters = std::move(fit.parameters);
+  rival.predicted = std::move(fit.predicted);
+  rival.jacobian = std::move(fit.jacobian);
+}
+
+void take_parameters(Rival& rival) {
+  for (std::size_t i = 0; i < rival.effects.size(); ++i)
+    effects::set_fitted(rival.effects[i],
+                        std::span(rival.parameters)
+                            .subspan(first_parameter(rival, i),
+                                     effects::fitted_parameters(rival.effects[i]).size()));
 }
 
 VectorXd by_experiment(const VectorXd& whitened, const stats::Whitener& whitener,
@@ -49,29 +54,18 @@ bool on_limit(const std::vector<PlacedEffect>& effects) {
                      [](const PlacedEffect& e) { return e.acts_on == effects::ActsOn::m; });
 }
 
-// Index of the first parameter of each effect among those of the law.
-std::vector<Index> first_parameters(const Rival& rival, std::size_t own) {
-  std::vector<Index> first;
-  auto next = static_cast<Index>(own);
-  for (const PlacedEffect& effect : rival.effects) {
-    first.push_back(next);
-    next += static_cast<Index>(effects::fitted_parameters(effect).size());
-  }
-  return first;
-}
-
 } // namespace
 
 MatrixXd penalty_of(const Rival& rival) {
   MatrixXd all;
-  const std::vector<Index> first = first_parameters(rival, rival.own);
   const auto count = static_cast<Index>(rival.parameters.size());
   for (std::size_t i = 0; i < rival.effects.size(); ++i) {
     const PlacedEffect& effect = rival.effects[i];
     if (!effect.form->penalty || !(effect.stiffness > 0)) continue;
     if (all.size() == 0) all = MatrixXd::Zero(count, count);
     const MatrixXd one = roughness_of(effect);
-    all.block(first[i], first[i], one.rows(), one.cols()) = effect.stiffness * one;
+    const auto first = static_cast<Index>(first_parameter(rival, i));
+    all.block(first, first, one.rows(), one.cols()) = effect.stiffness * one;
   }
   return all;
 }
@@ -213,11 +207,8 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
     rival.predicted = with.predict(rival.parameters);
     const stats::Whitener whitener(rival.noise, rival.predicted, campaign.blocks,
                                    campaign.nuisance);
-    BlockFit fit =
-        fit_blocks(with, campaign.measured, whitener, rival.parameters, penalty, {}, end);
-    rival.parameters = std::move(fit.parameters);
-    rival.predicted = std::move(fit.predicted);
-    rival.jacobian = std::move(fit.jacobian);
+    take_fit(rival,
+             fit_blocks(with, campaign.measured, whitener, rival.parameters, penalty, {}, end));
   };
   // First with the limit rounded off, otherwise rows below it have no influence on it.
   if (!from_selection && on_limit(rival.effects)) {
@@ -239,7 +230,7 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
       break;
     refit(law);
   }
-  take_parameters(rival, own);
+  take_parameters(rival);
   rival.weights = rival.noise;
   evaluate(rival, campaign);
   return rival;
@@ -263,6 +254,15 @@ Rival fit_rival(const Campaign& campaign, const Rival& from, std::vector<PlacedE
                 std::vector<Cause> causes, const stats::NoiseModel& noise, NoiseSearch search) {
   return fit_rival(campaign, std::move(effects), std::move(causes), own_parameters(campaign, from),
                    noise, search);
+}
+
+Rival with_effect(const Campaign& campaign, const Rival& from, PlacedEffect effect,
+                  const Cause& cause, const stats::NoiseModel& noise, NoiseSearch search) {
+  std::vector<PlacedEffect> effects = from.effects;
+  std::vector<Cause> causes = from.causes;
+  effects.push_back(std::move(effect));
+  causes.push_back(cause);
+  return fit_rival(campaign, from, std::move(effects), std::move(causes), noise, search);
 }
 
 namespace {
@@ -321,15 +321,19 @@ Rival with_weights(const Campaign& campaign, Rival rival, const stats::NoiseMode
   const LawOnBlocks law(bounded_law(campaign, rival), campaign.conventions,
                         campaign.candidates.by_symbol);
   const stats::Whitener whitener(weights, rival.predicted, campaign.blocks, campaign.nuisance);
-  BlockFit fit = fit_blocks(law, campaign.measured, whitener, rival.parameters,
-                            penalties(campaign, rival), {}, end);
-  rival.parameters = std::move(fit.parameters);
-  rival.predicted = std::move(fit.predicted);
-  rival.jacobian = std::move(fit.jacobian);
+  take_fit(rival, fit_blocks(law, campaign.measured, whitener, rival.parameters,
+                             penalties(campaign, rival), {}, end));
   rival.weights = weights;
-  take_parameters(rival, campaign.law.parameters.size());
+  take_parameters(rival);
   evaluate(rival, campaign);
   return rival;
+}
+
+std::size_t first_parameter(const Rival& rival, std::size_t effect) {
+  std::size_t first = rival.own;
+  for (std::size_t i = 0; i < effect; ++i)
+    first += effects::fitted_parameters(rival.effects[i]).size();
+  return first;
 }
 
 std::size_t site_of(const PlacedEffect& effect) {
@@ -338,17 +342,13 @@ std::size_t site_of(const PlacedEffect& effect) {
 }
 
 Rival less_effect(Rival rival, std::size_t index) {
-  const Index first = first_parameters(rival, rival.own)[index];
-  const auto count = static_cast<long>(effects::fitted_parameters(rival.effects[index]).size());
-  std::size_t of_effects = 0;
-  for (const PlacedEffect& effect : rival.effects)
-    of_effects += effects::fitted_parameters(effect).size();
-  const bool limit = rival.parameters.size() > rival.own + of_effects; // m_limit, after them
-  rival.parameters.erase(rival.parameters.begin() + first,
-                         rival.parameters.begin() + first + count);
+  const bool limit = rival.parameters.size() > first_parameter(rival, rival.effects.size());
+  const auto first = rival.parameters.begin() + static_cast<long>(first_parameter(rival, index));
+  rival.parameters.erase(
+      first, first + static_cast<long>(effects::fitted_parameters(rival.effects[index]).size()));
   rival.effects.erase(rival.effects.begin() + static_cast<long>(index));
   rival.causes.erase(rival.causes.begin() + static_cast<long>(index));
-  if (limit && !on_limit(rival.effects)) rival.parameters.pop_back();
+  if (limit && !on_limit(rival.effects)) rival.parameters.pop_back(); // m_limit, after them
   return rival;
 }
 

@@ -78,6 +78,10 @@ Rival fit_rival(const Campaign& campaign, const Rival& from,
                 std::vector<effects::PlacedEffect> effects, std::vector<Cause> causes,
                 const stats::NoiseModel& noise, NoiseSearch search);
 
+// Fits `from` with one more effect.
+Rival with_effect(const Campaign& campaign, const Rival& from, effects::PlacedEffect effect,
+                  const Cause& cause, const stats::NoiseModel& noise, NoiseSearch search);
+
 // Fits the noise of a residual of the campaign's law, to the selected tests where it has a
 // selection: from scratch, or from an earlier fit of a residual that has changed since.
 stats::NoiseModel fit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data);
@@ -109,6 +113,9 @@ Rival with_weights(const Campaign& campaign, Rival rival, const stats::NoiseMode
 // model's weights predict better; where it is wrong, they may rely on the few rows that are least
 // correlated with others.
 stats::NoiseModel rows_alike(const stats::NoiseModel& noise);
+
+// Index of the first parameter of an effect among those of the law.
+std::size_t first_parameter(const Rival& rival, std::size_t effect);
 
 // Returns the index in `sites` of the effect's site.
 std::size_t site_of(const effects::PlacedEffect& effect);

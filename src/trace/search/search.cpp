@@ -1,8 +1,6 @@
 // Start of a search: candidates, the law on blocks, its fit without effects.
 #include "trace/search/search.h"
 
-#include <cmath>
-
 #include "core/progress.h"
 #include "stats/noise_fit.h"
 #include "stats/projection.h"
@@ -33,9 +31,7 @@ MatrixXd trained_directions(const std::vector<std::string>& inputs, const BlockC
     VectorXd u = columns.at(name);
     if (u.minCoeff() > 0 && u.maxCoeff() > tuning::ratio_for_log_of_trained * u.minCoeff())
       u = u.array().log().matrix();
-    u.array() -= u.mean();
-    const double size = u.norm() / std::sqrt(static_cast<double>(u.size()));
-    if (size > 0) z.push_back(u / size);
+    if (stats::standardise(u)) z.push_back(std::move(u));
   }
   std::vector<VectorXd> all;
   for (std::size_t i = 0; i < z.size(); ++i) {
@@ -153,9 +149,7 @@ stats::Whitener Search::whitener() const {
 }
 
 bool Search::negligible() const {
-  const VectorXd left = residual();
-  return left.norm() / std::sqrt(static_cast<double>(left.size())) <
-         tuning::exact_law_share_of_tau * tau_scale_MPa();
+  return stats::root_mean_square(residual()) < tuning::exact_law_share_of_tau * tau_scale_MPa();
 }
 
 } // namespace frictab::trace
