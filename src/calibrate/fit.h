@@ -1,14 +1,9 @@
 // Bounded nonlinear fit of a formula to measured shear stress.
 //
-// The fit minimises the mean loss of the residuals r = measured - tau(p) over the parameters p. A
-// step d solves the damped normal equations
-//   (H + damping D) d = g,   g = mean of loss'(r) J,   H = mean of step curvature J' J,
-// where J is d tau / d p and D the largest diagonal of H so far (Levenberg-Marquardt: Marquardt
-// 1963, More 1978). Damping decreases where the loss falls as H predicts, and increases where it
-// does not. H lacks the law's own curvature, which matters where residuals are large: a symmetric
-// rank-one correction of H learns it from the change of g along each step (after Dennis, Gay and
-// Welsch 1981). A step that would leave the bounds is cut there and solved again for the other
-// parameters.
+// The fit minimises the mean loss of the residuals r = measured - tau(p) over the parameters p, by
+// Levenberg-Marquardt (stats/levenberg_marquardt.h) with
+//   g = mean of loss'(r) J,   H = mean of step curvature J' J,
+// where J is d tau / d p.
 #pragma once
 
 #include <span>
@@ -20,6 +15,7 @@
 #include "calibrate/loss.h"
 #include "expr/program.h"
 #include "models/law.h"
+#include "stats/levenberg_marquardt.h"
 
 namespace frictab::calibrate {
 
@@ -36,7 +32,7 @@ struct FitResult {
   double cost = 0; // mean loss
   std::size_t evaluations = 0;
   std::string termination; // "converged: ...", "stopped: ..."
-  // Rank-one correction of H at the end; a fit of the same law to similar rows may start with it.
+  // Of H at the end; a fit of the same law to similar rows may start with it.
   Eigen::MatrixXd correction;
   // No parameter changes any row there, as when the shear limit acts in all of them; agreement of
   // two such fits does not indicate a minimum.
@@ -49,18 +45,11 @@ inline bool is_scale(const models::Parameter& p) {
   return p.lower > 0 && p.upper > 1e5 * p.lower && p.upper < 1e300;
 }
 
-struct FitOptions {
-  // Relative reduction of the loss: converged if the best step promises less. 1e-10 with 44,550
-  // rows leaves the parameters within a hundredth of a standard error of the optimum.
-  double tolerance = 1e-10;
-  double damping = 1e-3; // of the first step; small if the start is known to be close
-  std::size_t iterations = 200;
-  const Eigen::MatrixXd* correction = nullptr; // of an earlier fit
-};
+using FitOptions = stats::LevenbergMarquardtOptions;
 
 // Runs the fit described above from one start. Sums run in row order: the same bits on any machine
 // with the same libm, for any number of threads.
 FitResult fit_from(const FitProblem& problem, const LossFunction& loss, std::vector<double> start,
-                   const FitOptions& options = {});
+                   FitOptions options = {});
 
 } // namespace frictab::calibrate

@@ -129,7 +129,7 @@ LossFunction rounded(double scale, double share) {
 
 // Fits to all rows until convergence. The fewer the rows, the more each corner of L1 matters.
 void polish(FitResult& fit, const FitProblem& all, const LossFunction& loss) {
-  const FitOptions options{.tolerance = 1e-8, .damping = 1e-9};
+  const FitOptions options{.tolerance = 1e-8, .first_damping = 1e-9};
   if (loss.kind != Loss::l1) return refine(fit, all, loss, options);
   if (all.parameters.size() == 1) return exact_median(all, fit);
   const double rows = static_cast<double>(all.measured.size());
@@ -216,7 +216,7 @@ std::vector<FitResult> LawProblem::search(const Level& level, const Starts& offe
   std::size_t evaluations = 0;
   const auto try_start = [&](std::vector<double> start) {
     fits.push_back(
-        fit_from(rows, squares, std::move(start), {.tolerance = 1e-8, .iterations = 25}));
+        fit_from(rows, squares, std::move(start), {.tolerance = 1e-8, .most_steps = 25}));
     evaluations += fits.back().evaluations;
   };
   try_start(default_start(rows));
@@ -261,7 +261,7 @@ LawFit LawProblem::fit(Loss kind, double huber_delta_MPa) const {
   for (std::size_t i = 1; i + 1 < levels_.size(); ++i) {
     const LossFunction rough = kind == Loss::l1 ? rounded(loss.width_MPa, 0.05) : loss;
     for (FitResult& fit : fits)
-      refine(fit, problem(levels_[i]), rough, {.tolerance = 1e-8, .damping = 1e-9});
+      refine(fit, problem(levels_[i]), rough, {.tolerance = 1e-8, .first_damping = 1e-9});
     for (const FitResult& fit : fits)
       evaluations += fit.evaluations;
     keep_best(fits, 0.01);

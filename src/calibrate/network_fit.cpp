@@ -1,10 +1,10 @@
-// Levenberg-Marquardt for one net with generalised least squares by experiment.
+// Generalised least squares by experiment for one net, as a problem of Levenberg-Marquardt.
 #include "calibrate/network_fit.h"
 
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
+#include "stats/levenberg_marquardt.h"
 
 namespace frictab::calibrate {
 
@@ -90,7 +90,7 @@ GainDirection gain_direction(const NetworkBins& bins, double mu0) {
 namespace {
 
 // Loss of one net: half of r' V^-1 r, with V from the scatter, plus half the decay of w'w.
-class NetworkLoss {
+class NetworkLoss : public stats::LeastSquares {
 public:
   explicit NetworkLoss(const NetworkProblem& problem)
       : problem_(problem), direction_(gain_direction(problem.training, problem.mu0)),
@@ -102,33 +102,37 @@ public:
     share_ = ratio.square() / (1 + ratio.square());
   }
 
-  double operator()(const VectorXd& weights) const {
+  double cost(std::span<const double> parameters) override {
+    const VectorXd weights = stats::as_vector(parameters);
     const VectorXd r =
         scaled_residual(network_tau(problem_.training, problem_.shape, problem_.mu0, weights));
-    const VectorXd along = along_gain(r);
-    return 0.5 * (r.squaredNorm() - along.dot(share_.cwiseProduct(along)) +
-                  weights.dot(decay_.cwiseProduct(weights)));
+    return cost_of(r, along_gain(r), weights);
   }
 
-  // Computes the Gauss-Newton curvature and the descent (minus the gradient); returns the loss.
-  double linearise(const VectorXd& weights, MatrixXd& curvature, VectorXd& descent) const {
+  stats::NormalEquations normal_equations(std::span<const double> parameters) override {
+    const VectorXd weights = stats::as_vector(parameters);
     MatrixXd j;
     const VectorXd tau = network_tau(problem_.training, problem_.shape, problem_.mu0, weights, &j);
     j.array().colwise() *= problem_.training.weight.array() / problem_.scatter.noise_MPa;
-    const VectorXd r = scaled_residual(tau);
+    const VectorXd r = scaled_residual(tau), r_along = along_gain(r);
     const MatrixXd j_along = along_gain(j);
-    const VectorXd r_along = share_.cwiseProduct(along_gain(r));
-    curvature.setZero(j.cols(), j.cols());
+    MatrixXd curvature = MatrixXd::Zero(j.cols(), j.cols());
     curvature.selfadjointView<Eigen::Lower>().rankUpdate(j.transpose());
     curvature.selfadjointView<Eigen::Lower>().rankUpdate(
         (share_.cwiseSqrt().asDiagonal() * j_along).transpose(), -1.0);
     curvature.diagonal() += decay_;
-    descent = j.transpose() * r - j_along.transpose() * r_along - decay_.cwiseProduct(weights);
-    return 0.5 * (r.squaredNorm() - along_gain(r).dot(r_along) +
-                  weights.dot(decay_.cwiseProduct(weights)));
+    return {cost_of(r, r_along, weights),
+            j.transpose() * r - j_along.transpose() * share_.cwiseProduct(r_along) -
+                decay_.cwiseProduct(weights),
+            curvature.selfadjointView<Eigen::Lower>()};
   }
 
 private:
+  double cost_of(const VectorXd& r, const VectorXd& r_along, const VectorXd& weights) const {
+    return 0.5 * (r.squaredNorm() - r_along.dot(share_.cwiseProduct(r_along)) +
+                  weights.dot(decay_.cwiseProduct(weights)));
+  }
+
   VectorXd scaled_residual(const VectorXd& tau) const {
     return network_residual(problem_.training, tau) / problem_.scatter.noise_MPa;
   }
@@ -159,40 +163,39 @@ double held_out_square(const NetworkProblem& problem, const VectorXd& weights) {
 } // namespace
 
 NetworkFit fit_network(const NetworkProblem& problem, VectorXd start) {
-  constexpr std::size_t max_iterations = 30, patience = 5;
-  constexpr double smallest_gain = 1e-4; // relative; the remaining gain is far below the scatter
-  const NetworkLoss loss(problem);
-  NetworkFit fit{start, std::move(start), std::numeric_limits<double>::infinity(), 0};
-  VectorXd& w = fit.last;
-  double damping = 1e-2;
+  constexpr std::size_t patience = 5;
+  NetworkFit fit{start, {}, std::numeric_limits<double>::infinity(), 0};
   std::size_t since_best = 0;
-  MatrixXd curvature;
-  VectorXd descent;
-  while (fit.iterations < max_iterations && since_best < patience) {
-    const double cost = loss.linearise(w, curvature, descent);
-    double next_cost = cost;
-    for (int attempt = 0; attempt < 10 && !(next_cost < cost); ++attempt) {
-      MatrixXd damped = curvature;
-      damped.diagonal() += damping * curvature.diagonal();
-      const VectorXd next = w + damped.selfadjointView<Eigen::Lower>().ldlt().solve(descent);
-      next_cost = loss(next);
-      if (next_cost < cost)
-        w = next;
-      else
-        damping *= 5;
-    }
-    if (!(next_cost < cost)) break;
-    damping = std::max(damping / 5, 1e-9);
+  const auto improves_held_out = [&](std::span<const double> weights) {
     ++fit.iterations;
     ++since_best;
-    if (const double square = held_out_square(problem, w); square < fit.held_out_square) {
+    if (const double square = held_out_square(problem, stats::as_vector(weights));
+        square < fit.held_out_square) {
       fit.held_out_square = square;
-      fit.weights = w;
+      fit.weights = stats::as_vector(weights);
       since_best = 0;
     }
-    if (cost - next_cost < smallest_gain * cost) break;
-  }
-  if (fit.iterations == 0) fit.held_out_square = held_out_square(problem, w);
+    return since_best < patience;
+  };
+  const stats::LevenbergMarquardtOptions options{
+      .tolerance = 1e-4, // the remaining gain is far below the scatter
+      .promise_ends = false,
+      .small_gains_end = 1,
+      .most_steps = 30,
+      .goes_on = improves_held_out,
+      .first_damping = 1e-2,
+      .unit = stats::DampingUnit::current_diagonal,
+      .fall = 0.2,
+      .growth = 5,
+      .growth_of_growth = 1,
+      .derivatives_at_first_trial = false,
+      .learns_curvature = false};
+  NetworkLoss loss(problem);
+  const std::vector<stats::ParameterRange> unbounded(static_cast<std::size_t>(start.size()));
+  const stats::LevenbergMarquardtFit last = stats::levenberg_marquardt(
+      loss, unbounded, {start.data(), start.data() + start.size()}, options);
+  fit.last = stats::as_vector(last.parameters);
+  if (fit.iterations == 0) fit.held_out_square = held_out_square(problem, fit.last);
   return fit;
 }
 

@@ -3,11 +3,12 @@
 // With weights w the net predicts tau = min(mu0 sigma_n exp(output), k); it has one hidden layer of
 // tanh units. Training minimises
 //   1/2 r' V^-1 r + decay/2 w' w,   r = measured - tau of all bins,
-// by Levenberg-Marquardt; the decay keeps the weights, and so the curvature of the net, small.
-// Experiments differ as a whole by a factor that no input explains. So V contains, per experiment,
-// the noise of a bin and the variance of that factor along mu0 sigma_n (NetworkScatter). An offset
-// of a whole experiment then has little weight and is not learned; changes within one are weighted
-// by the small noise there (generalised least squares, Aitken 1936).
+// by Levenberg-Marquardt (stats/levenberg_marquardt.h); the decay keeps the weights, and so the
+// curvature of the net, small. Experiments differ as a whole by a factor that no input explains. So
+// V contains, per experiment, the noise of a bin and the variance of that factor along mu0 sigma_n
+// (NetworkScatter). An offset of a whole experiment then has little weight and is not learned;
+// changes within one are weighted by the small noise there (generalised least squares, Aitken
+// 1936).
 #pragma once
 
 #include <span>

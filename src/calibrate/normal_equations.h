@@ -11,13 +11,10 @@
 
 namespace frictab::calibrate {
 
-// Mean loss at one set of parameters, with its gradient and curvature.
-struct NormalEquations {
-  double cost = 0;         // infinity if the law is not finite
-  Eigen::VectorXd descent; // mean of loss'(r) J: minus the gradient
-  Eigen::MatrixXd hessian; // mean of step curvature J'J
-};
+using stats::NormalEquations;
 
+// Mean loss at one set of parameters, infinity if the law is not finite there; with its gradient
+// and curvature.
 double mean_cost(const FitProblem& problem, const LossFunction& loss,
                  std::span<const double> parameters);
 NormalEquations normal_equations(const FitProblem& problem, const LossFunction& loss,

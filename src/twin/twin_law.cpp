@@ -96,7 +96,8 @@ std::vector<double> LawTruth::recalibrated(const data::Dataset& data, const TauP
   const Rows rows = rows_of(program_, data, pieces);
   const expr::BoundProgram bound(program_, data.rows(), rows.columns);
   return calibrate::fit_from({bound, measured, law_.parameters}, {calibrate::Loss::l2, 0},
-                             parameters_, {.tolerance = 1e-8, .damping = 1e-6, .iterations = steps})
+                             parameters_,
+                             {.tolerance = 1e-8, .most_steps = steps, .first_damping = 1e-6})
       .parameters;
 }
 

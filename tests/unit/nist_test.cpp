@@ -61,7 +61,7 @@ protected:
   calibrate::FitProblem problem() const { return {*bound, certified.y, bounds}; }
   calibrate::FitResult fit(std::size_t start) const {
     return calibrate::fit_from(problem(), {calibrate::Loss::l2, 0}, certified.starts.at(start),
-                               {.tolerance = 1e-18, .damping = 1, .iterations = 2000});
+                               {.tolerance = 1e-18, .most_steps = 2000, .first_damping = 1});
   }
   // From NIST's far start these two are beyond a local method with this damping. BoxBOD: the first
   // step saturates 1 - exp(-b2 x), after which b2 has no influence. MGH10: b1 starts 400 times, b2

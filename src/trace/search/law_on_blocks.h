@@ -4,8 +4,9 @@
 // The trace stage fits hundreds of laws, so it fits them to block means (some 40 per experiment)
 // instead of rows. A fit minimises
 //   |V^-1/2 (measured - tau(p))|^2 + p' S p
-// within the bounds of the parameters p, by Levenberg-Marquardt. V is the noise model's covariance
-// (noise.h), S the roughness matrix of smooth effects times their stiffness.
+// within the bounds of the parameters p, by Levenberg-Marquardt (stats/levenberg_marquardt.h). V is
+// the noise model's covariance (noise.h), S the roughness matrix of smooth effects times their
+// stiffness.
 #pragma once
 
 #include <memory>
@@ -60,10 +61,7 @@ struct Penalty {
 
 // Runs the fit described above. `penalty`: S. `weight`: per block, applied after whitening (empty:
 // 1). Steps that make a positive stress non-positive are rejected: where tests scatter as a whole,
-// a law without friction is only a few standard deviations off, and the fit could go there. (The
-// solver in calibrate/fit.h agrees to five digits of the parameters. It is not used here because
-// the noise of the folds depends on the remaining digits, and with it the nested log score, by up
-// to 3 %.)
+// a law without friction is only a few standard deviations off, and the fit could go there.
 BlockFit fit_blocks(const LawOnBlocks& law, const Eigen::VectorXd& measured,
                     const stats::Whitener& whitener, std::vector<double> start,
                     const Penalty& penalty = {}, const Eigen::VectorXd& weight = {},
