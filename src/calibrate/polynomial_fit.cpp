@@ -4,12 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
-
-#include <Eigen/Cholesky>
-#include <nlopt.hpp>
 
 #include "core/no_value.h"
+#include "stats/reml.h"
 
 namespace frictab::calibrate {
 
@@ -29,17 +26,6 @@ unsigned highest_order(const PolynomialProblem& problem) {
   return *std::max_element(problem.order.begin(), problem.order.end());
 }
 
-struct LogBounds {
-  double low, high;
-};
-
-// Upper bound of about a third of the stroke: a slower part could not be distinguished from the
-// gain and would absorb it.
-LogBounds bounds_of(std::size_t log) {
-  if (log == 3) return {std::log(0.02), std::log(0.4)};
-  return {std::log(1e-4), std::log(3.0)};
-}
-
 std::vector<double> usual_logs(const PolynomialProblem& problem) {
   const PolynomialNoise usual;
   std::vector<double> logs;
@@ -47,6 +33,10 @@ std::vector<double> usual_logs(const PolynomialProblem& problem) {
     logs.push_back(std::log(x));
   logs.resize(noise_logs + highest_order(problem), std::log(usual_spread));
   return logs;
+}
+
+stats::LogPrior log_prior(const PolynomialProblem& problem) {
+  return {usual_logs(problem), 1 / (prior_width * prior_width)};
 }
 
 // V of one experiment and its derivatives by the logarithms of the noise.
@@ -64,9 +54,9 @@ struct ExperimentNoise {
   }
 
   MatrixXd sum() const { return gain + slope + slow + white; }
-  // Derivatives of V by gain, slope, slow, length, white, in that order: 2, 2, 2, 1, 2 times these.
-  std::array<const MatrixXd*, noise_logs> parts() const {
-    return {&gain, &slope, &slow, &by_length, &white};
+  // By gain, slope, slow, length and white.
+  std::array<MatrixXd, noise_logs> derivatives() const {
+    return {2 * gain, 2 * slope, 2 * slow, by_length, 2 * white};
   }
 };
 
@@ -75,178 +65,102 @@ PolynomialNoise noise_of(std::span<const double> logs) {
           std::exp(logs[4])};
 }
 
-// Solution of the normal equations at one set of standard deviations.
-class RidgeSolution {
+// The restricted likelihood at one set of standard deviations, without the prior.
+class PolynomialLikelihood {
 public:
-  RidgeSolution(const PolynomialProblem& problem, std::span<const double> logs)
-      : problem_(problem), logs_(logs), noise_(noise_of(logs)),
-        matrix_(MatrixXd::Zero(problem.design.cols(), problem.design.cols())),
-        right_(VectorXd::Zero(problem.design.cols())), weight_(problem.first.size() - 1) {
-    const double mean_rows =
-        problem.rows.size() > 0 ? problem.rows.mean() : 1; // the bins that white refers to
-    relative_rows_ = problem.rows / mean_rows;
-    for (std::size_t e = 0; e < weight_.size(); ++e)
-      add(e);
-    add_ridge();
-    factor_.compute(matrix_);
-    coefficients_ = factor_.solve(right_);
-  }
+  PolynomialLikelihood(const PolynomialProblem& problem, std::span<const double> logs)
+      : problem_(problem), noise_(noise_of(logs)), relative_rows_(relative_rows(problem)),
+        reml_(
+            {problem.design, problem.ln_mu, problem.first},
+            [this](std::size_t e) { return noise_in(e).sum(); }, precision(problem, logs)) {}
 
-  const VectorXd& coefficients() const { return coefficients_; }
-
-  double criterion() const {
-    double sum = log_determinants_ + squares_ - right_.dot(coefficients_);
-    sum += 2 * factor_.matrixLLT().diagonal().array().log().sum();
-    return sum / 2;
-  }
+  const stats::DenseReml& reml() const { return reml_; }
 
   void gradient(std::span<double> out) const {
     std::fill(out.begin(), out.end(), 0.0);
-    for (std::size_t e = 0; e < weight_.size(); ++e)
-      add_gradient(e, out);
-    const MatrixXd inverse =
-        factor_.solve(MatrixXd::Identity(matrix_.rows(), matrix_.cols())); // of A'WA + T^-1
-    for (Index c = 1; c < matrix_.cols(); ++c) {
-      const double precision = precision_of(c);
-      out[noise_logs + problem_.order[static_cast<std::size_t>(c)] - 1] +=
-          1 - precision * (inverse(c, c) + coefficients_(c) * coefficients_(c));
+    for (std::size_t e = 0; e + 1 < problem_.first.size(); ++e) {
+      const MatrixXd slope = reml_.slope(e);
+      const auto derivatives = noise_in(e).derivatives();
+      for (std::size_t k = 0; k < noise_logs; ++k)
+        out[k] += slope.cwiseProduct(derivatives.at(k)).sum();
     }
-  }
-
-  VectorXd without(std::size_t experiment) const {
-    const MatrixXd& a = weighted(experiment);
-    const auto [from, count] = bins_of(experiment);
-    return (matrix_ - a.transpose() * problem_.design.middleRows(from, count))
-        .ldlt()
-        .solve(right_ - a.transpose() * problem_.ln_mu.segment(from, count));
+    const VectorXd ridge = reml_.ridge_slopes();
+    for (Index c = 1; c < ridge.size(); ++c)
+      out[noise_logs + problem_.order[static_cast<std::size_t>(c)] - 1] += ridge(c);
   }
 
 private:
-  struct Weight {
-    MatrixXd inverse; // V^-1
-    MatrixXd design;  // V^-1 A
-  };
-
-  std::pair<Index, Index> bins_of(std::size_t e) const {
-    return {problem_.first[e], problem_.first[e + 1] - problem_.first[e]};
+  // Relative to the bins that white refers to.
+  static VectorXd relative_rows(const PolynomialProblem& problem) {
+    return problem.rows / (problem.rows.size() > 0 ? problem.rows.mean() : 1);
   }
-  const MatrixXd& weighted(std::size_t e) const { return weight_[e].design; }
+
+  static VectorXd precision(const PolynomialProblem& problem, std::span<const double> logs) {
+    VectorXd precision = VectorXd::Zero(problem.design.cols());
+    for (Index c = 1; c < precision.size(); ++c)
+      precision(c) =
+          std::exp(-2 * logs[noise_logs + problem.order[static_cast<std::size_t>(c)] - 1]);
+    return precision;
+  }
 
   ExperimentNoise noise_in(std::size_t e) const {
-    const auto [from, count] = bins_of(e);
+    const Index from = problem_.first[e], count = problem_.first[e + 1] - from;
     return {noise_, problem_.position.segment(from, count), relative_rows_.segment(from, count)};
   }
 
-  double precision_of(Index column) const {
-    return std::exp(-2 * logs_[noise_logs + problem_.order[static_cast<std::size_t>(column)] - 1]);
-  }
-
-  void add(std::size_t e) {
-    const auto [from, count] = bins_of(e);
-    const auto a = problem_.design.middleRows(from, count);
-    const auto y = problem_.ln_mu.segment(from, count);
-    const Eigen::LLT<MatrixXd> v(noise_in(e).sum());
-    weight_[e].inverse = v.solve(MatrixXd::Identity(count, count));
-    weight_[e].design = weight_[e].inverse * a;
-    matrix_ += a.transpose() * weight_[e].design;
-    right_ += weight_[e].design.transpose() * y;
-    squares_ += y.dot(weight_[e].inverse * y);
-    log_determinants_ += 2 * v.matrixLLT().diagonal().array().log().sum();
-  }
-
-  void add_ridge() {
-    for (Index c = 1; c < matrix_.cols(); ++c) {
-      const double precision = precision_of(c);
-      matrix_(c, c) += precision;
-      log_determinants_ -= std::log(precision);
-    }
-  }
-
-  // Adds d criterion = (trace(P dV) - r'W dV W r)/2 with r = y - A b and P = W - W A (...)^-1 A'W.
-  void add_gradient(std::size_t e, std::span<double> out) const {
-    const auto [from, count] = bins_of(e);
-    const MatrixXd half = factor_.matrixL().solve(weighted(e).transpose());
-    const VectorXd r =
-        weight_[e].inverse * (problem_.ln_mu.segment(from, count) -
-                              problem_.design.middleRows(from, count) * coefficients_);
-    const MatrixXd towards = weight_[e].inverse - half.transpose() * half - r * r.transpose();
-    const ExperimentNoise noise = noise_in(e);
-    const auto parts = noise.parts();
-    for (std::size_t k = 0; k < noise_logs; ++k)
-      out[k] += (k == 3 ? 0.5 : 1.0) * towards.cwiseProduct(*parts.at(k)).sum();
-  }
-
   const PolynomialProblem& problem_;
-  std::span<const double> logs_;
   PolynomialNoise noise_;
   VectorXd relative_rows_;
-  MatrixXd matrix_; // A'WA + T^-1
-  VectorXd right_;  // A'W y
-  std::vector<Weight> weight_;
-  double log_determinants_ = 0, squares_ = 0;
-  Eigen::LLT<MatrixXd> factor_;
-  VectorXd coefficients_;
+  stats::DenseReml reml_;
 };
 
-std::vector<double> best_logs(const PolynomialProblem& problem, std::size_t& evaluations) {
-  std::vector<double> logs = usual_logs(problem), low, high;
-  for (std::size_t k = 0; k < logs.size(); ++k) {
-    low.push_back(bounds_of(k).low);
-    high.push_back(bounds_of(k).high);
-  }
-  struct Context {
-    const PolynomialProblem& problem;
-    std::size_t& evaluations;
-  } context{problem, evaluations};
-  nlopt::opt search(nlopt::LD_SLSQP, static_cast<unsigned>(logs.size()));
-  search.set_lower_bounds(low);
-  search.set_upper_bounds(high);
-  search.set_maxeval(80);
-  search.set_ftol_abs(1e-4); // of a log likelihood
-  search.set_min_objective(
-      [](const std::vector<double>& x, std::vector<double>& gradient, void* data) {
-        auto& c = *static_cast<Context*>(data);
-        ++c.evaluations;
-        return polynomial_criterion(c.problem, x, gradient);
+double criterion_without_prior(const PolynomialProblem& problem, std::span<const double> logs,
+                               std::span<double> gradient) {
+  const PolynomialLikelihood likelihood(problem, logs);
+  if (!gradient.empty()) likelihood.gradient(gradient);
+  return likelihood.reml().criterion();
+}
+
+stats::LogMinimum best_logs(const PolynomialProblem& problem) {
+  const std::vector<double> usual = usual_logs(problem);
+  stats::LogSearch search{.low = std::vector<double>(usual.size(), std::log(1e-4)),
+                          .high = std::vector<double>(usual.size(), std::log(3.0)),
+                          .prior = log_prior(problem),
+                          .has_gradient = true,
+                          .tolerance = 1e-4, // of a log likelihood
+                          .most_evaluations = 80};
+  // Upper bound of about a third of the stroke: a slower part could not be distinguished from the
+  // gain and would absorb it.
+  search.low[3] = std::log(0.02);
+  search.high[3] = std::log(0.4);
+  return stats::least_criterion(
+      [&](std::span<const double> logs, std::span<double> gradient) {
+        return criterion_without_prior(problem, logs, gradient);
       },
-      &context);
-  double least = 0;
-  try {
-    search.optimize(logs, least);
-  } catch (const std::runtime_error&) { // no further improvement; logs are the best so far
-  }
-  return logs;
+      usual, search);
 }
 
 } // namespace
 
 double polynomial_criterion(const PolynomialProblem& problem, std::span<const double> logs,
                             std::span<double> gradient) {
-  const RidgeSolution solution(problem, logs);
-  double criterion = solution.criterion();
-  if (!gradient.empty()) solution.gradient(gradient);
-  const std::vector<double> usual = usual_logs(problem);
-  for (std::size_t k = 0; k < logs.size(); ++k) {
-    const double away = (logs[k] - usual[k]) / prior_width;
-    criterion += away * away / 2;
-    if (!gradient.empty()) gradient[k] += away / prior_width;
-  }
-  return criterion;
+  return criterion_without_prior(problem, logs, gradient) + log_prior(problem)(logs, gradient);
 }
 
 PolynomialFit fit_polynomial(const PolynomialProblem& problem) {
+  const stats::LogMinimum best = best_logs(problem);
+  const PolynomialLikelihood likelihood(problem, best.logs);
   PolynomialFit fit;
-  const std::vector<double> logs = best_logs(problem, fit.evaluations);
-  const RidgeSolution solution(problem, logs);
-  fit.coefficients = solution.coefficients();
-  fit.criterion = polynomial_criterion(problem, logs);
-  fit.noise = noise_of(logs);
-  for (std::size_t k = noise_logs; k < logs.size(); ++k)
-    fit.spread.push_back(std::exp(logs[k]));
+  fit.evaluations = best.evaluations;
+  fit.coefficients = likelihood.reml().coefficients();
+  fit.criterion = best.criterion;
+  fit.noise = noise_of(best.logs);
+  for (std::size_t k = noise_logs; k < best.logs.size(); ++k)
+    fit.spread.push_back(std::exp(best.logs[k]));
   const std::size_t experiments = problem.first.size() - 1;
   fit.without.resize(fit.coefficients.size(), static_cast<Index>(experiments));
   for (std::size_t e = 0; e < experiments; ++e)
-    fit.without.col(static_cast<Index>(e)) = solution.without(e);
+    fit.without.col(static_cast<Index>(e)) = likelihood.reml().without(e);
   return fit;
 }
 

@@ -1,15 +1,12 @@
 // Fit of the polynomial: generalised least squares with all variance components estimated.
 //
-// y = ln mu of the bins, A = [1, terms]. With b ~ N(0, t_o^2) for the terms of order o (a ridge)
-// and, within one experiment with bins at x of r rows (r of the mean bin = 1),
-//   V = gain^2 + 12 slope^2 x x' + slow^2 exp(-|x - x'|/length) + white^2/r on the diagonal,
-// y has the covariance Sigma = V + A T A'. The standard deviations gain, slope, slow, white, t_1 ..
-// t_o and the length maximise the restricted likelihood (REML: Patterson and Thompson 1971), i.e.
-// they minimise
-//   (ln|V| + ln|A'WA + T^-1| + ln|T| + y'W y - b'A'W y)/2,   W = V^-1,
-// where b solves (A'WA + T^-1) b = A'W y. A difference between experiments thus has little weight
-// and a change within one much, and terms without support in the data shrink to zero. This
-// combination is our own.
+// y = ln mu of the bins, A = [1, terms], b ~ N(0, t_o^2) for the terms of order o (a ridge), and
+// within one experiment with bins at x of r rows (r of the mean bin = 1)
+//   V = gain^2 + 12 slope^2 x x' + slow^2 exp(-|x - x'|/length) + white^2/r on the diagonal.
+// The standard deviations gain, slope, slow, white, t_1 .. t_o and the length maximise the
+// restricted likelihood (stats/reml.h). A difference between experiments thus has little weight and
+// a change within one much, and terms without support in the data shrink to zero. This combination
+// is our own.
 #pragma once
 
 #include <span>

@@ -7,11 +7,10 @@
 #include <cmath>
 #include <map>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <nlopt.hpp>
 
 #include "stats/projection.h"
+#include "stats/reml.h"
 
 namespace frictab::stats {
 
@@ -24,10 +23,8 @@ using Eigen::VectorXd;
 constexpr std::array slow_lengths = {0.025, 0.05, 0.1, 0.2, 0.4}; // of an experiment
 // of a standard deviation, relative to the residual's own
 constexpr double least_log = -8, most_log = 2;
-// Weak prior on the logarithms of standard deviations, centred at 0. Without it the likelihood is
-// flat where the data do not determine one, and the result would be arbitrary. It costs 1e-4 of log
-// likelihood over the whole range.
-constexpr double weak_prior = 1e-6;
+// Of the logarithms, about 0: costs 1e-4 of log likelihood over the whole range.
+constexpr double prior_precision = 2e-6;
 
 // Shape of experiments: the number of blocks, and the white noise of each relative to the usual
 // one. Experiments of one shape share the directions in which noise of one length is independent.
@@ -99,7 +96,8 @@ public:
     }
   }
 
-  double operator()(const NoiseModel& noise) const {
+  // Without the constant.
+  double criterion(const NoiseModel& noise) const {
     const double slow = noise.slow * noise.slow, white = noise.white * noise.white;
     const Index own = fitted_ + 1;
     MatrixXd normal = MatrixXd::Zero(own, own); // lower triangle only
@@ -118,11 +116,15 @@ public:
       }
     }
     normal.selfadjointView<Eigen::Lower>().rankUpdate(random, -1);
-    return -0.5 * (log_det + restricted(normal));
+    MatrixXd information = normal.bottomRightCorner(fitted_, fitted_);
+    if (fitted_ > 0) information.diagonal().array() += 1e-10 * information.diagonal().maxCoeff();
+    return RestrictedSolution(
+               {std::move(information), normal.col(0).tail(fitted_), normal(0, 0), log_det})
+        .criterion;
   }
 
-  // Constant of the likelihood for this growth, which depends on the unit of stress.
-  double constant() const { return -log_d_; }
+  // Part of the criterion that all noise of this growth shares; it depends on the unit of stress.
+  double constant() const { return log_d_; }
 
 private:
   // Experiments of one shape, transformed to the directions of one length.
@@ -195,17 +197,6 @@ private:
     off.col(0) = gain.head(own) / first;
     off.col(1) = (slope.head(own) - both * off.col(0)) / second;
     return 2 * std::log(first * second);
-  }
-
-  // Residual sum of squares after the fitted columns, plus the log determinant of the information
-  // about these.
-  double restricted(const MatrixXd& normal) const {
-    if (fitted_ == 0) return normal(0, 0);
-    MatrixXd information = normal.bottomRightCorner(fitted_, fitted_);
-    information.diagonal().array() += 1e-10 * information.diagonal().maxCoeff();
-    const Eigen::LLT<MatrixXd> root(information);
-    const VectorXd along = root.matrixL().solve(normal.col(0).tail(fitted_));
-    return normal(0, 0) - along.squaredNorm() + 2 * root.matrixLLT().diagonal().array().log().sum();
   }
 
   std::vector<BlockShape> shapes_;
@@ -285,7 +276,7 @@ private:
     if (fit.log_likelihood > best.log_likelihood + 1e-6) best = fit;
   }
 
-  NoiseModel model(const Logs& x, double length) const {
+  NoiseModel model(std::span<const double> x, double length) const {
     NoiseModel noise = base_;
     noise.length = length;
     double* values[] = {&noise.gain, &noise.slow, &noise.white, &noise.slope};
@@ -301,40 +292,20 @@ private:
     return x;
   }
 
-  double value(const Logs& x, double length) const {
-    double prior = 0;
-    for (const double v : x)
-      prior += weak_prior * v * v;
-    const double found = likelihood_(model(x, length)) - prior;
-    return std::isfinite(found) ? found : -1e300;
-  }
-
-  NoiseFit fit(double length, Logs x, double step, double tolerance = tight) const {
-    struct Context {
-      const NoiseFitter& search;
-      double length;
-    } context{*this, length};
-    x.resize(searched_);
-    nlopt::opt search(nlopt::LN_BOBYQA, static_cast<unsigned>(searched_));
-    search.set_lower_bounds(least_log - 0.01);
-    search.set_upper_bounds(most_log + 0.01);
-    search.set_initial_step(step);
-    search.set_maxeval(400);
-    search.set_ftol_abs(tolerance);
-    search.set_xtol_abs(std::max(10 * tolerance, 1e-6));
-    search.set_max_objective(
-        [](const Logs& p, Logs&, void* data) {
-          const auto& c = *static_cast<Context*>(data);
-          return c.search.value(p, c.length);
-        },
-        &context);
-    double best = 0;
-    try {
-      search.optimize(x, best);
-    } catch (const nlopt::roundoff_limited&) { // x is the best point so far
-      best = value(x, length);
-    }
-    return {model(x, length), best + likelihood_.constant()};
+  NoiseFit fit(double length, Logs start, double first_step, double tolerance = tight) const {
+    start.resize(searched_);
+    const LogMinimum least =
+        least_criterion([&](std::span<const double> x,
+                            std::span<double>) { return likelihood_.criterion(model(x, length)); },
+                        std::move(start),
+                        {.low = Logs(searched_, least_log - 0.01),
+                         .high = Logs(searched_, most_log + 0.01),
+                         .prior = {Logs(searched_, 0.0), prior_precision},
+                         .first_step = first_step,
+                         .tolerance = tolerance,
+                         .log_tolerance = std::max(10 * tolerance, 1e-6),
+                         .most_evaluations = 400});
+    return {model(least.logs, length), -least.criterion - likelihood_.constant()};
   }
 
   std::size_t searched_; // number of optimised logarithms; the slope is the last

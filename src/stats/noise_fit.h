@@ -1,18 +1,15 @@
 // Fit of the noise model of noise.h to the residuals of a law.
 //
-// The residuals of one experiment are modelled as normal with mean X b and the covariance V of the
-// noise model; X holds the directions of the parameters that were fitted. Maximum likelihood would
-// underestimate the noise by what those parameters have explained. Restricted maximum likelihood
-// (Patterson and Thompson 1971) does not: it maximises
-//   -1/2 (log det V + log det X' V^-1 X + r' P r),   P = V^-1 - V^-1 X (X' V^-1 X)^-1 X' V^-1,
-// the likelihood of the data after projection orthogonal to X. Neither V nor its inverse is formed.
+// The residuals are modelled as normal with mean X b and the covariance V of the noise model; X
+// holds the directions of the parameters that were fitted. V maximises the restricted likelihood
+// (stats/reml.h). Neither V nor its inverse is formed.
 // The slow noise is a first-order autoregressive process with one of a few lengths. At a given
 // length, the directions in which slow and white noise are independent are the same for any size of
 // either and for all experiments with as many blocks. So the columns are transformed to these
 // directions once, their products are summed over such experiments once, and the likelihood for
 // each size of the noise is a sum over directions. Gain and slope enter as a 2 x 2 matrix per
-// experiment (Woodbury's identity). Four logarithms of standard deviations are optimised at each
-// length (NLopt's BOBYQA).
+// experiment (Woodbury's identity). Four logarithms of standard deviations are searched at each
+// length.
 #pragma once
 
 #include <Eigen/Core>

@@ -29,9 +29,9 @@ struct RandomEffects {
   Interval predicted;
 };
 
-// Estimates tau^2 by restricted maximum likelihood with one mean per group (Viechtbauer 2005, J.
-// Educ. Behav. Stat. 30, eq. 10 by Fisher scoring); 0 where the estimates scatter no more than
-// their errors. NaN if all groups have a single estimate.
+// Estimates tau^2 by restricted maximum likelihood (reml.h) with one mean per group (Viechtbauer
+// 2005, J. Educ. Behav. Stat. 30, eq. 10 by Fisher scoring); 0 where the estimates scatter no more
+// than their errors. NaN if all groups have a single estimate.
 double between_variance(std::span<const Estimate> estimates);
 
 // Summarizes all estimates as one group. The interval of mu is that of Hartung and Knapp (2001,

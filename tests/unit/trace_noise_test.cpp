@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "stats/noise.h"
 #include "stats/noise_fit.h"
+#include "stats/reml.h"
 #include "support/blocks.h"
 #include "trace/columns/order_test.h"
 
@@ -140,22 +141,12 @@ void expect_alike(const NoiseModel& a, const NoiseModel& b, double relative) {
 
 // The restricted likelihood as its definition says, but for what all noise of one growth shares.
 double written_out(const NoiseModel& noise, const Drawn& drawn) {
-  const Index fitted = drawn.fitted.cols();
-  MatrixXd information = MatrixXd::Zero(fitted + 1, fitted + 1);
-  double log_det = 0;
-  for (std::size_t e = 0; e < drawn.blocks.experiments(); ++e) {
-    const auto begin = static_cast<Index>(drawn.blocks.first[e]);
-    const auto count = static_cast<Index>(drawn.blocks.first[e + 1]) - begin;
-    MatrixXd columns(count, fitted + 1);
-    columns << drawn.residual.segment(begin, count), drawn.fitted.middleRows(begin, count);
-    const Eigen::LLT<MatrixXd> root(dense(noise, drawn.tau, drawn.blocks, e));
-    information += columns.transpose() * root.solve(columns);
-    log_det += 2 * MatrixXd(root.matrixL()).diagonal().array().log().sum();
-  }
-  const MatrixXd own = information.bottomRightCorner(fitted, fitted);
-  const VectorXd along = information.col(0).tail(fitted);
-  return -0.5 * (log_det + std::log(own.determinant()) + information(0, 0) -
-                 along.dot(own.ldlt().solve(along)));
+  const std::vector<Index> first(drawn.blocks.first.begin(), drawn.blocks.first.end());
+  return -stats::DenseReml(
+              {drawn.fitted, drawn.residual, first},
+              [&](std::size_t e) { return dense(noise, drawn.tau, drawn.blocks, e); },
+              VectorXd::Zero(drawn.fitted.cols()))
+              .criterion();
 }
 
 // Experiments that share their blocks with others, and ones that share them with none.
