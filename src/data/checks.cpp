@@ -85,7 +85,7 @@ void check_values(Part& part) {
   causes.tell(part.faults, "row");
 }
 
-void check_computed(Part& part, const DataOptions& options) {
+void check_computed(Part& part, const ReadRequest& options) {
   if (!part.faults.empty()) return;
   FaultsByCause causes;
   for (const Column& column : part.data.columns)
@@ -173,7 +173,7 @@ void check_single_rows(Part& part) {
 
 } // namespace
 
-void check_experiments(Part& part, const DataOptions& options) {
+void check_experiments(Part& part, const ReadRequest& options) {
   if (options.measured) {
     if (options.experiment != "row") check_names(part);
     check_single_rows(part);

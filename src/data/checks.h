@@ -23,7 +23,7 @@ void check_values(Part& part);
 
 // Reports values that could not be computed although every cell of their row is a number; not a
 // measured stress if the rows do not need one.
-void check_computed(Part& part, const DataOptions& options);
+void check_computed(Part& part, const ReadRequest& options);
 
 // True if rows look like tests rather than a time series: 8 to 1000 rows, with at least two columns
 // that repeat few levels (at most a third of the number of rows). Combinations of these levels have
@@ -33,6 +33,6 @@ bool rows_look_like_tests(std::span<const std::vector<double>> settings, std::si
 
 // Reports time that decreases, rows that look like tests if the job does not define tests, and
 // measured tests of one row among others.
-void check_experiments(Part& part, const DataOptions& options);
+void check_experiments(Part& part, const ReadRequest& options);
 
 } // namespace frictab::data

@@ -274,7 +274,7 @@ void multiply_coefficients(Part& part, const DataOptions& options) {
   }
 }
 
-void derive_shear_stress(Part& part, const DataOptions& options) {
+void derive_shear_stress(Part& part, const ReadRequest& options) {
   if (part.find("tau_R_MPa")) return;
   const Column* friction = part.find("F_R_N");
   const Column* normal = part.find("F_N_N");

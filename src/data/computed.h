@@ -29,7 +29,7 @@ void multiply_coefficients(Part& part, const DataOptions& options);
 
 // Eq. 1 of the paper: mu_meas = F_R/F_N, tau_R = mu_meas sigma_N. Adds a fault if the data need
 // tau_R (options.measured) and have neither a stress nor the forces.
-void derive_shear_stress(Part& part, const DataOptions& options);
+void derive_shear_stress(Part& part, const ReadRequest& options);
 // Recomputes tau_R of derive_shear_stress() after the forces have changed.
 void fill_shear_stress(Part& part);
 

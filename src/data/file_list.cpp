@@ -292,10 +292,10 @@ std::vector<std::string> find_files(const std::vector<std::string>& named, const
   return out;
 }
 
-FilePlans plan_files(const std::vector<std::string>& files, const DataOptions& options) {
+FilePlans plan_files(const std::vector<std::string>& files, const Reading& options) {
   FilePlans plans;
   const std::vector<std::string> labels = labels_of(files);
-  DataOptions one = options; // for one file, without the lists of all files
+  Reading one = options; // for one file, without the lists of all files
   one.training.clear();
   one.validation.clear();
   one.files.clear();

@@ -17,9 +17,9 @@ std::vector<std::string> find_files(const std::vector<std::string>& named, const
 
 // One file and how it is read.
 struct FilePlan {
-  std::string file;    // as named
-  std::string label;   // label of its experiment unless a column gives one
-  DataOptions options; // with the overrides of the first rule that matches the file
+  std::string file;  // as named
+  std::string label; // label of its experiment unless a column gives one
+  Reading options;   // with the overrides of the first rule that matches the file
 };
 
 struct FilePlans {
@@ -31,7 +31,7 @@ struct FilePlans {
 // with all folders if these are equal too. Named groups of `from_name` become columns, numeric if
 // the group is a number in every file. Throws InputError if a name does not match the pattern of
 // its rule.
-FilePlans plan_files(const std::vector<std::string>& files, const DataOptions& options);
+FilePlans plan_files(const std::vector<std::string>& files, const Reading& options);
 
 // Throws InputError for a rule that is not the first match of any file.
 void check_rules(const std::vector<std::string>& files, const DataOptions& options);

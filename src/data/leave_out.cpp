@@ -16,7 +16,7 @@
 
 namespace frictab::data {
 
-void drop_rows(Part& part, const DataOptions& options) {
+void drop_rows(Part& part, const Reading& options) {
   std::vector<char> keep(part.row.size(), 1);
   for (const DropRule& rule : options.drop) {
     const Column* column = part.find(rule.column);
@@ -57,7 +57,7 @@ void drop_without(const Column& column, Part& part, std::vector<char>& keep) {
 
 } // namespace
 
-void drop_missing(Part& part, const DataOptions& options) {
+void drop_missing(Part& part, const Reading& options) {
   if (options.missing != Missing::drop) return;
   std::set<std::size_t> raw_rows;
   for (const MappedFile::CellFault& cell : part.cell_faults)
@@ -118,7 +118,7 @@ std::shared_ptr<const Dataset> rows_aside(const Part& part, const std::vector<ch
 
 } // namespace
 
-void leave_out_phases(Part& part, const std::vector<Phase>& phases, const DataOptions& options) {
+void leave_out_phases(Part& part, const std::vector<Phase>& phases, const Reading& options) {
   Dataset& data = part.data;
   if (!options.measured) return;
   std::vector<char> keep(phases.size(), 1);
@@ -142,7 +142,7 @@ void leave_out_phases(Part& part, const std::vector<Phase>& phases, const DataOp
 
 // ---- rows that no rig can measure ----
 
-void leave_out_impossible(Part& part, const DataOptions& options) {
+void leave_out_impossible(Part& part, const Reading& options) {
   Dataset& data = part.data;
   if (!options.measured || !part.faults.empty() || !data.has("tau_R_MPa") ||
       !data.has("sigma_n_MPa"))
@@ -176,7 +176,7 @@ void tell(Dataset& data, std::string intervention) {
   data.interventions.push_back(std::move(intervention));
 }
 
-bool look_again(const Dataset& data, DataOptions& options) {
+bool look_again(const Dataset& data, Reading& options) {
   bool again = false;
   for (const RowsApart& one : data.apart)
     if (one.check == "spike" && is_more_than_few(one, data)) {

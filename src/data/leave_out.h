@@ -8,22 +8,22 @@
 namespace frictab::data {
 
 // Leaves out rows by data.drop.
-void drop_rows(Part& part, const DataOptions& options);
+void drop_rows(Part& part, const Reading& options);
 
 // Leaves out rows with an empty cell if the job asks for it.
-void drop_missing(Part& part, const DataOptions& options);
+void drop_missing(Part& part, const Reading& options);
 
 // Leaves out rows that are not sliding and keeps them in data.aside; counts all rows in
 // data.phases. A test without a sliding row is left out (data.at_rest).
-void leave_out_phases(Part& part, const std::vector<Phase>& phases, const DataOptions& options);
+void leave_out_phases(Part& part, const std::vector<Phase>& phases, const Reading& options);
 
 // Leaves out rows that no rig can measure (plausibility.h), recorded in data.apart.
-void leave_out_impossible(Part& part, const DataOptions& options);
+void leave_out_impossible(Part& part, const Reading& options);
 
 // True if the whole campaign shows that rows should not have been left out, or offsets not
 // subtracted; `options` are then set for a second reading. Spikes in more than a few rows are
 // ordinary scatter; if nothing slides, the speed is not usable.
-bool look_again(const Dataset& data, DataOptions& options);
+bool look_again(const Dataset& data, Reading& options);
 
 // Adds a note on the whole campaign that its summary repeats.
 void tell(Dataset& data, std::string intervention);

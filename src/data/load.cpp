@@ -6,8 +6,8 @@
 
 namespace frictab::data {
 
-Dataset load_dataset(const std::vector<std::string>& named, const DataOptions& options) {
-  DataOptions rest = options; // without the columns taken from the table of tests
+Dataset load_dataset(const std::vector<std::string>& named, const ReadRequest& options) {
+  Reading rest = options; // without the columns taken from the table of tests
   const Beside beside = load_beside(rest);
   const auto load = [&](const FilePlan& plan) { return load_part(plan, beside); };
   Dataset all = load_all(named, rest, load);

@@ -14,6 +14,6 @@ namespace frictab::data {
 // allow it. Without a column that names experiments, every file is one experiment with the file's
 // name. Throws InputError that lists the faults of every file, each with file:line:col, the first
 // 20 in full.
-Dataset load_dataset(const std::vector<std::string>& files, const DataOptions& options);
+Dataset load_dataset(const std::vector<std::string>& files, const ReadRequest& options);
 
 } // namespace frictab::data

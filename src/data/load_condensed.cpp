@@ -46,7 +46,7 @@ struct PartNumber {
 // The files of a campaign, which can be read part by part any number of times.
 class Campaign : public RowSource {
 public:
-  Campaign(const std::vector<std::string>& named, const DataOptions& options)
+  Campaign(const std::vector<std::string>& named, const Reading& options)
       : options_(options), beside_(load_beside(options_)),
         files_(find_files(named, options_.base, options_.place)),
         plans_(plan_files(files_, options_)) {}
@@ -111,7 +111,7 @@ private:
     }
   }
 
-  DataOptions options_; // without the columns taken from the table of tests
+  Reading options_; // without the columns taken from the table of tests
   Beside beside_;
   std::vector<std::string> files_;
   FilePlans plans_;
@@ -120,8 +120,7 @@ private:
 // Results of the first pass over a campaign.
 class FirstLook {
 public:
-  FirstLook(const DataOptions& options, std::size_t blocks,
-            std::shared_ptr<const Campaign> campaign)
+  FirstLook(const Reading& options, std::size_t blocks, std::shared_ptr<const Campaign> campaign)
       : options_(options), blocks_(blocks), campaign_(std::move(campaign)),
         faults_(campaign_->files().size()) {
     while (is_auto() && campaign_->files().size() * blocks_ > most_blocks &&
@@ -228,7 +227,7 @@ private:
     if (all.condensed) all.condensed->implausible = std::move(implausible_);
   }
 
-  const DataOptions& options_;
+  const Reading& options_;
   std::size_t blocks_; // per experiment
   std::shared_ptr<const Campaign> campaign_;
   std::mutex mutex_;
@@ -287,9 +286,9 @@ std::size_t blocks_to_condense(const DataOptions& options) {
   return rows > static_cast<double>(many_rows) ? fine_blocks : 0;
 }
 
-Dataset load_condensed(const std::vector<std::string>& files, const DataOptions& options,
+Dataset load_condensed(const std::vector<std::string>& files, const ReadRequest& options,
                        std::size_t blocks) {
-  DataOptions now = options;
+  Reading now = options;
   auto campaign = std::make_shared<const Campaign>(files, now);
   Dataset all = FirstLook(now, blocks, campaign).held();
   while (look_again(all, now)) {

@@ -26,7 +26,7 @@ std::size_t blocks_to_condense(const DataOptions& options);
 // experiments. Implausible rows are counted part by part. Notes that differ only in numbers are
 // reported once, with the sums of these numbers. Parts of a file consist of whole experiments
 // (data/raw_parts.h).
-Dataset load_condensed(const std::vector<std::string>& files, const DataOptions& options,
+Dataset load_condensed(const std::vector<std::string>& files, const ReadRequest& options,
                        std::size_t blocks);
 
 } // namespace frictab::data

@@ -41,7 +41,7 @@ void map_part(Part& part, const FilePlan& plan) {
 }
 
 void read_part(Part& part, const FilePlan& plan) {
-  const DataOptions& options = plan.options;
+  const Reading& options = plan.options;
   large_work(reading_words(plan), 0, fewer_rows, [&] {
     part.raw = read_raw(path_of(plan).string(), plan.file, options, part.faults);
     if (!options.wide.empty()) part.raw = from_wide(part.raw, options.wide, options.wide_place);
@@ -49,7 +49,7 @@ void read_part(Part& part, const FilePlan& plan) {
   });
 }
 
-void finish_part(Part& part, const DataOptions& options, const Beside& beside) {
+void finish_part(Part& part, const Reading& options, const Beside& beside) {
   if (beside.tests) add_test_columns(part, *beside.tests);
   if (beside.second) join_clocks(part, *beside.second, options.join);
   compute_formulas(part, options);
@@ -99,7 +99,7 @@ Part load_second_part(const FilePlan& plan) {
 
 // Reads the files of data.join with its own keys.
 Dataset load_second(const DataOptions& options) {
-  DataOptions own;
+  Reading own;
   own.base = options.base;
   own.place = options.join.place;
   own.missing = options.missing;
@@ -126,7 +126,7 @@ Part load_part(io::CsvTable&& raw, const FilePlan& plan, const Beside& beside) {
   });
 }
 
-Beside load_beside(DataOptions& options) {
+Beside load_beside(Reading& options) {
   Beside beside;
   const auto know = [&](const std::vector<Column>& columns) {
     for (const Column& column : columns)
@@ -164,7 +164,7 @@ std::vector<std::string> unused_tests(const Dataset& data, const Beside& beside)
 
 } // namespace
 
-void complete(Dataset& all, const DataOptions& options, const Beside& beside) {
+void complete(Dataset& all, const ReadRequest& options, const Beside& beside) {
   if (all.rows() == 0)
     throw InputError(options.join.place,
                      "data.join leaves no row: no test has a partner at the same time",
@@ -235,7 +235,7 @@ Dataset one_campaign(std::vector<Part>& parts, const std::vector<std::string>& f
 
 } // namespace
 
-Dataset load_all(const std::vector<std::string>& named, const DataOptions& options,
+Dataset load_all(const std::vector<std::string>& named, const Reading& options,
                  const std::function<Part(const FilePlan&)>& load) {
   const std::vector<std::string> files = find_files(named, options.base, options.place);
   const FilePlans plans = plan_files(files, options);

@@ -20,7 +20,7 @@ struct Beside {
 };
 
 // Reads data.tests and data.join; removes from the options the columns that the table of tests has.
-Beside load_beside(DataOptions& options);
+Beside load_beside(Reading& options);
 
 // Path of a file, and its description in the message for exhausted memory.
 std::filesystem::path path_of(const FilePlan& plan);
@@ -33,13 +33,13 @@ Part load_part(const FilePlan& plan, const Beside& beside);
 Part load_part(io::CsvTable&& raw, const FilePlan& plan, const Beside& beside);
 
 // Combines these files into a campaign.
-Dataset load_all(const std::vector<std::string>& named, const DataOptions& options,
+Dataset load_all(const std::vector<std::string>& named, const Reading& options,
                  const std::function<Part(const FilePlan&)>& load);
 
 // Completes a campaign with results that need all files: clocks, and tests of data.tests or
 // data.join that no file has; computes the fingerprint. Throws InputError if data.join leaves no
 // row.
-void complete(Dataset& all, const DataOptions& options, const Beside& beside);
+void complete(Dataset& all, const ReadRequest& options, const Beside& beside);
 
 // Throws the faults of each file by line; faults that several files share are reported for the
 // first one.

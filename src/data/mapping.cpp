@@ -42,7 +42,7 @@ bool is_missing(const std::string& text) {
 
 class Mapper {
 public:
-  Mapper(io::CsvTable& raw, const DataOptions& options, const std::string& label, FaultList& faults)
+  Mapper(io::CsvTable& raw, const Reading& options, const std::string& label, FaultList& faults)
       : raw_(raw), options_(options), label_(label), faults_(faults) {
     for (const CsvColumn& column : raw_.columns) {
       headers_.push_back(header_name(column.name));
@@ -559,7 +559,7 @@ private:
   }
 
   io::CsvTable& raw_;
-  const DataOptions& options_;
+  const Reading& options_;
   const std::string& label_;
   FaultList& faults_;
   std::vector<io::HeaderName> headers_; // of each column
@@ -577,12 +577,12 @@ std::string MappedFile::CountedNote::text() const {
   return before + thousands(rows) + (of_all ? "" : " of " + thousands(of)) + after;
 }
 
-MappedFile map_columns(io::CsvTable& raw, const DataOptions& options, const std::string& label,
+MappedFile map_columns(io::CsvTable& raw, const Reading& options, const std::string& label,
                        FaultList& faults) {
   return Mapper(raw, options, label, faults).map();
 }
 
-std::vector<ExperimentRun> experiment_runs(io::CsvTable& raw, const DataOptions& options,
+std::vector<ExperimentRun> experiment_runs(io::CsvTable& raw, const Reading& options,
                                            FaultList& faults) {
   return Mapper(raw, options, "", faults).runs();
 }

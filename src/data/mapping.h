@@ -35,7 +35,7 @@ struct MappedFile {
 
 // Adds every fault of the file's columns to `faults`; faults of cells are in the result. `label` is
 // the file's part in the names of its experiments. Only names, units and lines of `raw` are left.
-MappedFile map_columns(io::CsvTable& raw, const DataOptions& options, const std::string& label,
+MappedFile map_columns(io::CsvTable& raw, const Reading& options, const std::string& label,
                        FaultList& faults);
 
 // Consecutive rows of one experiment.
@@ -44,7 +44,7 @@ struct ExperimentRun {
   std::string name;  // its name in the file; empty if the file is one experiment
 };
 // Returns the runs in the order of the rows. `faults`: as map_columns adds them.
-std::vector<ExperimentRun> experiment_runs(io::CsvTable& raw, const DataOptions& options,
+std::vector<ExperimentRun> experiment_runs(io::CsvTable& raw, const Reading& options,
                                            FaultList& faults);
 
 } // namespace frictab::data

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -105,16 +106,9 @@ struct DataOptions {
   // (data/recordings.h).
   std::string recording;
   Missing missing = Missing::error;
-  // True if a law of the job uses this recorded column: Missing::drop then leaves out rows without
-  // it.
-  std::function<bool(const std::string& column)> needed;
-  // false: rows to predict. They need neither a measured stress nor the columns it is computed from
-  // (NaN for an empty cell), and an experiment may be one row.
-  bool measured = true;
   std::map<std::string, RoleWish> roles; // by the column's name; override the inferred roles
   UsedRows rows = UsedRows::sliding;
   ForceZero force_zero = ForceZero::automatic;
-  bool keep_spikes = false;                   // too many to be single bad readings; not a job key
   std::vector<std::string> allow_implausible; // names of checks (data/plausibility.h)
   std::vector<FileRule> files;
   std::string tests; // a file with one row per experiment
@@ -125,16 +119,34 @@ struct DataOptions {
   Place wide_place;
   // Other columns to keep; absent: all.
   std::optional<std::vector<std::string>> bystanders;
-  // Columns of `tests` and `join`, known after reading; not a job key.
-  std::set<std::string> columns_beside;
   // Blocks per experiment if rows are condensed to block means (data/condense.h): a number; 0: rows
   // stay in memory; none: usual_blocks above many_rows.
   AutoNumber condense;
-  // Size of a piece, for a file that is read in pieces; not a job key.
-  std::size_t piece_bytes = std::size_t{4} << 20;
   std::string base; // base directory of relative paths
   Place place;      // of [data] or of data.training
   Place oracle_place;
+};
+
+// The keys of [data], and what a caller wants beyond them.
+struct ReadRequest : DataOptions {
+  // True if a law of the job uses this recorded column: Missing::drop then leaves out rows without
+  // it.
+  std::function<bool(const std::string& column)> needed;
+  // false: rows to predict. They need neither a measured stress nor the columns it is computed from
+  // (NaN for an empty cell), and an experiment may be one row.
+  bool measured = true;
+  // Size of a piece, for a file that is read in pieces.
+  std::size_t piece_bytes = std::size_t{4} << 20;
+
+  ReadRequest(DataOptions options = {}) : DataOptions(std::move(options)) {}
+};
+
+// A request while it is carried out, with what the files have shown so far.
+struct Reading : ReadRequest {
+  bool keep_spikes = false;             // too many to be single bad readings
+  std::set<std::string> columns_beside; // columns of data.tests and data.join
+
+  Reading(ReadRequest request = {}) : ReadRequest(std::move(request)) {}
 };
 
 // Column that gives the origin of rows. It is always read and kept, even if data.bystanders does

@@ -24,7 +24,7 @@ constexpr std::uint64_t hdf5_pieces = 8;
 
 class Cutter {
 public:
-  explicit Cutter(const DataOptions& options) : options_(options) {}
+  explicit Cutter(const Reading& options) : options_(options) {}
 
   void add(io::CsvTable&& more, FaultList& faults) {
     if (more.rows() == 0) {
@@ -84,13 +84,13 @@ private:
         "experiment, or data.condense = 0 where all rows find room in memory");
   }
 
-  const DataOptions& options_;
+  const Reading& options_;
   io::CsvTable pending_;
   std::vector<ExperimentRun> runs_; // of the pending rows
   std::unordered_set<std::string> seen_;
 };
 
-void read_whole(const std::string& path, const std::string& named, const DataOptions& options,
+void read_whole(const std::string& path, const std::string& named, const Reading& options,
                 FaultList& faults, const TakeParts& take) {
   io::CsvTable raw = read_raw(path, named, options, faults);
   if (!options.wide.empty()) {
@@ -104,7 +104,7 @@ void read_whole(const std::string& path, const std::string& named, const DataOpt
 }
 
 // `next` returns pieces in the order of the file, and none at its end.
-void cut_pieces(const std::function<std::vector<io::CsvTable>()>& next, const DataOptions& options,
+void cut_pieces(const std::function<std::vector<io::CsvTable>()>& next, const Reading& options,
                 FaultList& faults, const TakeParts& take) {
   Cutter cutter(options);
   for (bool more = true; more;) {
@@ -120,7 +120,7 @@ void cut_pieces(const std::function<std::vector<io::CsvTable>()>& next, const Da
 
 } // namespace
 
-void read_raw_parts(const std::string& path, const std::string& named, const DataOptions& options,
+void read_raw_parts(const std::string& path, const std::string& named, const Reading& options,
                     FaultList& faults, const TakeParts& take) {
   const bool held = is_workbook(path) || !options.wide.empty() || !options.join.files.empty() ||
                     is_cut_whole(options);

@@ -17,7 +17,7 @@ namespace frictab::data {
 // where an experiment appears again after another one: rows are not gathered from all over a file
 // that is not in memory.
 using TakeParts = std::function<void(std::vector<io::CsvTable>&& parts)>;
-void read_raw_parts(const std::string& path, const std::string& named, const DataOptions& options,
+void read_raw_parts(const std::string& path, const std::string& named, const Reading& options,
                     FaultList& faults, const TakeParts& take);
 
 } // namespace frictab::data

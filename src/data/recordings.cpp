@@ -209,7 +209,7 @@ double smooth_below(std::size_t tests) {
 
 class RecordingFinder {
 public:
-  RecordingFinder(Dataset& all, const DataOptions& options)
+  RecordingFinder(Dataset& all, const ReadRequest& options)
       : all_(all), options_(options), clock_(all), taken_(all.experiments.size(), 0) {}
 
   void find() {
@@ -387,7 +387,7 @@ private:
   }
 
   Dataset& all_;
-  const DataOptions& options_;
+  const ReadRequest& options_;
   const Clock clock_;
   std::vector<char> taken_;
   TestsByName groups_;
@@ -396,7 +396,7 @@ private:
 
 } // namespace
 
-void find_recordings(Dataset& all, const DataOptions& options) {
+void find_recordings(Dataset& all, const ReadRequest& options) {
   sort_tests(all);
   RecordingFinder(all, options).find();
   all.filed.clear();

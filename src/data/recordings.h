@@ -24,7 +24,7 @@ inline constexpr const char* recording_column = "recording"; // its name
 // (in order of time) and `recording`, and adds a note. Files that look like one recording only by a
 // smooth course of friction lead to a question in a note. Throws InputError if options.recording
 // names no column, or one that varies within a test.
-void find_recordings(Dataset& all, const DataOptions& options);
+void find_recordings(Dataset& all, const ReadRequest& options);
 
 // Sets Dataset::recording from the column `recording`, if find_recordings has set that column.
 void group_recordings(Dataset& data);

@@ -165,7 +165,7 @@ private:
 
 class FileSigns {
 public:
-  FileSigns(Part& part, const DataOptions& options)
+  FileSigns(Part& part, const ReadRequest& options)
       : part_(part), options_(options), direction_(part.row.size(), 1.0) {
     for (const char* name : {"v_rel_mm_s", "tau_R_MPa", "F_R_N"})
       if (const Column* with_sign = part.find(signed_name(name)))
@@ -247,7 +247,7 @@ private:
   }
 
   Part& part_;
-  const DataOptions& options_;
+  const ReadRequest& options_;
   std::string load_;
   std::vector<std::string> friction_; // columns that were measured
   std::vector<double> direction_;
@@ -288,7 +288,7 @@ void turn_loads(Part& part) {
   }
 }
 
-std::vector<Phase> take_signs(Part& part, const DataOptions& options) {
+std::vector<Phase> take_signs(Part& part, const ReadRequest& options) {
   return FileSigns(part, options).take();
 }
 

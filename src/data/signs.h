@@ -32,7 +32,7 @@ void turn_loads(Part& part);
 
 // Returns the phases of all rows. Replaces speed and friction by their magnitudes, adds their
 // `direction`, records findings in data.signs, and recomputes tau_R_MPa from forces.
-std::vector<Phase> take_signs(Part& part, const DataOptions& options);
+std::vector<Phase> take_signs(Part& part, const ReadRequest& options);
 
 // Cause of the difference between the directions of a campaign's tests.
 enum class DirectionsDiffer { nowhere, by_zero, by_friction, cannot_tell };

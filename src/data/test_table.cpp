@@ -45,7 +45,7 @@ TestTable read_test_table(DataOptions& options) {
   dialect.units_row = false;
   io::CsvTable raw = read_raw(path.string(), options.tests, dialect, faults);
   table.header_line = raw.header_line;
-  table.columns = map_columns(raw, take_over(options, raw), "", faults);
+  table.columns = map_columns(raw, ReadRequest(take_over(options, raw)), "", faults);
   FaultsByCause causes;
   for (MappedFile::CellFault& cell : table.columns.cell_faults)
     causes.add(cell.cause, std::move(cell.fault));

@@ -82,7 +82,7 @@ std::vector<std::string> unused_by_both(const data::Dataset& a, const data::Data
 }
 
 // Loads all rows, or `blocks` block means per experiment if `blocks` is not 0 (data.condense).
-data::Dataset load(const std::vector<std::string>& files, const data::DataOptions& options,
+data::Dataset load(const std::vector<std::string>& files, const data::ReadRequest& options,
                    std::size_t blocks) {
   return blocks > 0 ? data::load_condensed(files, options, blocks)
                     : data::load_dataset(files, options);
@@ -94,12 +94,12 @@ void find_roles(std::span<data::Dataset* const> parts, const data::DataOptions& 
   faults.throw_if_any();
 }
 
-JobData with_validation_files(const data::DataOptions& options, FaultList& implausible) {
+JobData with_validation_files(const data::ReadRequest& options, FaultList& implausible) {
   JobData data;
   const std::size_t blocks = data::blocks_to_condense(options);
   data.training = load(options.training, options, blocks);
   // Force zeros of validation tests are treated as the training tests require.
-  data::DataOptions alike = options;
+  data::ReadRequest alike = options;
   if (const auto differ = data::directions_differ(data.training);
       options.force_zero == data::ForceZero::automatic && differ != data::DirectionsDiffer::nowhere)
     alike.force_zero = differ == data::DirectionsDiffer::by_friction ? data::ForceZero::keep
@@ -149,7 +149,7 @@ JobData with_held_out_tests(data::Dataset all, double share, std::uint64_t seed)
 }
 
 // Applies data.holdout below few_experiments as well: a user may want tests that no fit has seen.
-JobData without_validation_files(const data::DataOptions& options, std::uint64_t seed,
+JobData without_validation_files(const data::ReadRequest& options, std::uint64_t seed,
                                  FaultList& implausible) {
   data::Dataset all = load(options.training, options, data::blocks_to_condense(options));
   data::settle_directions(std::array{&all});
@@ -217,7 +217,7 @@ JobData load_job_data(const job::Job& job) {
 
 JobData load_job_data(const job::Job& job, FaultList& implausible) {
   check_files(job.data);
-  data::DataOptions options = job.data;
+  data::ReadRequest options = job.data;
   options.needed = [names = columns_of_laws(job.models)](const std::string& column) {
     return names.count(column) > 0 || names.count(effects::symbol_of(column)) > 0;
   };

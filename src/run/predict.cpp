@@ -25,10 +25,10 @@
 #include "io/atomic_file.h"
 #include "io/csv.h"
 #include "io/json.h"
-#include "report/numbers.h"
 #include "run/chosen.h"
 #include "run/result_directory.h"
 #include "run/stage_record.h"
+#include "words/numbers.h"
 
 namespace frictab::run {
 
@@ -46,7 +46,7 @@ bool takes_recorded_columns(const std::vector<std::string>& inputs) {
   });
 }
 
-data::Dataset load_rows(data::DataOptions mapping, const std::vector<std::string>& inputs,
+data::Dataset load_rows(data::ReadRequest mapping, const std::vector<std::string>& inputs,
                         const std::string& file) {
   const auto of_job = [&](std::string& name) {
     if (!name.empty()) name = (std::filesystem::path(mapping.base) / name).string();
@@ -234,7 +234,7 @@ std::string errors_text(const Prediction& p) {
   return fmt::format(
       "MAE {:.4g} MPa, RMSE {:.4g} MPa, bias {:.4g} MPa (measured - law{})\n", p.errors->mae_MPa,
       p.errors->rmse_MPa, p.errors->bias_MPa,
-      without == 0 ? "" : "; " + report::count_of(without, "row") + " without a measured stress");
+      without == 0 ? "" : "; " + words::count_of(without, "row") + " without a measured stress");
 }
 
 std::string band_text(const Prediction& p) {
@@ -250,12 +250,12 @@ std::string outside_text(const Prediction& p) {
   const double percent =
       100 * static_cast<double>(p.rows_outside) / static_cast<double>(p.data.rows());
   std::string text = fmt::format("{} ({:.1f} %) outside the data that the law was calibrated on:\n",
-                                 report::count_of(p.rows_outside, "row"), percent);
+                                 words::count_of(p.rows_outside, "row"), percent);
   for (std::size_t i = 0; i < p.inputs.size(); ++i) {
     if (p.outside[i].empty()) continue;
     const auto [low, high] = p.data_range.at(p.inputs[i]);
     text += fmt::format("  {}: {} outside {:.4g} .. {:.4g}\n", p.inputs[i],
-                        report::count_of(p.outside[i].size(), "row"), low, high);
+                        words::count_of(p.outside[i].size(), "row"), low, high);
   }
   return text;
 }
@@ -264,11 +264,10 @@ std::string outside_text(const Prediction& p) {
 
 std::string prediction_text(const Prediction& p) {
   std::string text =
-      fmt::format("{} on {} of {}: {}\n", p.model.law->name, report::count_of(p.data.rows(), "row"),
-                  report::count_of(p.data.experiments.size(), "experiment"), p.file);
+      fmt::format("{} on {} of {}: {}\n", p.model.law->name, words::count_of(p.data.rows(), "row"),
+                  words::count_of(p.data.experiments.size(), "experiment"), p.file);
   for (const auto& dropped : p.data.dropped)
-    text +=
-        fmt::format("  left out: {}, {}\n", report::count_of(dropped.rows, "row"), dropped.rule);
+    text += fmt::format("  left out: {}, {}\n", words::count_of(dropped.rows, "row"), dropped.rule);
   if (p.fitted_to_all)
     text +=
         "The law was fitted to all experiments of its job: on these its errors are of the fit\n";

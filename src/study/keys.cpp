@@ -44,7 +44,7 @@ std::string files_text(const std::vector<std::string>& named, const data::DataOp
   std::string text;
   const bool folders = looks_at_folders(options);
   const auto files = data::find_files(named, options.base, options.place);
-  for (const data::FilePlan& plan : data::plan_files(files, options).files)
+  for (const data::FilePlan& plan : data::plan_files(files, data::ReadRequest(options)).files)
     text += fmt::format("\n{} {} {}", plan.label,
                         folders ? plan.file : fs::path(plan.file).filename().string(),
                         hash_of_file(options.base, plan.file));

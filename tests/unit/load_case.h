@@ -47,7 +47,7 @@ protected:
     return {values.begin(), values.end()};
   }
 
-  data::DataOptions options;
+  data::ReadRequest options;
   std::filesystem::path directory_;
 };
 
