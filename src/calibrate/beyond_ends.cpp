@@ -11,12 +11,12 @@ namespace frictab::calibrate {
 
 void RowsBeyond::add(const models::Law& law, const std::vector<std::string>& names,
                      const InputColumns& columns, const data::Dataset& data) {
-  if (law.held.empty()) return;
+  if (law.clamped_inputs.empty()) return;
   std::vector<char> outside(data.rows(), 0);
   const auto behind = [&](std::size_t row) {
     return static_cast<std::size_t>(data.row_weight(row));
   };
-  for (const auto& [name, ends] : law.held) {
+  for (const auto& [name, ends] : law.clamped_inputs) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) continue;
     const auto values = columns[static_cast<std::size_t>(found - names.begin())];
@@ -45,7 +45,7 @@ void RowsBeyond::add(const RowsBeyond& more) {
 
 std::vector<std::string> RowsBeyond::told(const models::Law& law, const std::string& data) const {
   std::vector<std::string> said;
-  for (const auto& [name, ends] : law.held) {
+  for (const auto& [name, ends] : law.clamped_inputs) {
     const auto counted = sides.find(name);
     if (counted == sides.end()) continue;
     const auto& [below, above] = counted->second;

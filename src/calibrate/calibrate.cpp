@@ -158,7 +158,7 @@ void remark_rows_outside_range(ModelFit& fit, const models::AssembledLaw& law,
     for (std::string& remark : beyond.told(*law.model.law, called))
       fit.remarks.push_back(std::move(remark));
   };
-  if (law.model.law->held.empty()) return;
+  if (law.model.law->clamped_inputs.empty()) return;
   add(columns, input.training, "training");
   if (on_other_experiments(input.judged_by))
     add(input_columns(law, law.inputs, input.validation), input.validation, "validation");

@@ -189,7 +189,7 @@ std::shared_ptr<const Law> read_law(Fields& fit) {
   const std::string name = fit.json().at("name");
   const Law* known = models::find_law(name);
   const bool made = fit.json().contains("law");
-  if (known && !made) return models::held_law(*known);
+  if (known && !made) return models::shared_law(*known);
   if (!known && !(made && fit.json().at("law").contains("base")))
     throw InputError({fit.file(), 0, 0}, "unknown friction law '" + name + "'",
                      suggest(name, models::law_names()));

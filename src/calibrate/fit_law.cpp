@@ -291,7 +291,7 @@ ModelFit fit_law(const models::Law& law, const models::Conventions& conventions,
   if (const auto distance = slip_distance(law, conventions))
     return fit_at_slip_distance(law, *distance, conventions, data, options);
   ModelFit fit;
-  fit.model.law = models::held_law(law);
+  fit.model.law = models::shared_law(law);
   fit.model.conventions = conventions;
   switch (law.calibrated) {
   case Calibrated::fixed:

@@ -32,7 +32,7 @@ std::vector<Item> parameter_items(const std::vector<models::Parameter>& paramete
 }
 
 std::string how_calibrated(const models::Law& law) {
-  if (!law.held.empty()) return "no: a table, taken as it is";
+  if (!law.clamped_inputs.empty()) return "no: a table, taken as it is";
   switch (law.calibrated) {
   case models::Calibrated::fixed:
     return "no: constants of the literature";
@@ -63,7 +63,7 @@ std::string remarks_of(const models::Law& law) {
                                                                at[1], at.back(), at.size());
     remarks.push_back(fmt::format("kink on {} at {}: gets a node", axis, places));
   }
-  for (const auto& [input, ends] : law.held)
+  for (const auto& [input, ends] : law.clamped_inputs)
     remarks.push_back(fmt::format("held below {} {} and above {}", input, shortest(ends.first),
                                   shortest(ends.second)));
   remarks.push_back(

@@ -134,7 +134,7 @@ models::Model model_of(const LawOptions& options,
                        const std::map<std::string, std::string>& ranges) {
   const models::Law& law = law_of(options.law);
   models::Model model;
-  model.law = models::held_law(law);
+  model.law = models::shared_law(law);
   model.conventions.shear_limit = ranges.count(flow_stress) > 0;
   model.parameters = parameters_of(law, options.parameters);
   if (const auto distance = calibrate::slip_distance(law, model.conventions)) {

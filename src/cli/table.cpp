@@ -37,7 +37,7 @@ void write_result(const CommonOptions& common, const std::function<void(std::ost
   output.commit();
 }
 
-void add_held_states_option(CLI::App& app, std::vector<std::string>& at) {
+void add_fixed_states_option(CLI::App& app, std::vector<std::string>& at) {
   app.add_option("--at", at, "A state that is held, in its canonical unit; once per state")
       ->type_name("NAME=VALUE")
       ->take_all()

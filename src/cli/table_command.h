@@ -20,6 +20,6 @@ void output_is_a_file(CLI::App& app);
 void write_result(const CommonOptions& common, const std::function<void(std::ostream&)>& write);
 
 // Adds --at NAME=VALUE, which may be repeated.
-void add_held_states_option(CLI::App& app, std::vector<std::string>& at);
+void add_fixed_states_option(CLI::App& app, std::vector<std::string>& at);
 
 } // namespace frictab::cli

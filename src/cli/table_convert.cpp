@@ -22,8 +22,8 @@ struct Options {
 int run(const Options& options, const CommonOptions& common) {
   const table::PlainFormat& format = table::plain_format(options.to);
   const table::Table table = table::read_table(options.file);
-  const table::HeldStates held = table::held_states(options.at, table.inputs());
-  for (const std::string& line : table::check_held(table, held))
+  const table::FixedStates held = table::fixed_states(options.at, table.inputs());
+  for (const std::string& line : table::check_fixed_states(table, held))
     note(common, "note: " + line);
   write_result(common, [&](std::ostream& out) { format.write({table, held}, out); });
   return 0;
@@ -40,7 +40,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<Options>();
   app.add_option("FILE", options->file, "Table file (HDF5)")->required();
   app.add_option("--to", options->to, "Format, see below")->type_name("FORMAT")->required();
-  add_held_states_option(app, options->at);
+  add_fixed_states_option(app, options->at);
   output_is_a_file(app);
   app.footer(formats_text() + "\n" + app.get_footer());
   return [options, &common] { return run(*options, common); };

@@ -24,9 +24,9 @@ int run(const Options& options, const CommonOptions& common) {
   std::vector<std::string> inputs = a.inputs();
   const std::vector<std::string> others = b.inputs();
   inputs.insert(inputs.end(), others.begin(), others.end());
-  const table::HeldStates held = table::held_states(options.at, inputs);
+  const table::FixedStates held = table::fixed_states(options.at, inputs);
   for (const table::Table* table : {&a, &b})
-    for (const std::string& line : table::check_held(*table, held))
+    for (const std::string& line : table::check_fixed_states(*table, held))
       note(common, "note: " + line);
   const table::TableDifference apart = table::difference(a, b, held);
   const std::array<std::string, 2> names{options.a, options.b};
@@ -44,7 +44,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<Options>();
   app.add_option("A", options->a, "Table file (HDF5)")->required();
   app.add_option("B", options->b, "Another one")->required();
-  add_held_states_option(app, options->at);
+  add_fixed_states_option(app, options->at);
   app.add_option("--max-MPa", options->max_MPa, "Exit with 1 where they are further apart")
       ->type_name("X")
       ->check(number_from_0);

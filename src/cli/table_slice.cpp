@@ -27,11 +27,11 @@ int run(const Options& options, const CommonOptions& common) {
   if (options.along.size() > 2)
     throw InputError({}, "--along is given more than twice", "hold the other states by --at");
   const table::Table table = table::read_table(options.file);
-  const table::HeldStates held = table::held_states(options.at, table.inputs());
+  const table::FixedStates held = table::fixed_states(options.at, table.inputs());
   std::size_t points = options.points;
   if (points == 0) points = options.along.size() == 2 ? 41 : 101;
   const table::Slice result = table::slice(table, held, options.along, points);
-  for (const std::string& line : table::check_held(table, held))
+  for (const std::string& line : table::check_fixed_states(table, held))
     note(common, "note: " + line);
   write_result(common, [&](std::ostream& out) {
     out << (options.svg ? report::slice_svg(result) : table::slice_csv(result));
@@ -42,7 +42,7 @@ int run(const Options& options, const CommonOptions& common) {
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<Options>();
   app.add_option("FILE", options->file, "Table file (HDF5)")->required();
-  add_held_states_option(app, options->at);
+  add_fixed_states_option(app, options->at);
   app.add_option("--along", options->along, "A state that runs over its range; twice for two")
       ->type_name("NAME")
       ->required()

@@ -113,7 +113,7 @@ public:
   virtual table::Table own_table(const ExportRequest& request, const SourceBundle& files) const;
   // Returns the states of request.table.inputs() that these files fix, with their canonical values:
   // those without a column in the solver's own table, and those that the job makes constants.
-  virtual table::HeldStates held(const ExportRequest&) const { return {}; }
+  virtual table::FixedStates fixed_states(const ExportRequest&) const { return {}; }
   // True if the solver gets a coefficient mu, which it multiplies by the pressure; mu is then at
   // most fortran::largest_coefficient.
   virtual bool gives_mu(const ExportRequest&) const { return false; }

@@ -113,8 +113,8 @@ std::vector<NativeColumn> native_columns(const ExportRequest& request, const Nat
   return columns;
 }
 
-table::HeldStates native_held(const ExportRequest& request, const NativeForm& form) {
-  table::HeldStates held;
+table::FixedStates native_fixed_states(const ExportRequest& request, const NativeForm& form) {
+  table::FixedStates held;
   for (const SolverInput& input : solver_inputs(request, form.gives)) {
     if (input.source != Source::constant) continue;
     if (!input.fallback) no_value(input.argument.name);
@@ -141,7 +141,7 @@ struct Limited {
 
 class LimitSplit {
 public:
-  LimitSplit(const table::Table& table, const table::HeldStates& held) {
+  LimitSplit(const table::Table& table, const table::FixedStates& held) {
     for (const auto& [name, value] : table.constants)
       known_.emplace(name, value);
     for (const auto& [name, value] : held)
@@ -193,7 +193,7 @@ private:
 class HeldTable {
 public:
   HeldTable(const table::Table& table, const std::vector<NativeColumn>& columns,
-            const table::HeldStates& held)
+            const table::FixedStates& held)
       : function_(table) {
     for (const std::string& name : function_.inputs()) {
       const auto at = std::find_if(columns.begin(), columns.end(),
@@ -280,7 +280,7 @@ double first_pressure(const NativeProblem& problem, std::size_t column, double a
 }
 
 NativeProblem problem_of(const ExportRequest& request, const NativeForm& form,
-                         const std::vector<NativeColumn>& columns, const table::HeldStates& held) {
+                         const std::vector<NativeColumn>& columns, const table::FixedStates& held) {
   NativeProblem problem;
   problem.most = fortran::largest_coefficient;
   for (const NativeColumn& column : columns) {
@@ -318,9 +318,9 @@ NativeTable native_table(const ExportRequest& request, const NativeForm& form) {
   solver_unit("MPa", request.units); // throws for an unknown system
   NativeTable out;
   out.columns = native_columns(request, form);
-  out.held = native_held(request, form);
+  out.fixed = native_fixed_states(request, form);
   out.aim_MPa = aim_of(request.table);
-  NativeProblem problem = problem_of(request, form, out.columns, out.held);
+  NativeProblem problem = problem_of(request, form, out.columns, out.fixed);
   for (std::size_t c = 0; c < out.columns.size(); ++c)
     if (out.columns[c].argument.name == "sigma_n_MPa" &&
         table::below_pressures(request.table) == table::Outside::law)
@@ -340,7 +340,7 @@ NativeTable native_table(const ExportRequest& request, const NativeForm& form) {
 void drive_native(const NativeForm& form, const NativeValues& values, const ExportRequest& request,
                   std::size_t rows, std::span<const double* const> given, std::span<double> tau) {
   const std::vector<NativeColumn> columns = native_columns(request, form);
-  const table::HeldStates held = native_held(request, form);
+  const table::FixedStates held = native_fixed_states(request, form);
   if (values.nodes.size() != columns.size())
     throw std::runtime_error(fmt::format("the table was written for {} columns, it has {}",
                                          columns.size(), values.nodes.size()));
@@ -382,7 +382,7 @@ void drive_native(const NativeForm& form, const NativeValues& values, const Expo
 table::Table native_as_table(const NativeForm& form, const NativeValues& values,
                              const ExportRequest& request) {
   const std::vector<NativeColumn> columns = native_columns(request, form);
-  const table::HeldStates held = native_held(request, form);
+  const table::FixedStates held = native_fixed_states(request, form);
   table::Table out;
   out.model = request.table.model;
   out.value = values.value;
@@ -440,8 +440,8 @@ table::Table NativeTarget::own_table(const ExportRequest& request,
   return native_as_table(form(request), read(files.at(text_.file), request), request);
 }
 
-table::HeldStates NativeTarget::held(const ExportRequest& request) const {
-  return native_held(request, form(request));
+table::FixedStates NativeTarget::fixed_states(const ExportRequest& request) const {
+  return native_fixed_states(request, form(request));
 }
 
 } // namespace frictab::codegen

@@ -46,12 +46,12 @@ std::vector<NativeColumn> native_columns(const ExportRequest& request, const Nat
 
 // Returns the fixed states, those without a column, at the job's constants or the middle of their
 // ranges.
-table::HeldStates native_held(const ExportRequest& request, const NativeForm& form);
+table::FixedStates native_fixed_states(const ExportRequest& request, const NativeForm& form);
 
 struct NativeTable {
   std::vector<NativeColumn> columns;
   NativeValues values; // nodes per column; empty: the law does not depend on it
-  table::HeldStates held;
+  table::FixedStates fixed;
   double aim_MPa = 0, found_MPa = 0;
   bool met = false;
 };
@@ -101,7 +101,7 @@ public:
              std::span<const double* const> columns, std::span<double> tau) const final;
   bool is_routine() const final { return false; }
   table::Table own_table(const ExportRequest& request, const SourceBundle& files) const final;
-  table::HeldStates held(const ExportRequest& request) const final;
+  table::FixedStates fixed_states(const ExportRequest& request) const final;
   bool gives_mu(const ExportRequest& request) const final;
 
   // Writes the same text for `table convert`, with the constants of the command as fixed states.
@@ -133,7 +133,7 @@ template <class Target> struct RegisteredNative {
 };
 
 // Sentence for the notes of every such target about states without a column.
-inline constexpr const char* native_held_states =
+inline constexpr const char* native_fixed_words =
     "is held at the job's constant:VALUE, else in the middle of its range, as the file, "
     "recipe.json (held) and the run say; verify.json has what that costs on the validation rows. ";
 

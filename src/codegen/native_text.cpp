@@ -27,7 +27,7 @@ std::string figure(double value) {
   return fmt::format("{:.3g}", value);
 }
 
-std::string held_text(const ExportRequest& request, const std::string& name, double value) {
+std::string fixed_states_text(const ExportRequest& request, const std::string& name, double value) {
   const auto said = request.inputs.find(name);
   const auto range = request.table.range(name);
   const bool given = said != request.inputs.end() && said->second.starts_with("constant:");
@@ -71,9 +71,9 @@ std::vector<std::string> native_comments(const Exporter& exporter, const ExportR
     texts.push_back(fmt::format("{}: {}; {}", table.columns[c].argument.argument,
                                 table.columns[c].text,
                                 range_of_column(request, table.columns[c], table.values.nodes[c])));
-  for (const auto& [name, value] : table.held)
-    texts.push_back(held_text(request, name, value));
-  if (table.held.empty())
+  for (const auto& [name, value] : table.fixed)
+    texts.push_back(fixed_states_text(request, name, value));
+  if (table.fixed.empty())
     texts.push_back("No state is held.");
   else
     texts.push_back("What holding costs on your rows is in verify.json: cost_mean_abs_MPa and "
@@ -118,7 +118,7 @@ std::string native_recipe(const Exporter& exporter, const ExportRequest& request
     out["result"]["limit"] = {{"unit", solver_unit("MPa", request.units).name},
                               {"value", *table.values.limit}};
   out["held"] = json::object();
-  for (const auto& [name, value] : table.held)
+  for (const auto& [name, value] : table.fixed)
     out["held"][name] = value;
   out["held_note"] = "in canonical units; what that costs on the validation rows is in verify.json";
   out["grid"] = {{"values", table.values.value.size()},
@@ -137,17 +137,17 @@ std::string native_recipe(const Exporter& exporter, const ExportRequest& request
 std::string NativeTarget::plain_text(const table::PlainRequest& request) const {
   std::vector<std::string> columns;
   ExportRequest asked{request.table, "mm-t-s", {}};
-  for (const auto& [state, value] : request.held)
+  for (const auto& [state, value] : request.fixed)
     asked.inputs[state] = "constant:" + shortest(value);
   const ExportRequest whole{request.table, "mm-t-s", {}};
   for (const NativeColumn& column : native_columns(whole, form(whole))) {
     columns.push_back(column.argument.name);
     const bool given = column.state == "sigma_n_MPa" || column.state == "v_rel_mm_s";
-    if (given && request.held.count(column.argument.name))
+    if (given && request.fixed.count(column.argument.name))
       throw InputError({}, column.argument.name + " is a column of this table",
                        "leave out --at " + column.argument.name);
   }
-  table::check_all_known(request.table, request.held, columns);
+  table::check_all_known(request.table, request.fixed, columns);
   return generate(asked).at(text_.file);
 }
 

@@ -95,7 +95,7 @@ json recipe_table(const ExportRequest& request) {
     axes.push_back(axis_json(table.axes[a], a, *input));
   }
   json held = json::array();
-  for (const table::AxisEnds& end : table::held_input_ends(table))
+  for (const table::AxisEnds& end : table::clamped_input_ends(table))
     held.push_back({{"name", end.name},
                     {"range", {end.low, end.high}},
                     {"outside_bit", axes.size() + held.size()}});

@@ -66,7 +66,7 @@ void RoutineTarget::drive(const Built& built, const ExportRequest& request, std:
   });
 }
 
-table::HeldStates RoutineTarget::held(const ExportRequest& request) const {
+table::FixedStates RoutineTarget::fixed_states(const ExportRequest& request) const {
   const CurvedRequest curved(request, gives(request));
   return declared_constants(curved.get(), checked_inputs(curved.get()));
 }

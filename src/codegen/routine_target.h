@@ -21,7 +21,7 @@ public:
   std::vector<BuildVariant> variants(const ExportRequest& request) const final;
   void drive(const Built& built, const ExportRequest& request, std::size_t rows,
              std::span<const double* const> columns, std::span<double> tau) const final;
-  table::HeldStates held(const ExportRequest& request) const final;
+  table::FixedStates fixed_states(const ExportRequest& request) const final;
   bool gives_mu(const ExportRequest& request) const final;
   bool combines() const final { return !selector_.argument.empty(); }
   CombinedBundle combine(const std::vector<ExportRequest>& requests,

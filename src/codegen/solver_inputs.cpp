@@ -258,9 +258,9 @@ std::vector<SolverInput> solver_inputs(const ExportRequest& request, const Solve
   return inputs;
 }
 
-table::HeldStates declared_constants(const ExportRequest& request,
-                                     const std::vector<SolverInput>& inputs) {
-  table::HeldStates held;
+table::FixedStates declared_constants(const ExportRequest& request,
+                                      const std::vector<SolverInput>& inputs) {
+  table::FixedStates held;
   for (const SolverInput& input : inputs) {
     const auto said = request.inputs.find(input.argument.name);
     if (input.source == Source::constant && input.fallback && said != request.inputs.end() &&

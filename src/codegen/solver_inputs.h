@@ -104,8 +104,8 @@ struct FurtherProperty {
 using FurtherProperties = std::vector<FurtherProperty>;
 
 // Returns the inputs that the job makes constants, [export.inputs] NAME = "constant:VALUE".
-table::HeldStates declared_constants(const ExportRequest& request,
-                                     const std::vector<SolverInput>& inputs);
+table::FixedStates declared_constants(const ExportRequest& request,
+                                      const std::vector<SolverInput>& inputs);
 
 std::size_t property_count(const std::vector<SolverInput>& inputs);
 bool uses(const std::vector<SolverInput>& inputs, Source source);

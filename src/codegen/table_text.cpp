@@ -36,7 +36,7 @@ std::string range_text(const InputArgument& input, const table::Table& table) {
                                  unit.from_canonical(known->second));
   if (unit.name != "1") text += " " + unit.name;
   if (input.axis) return text;
-  for (const table::AxisEnds& held : table::held_input_ends(table))
+  for (const table::AxisEnds& held : table::clamped_input_ends(table))
     if (held.name == input.name) return text + " (no axis; beyond it counts as outside)";
   return text + " (no axis: any value, verified there)";
 }

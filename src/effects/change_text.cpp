@@ -21,9 +21,9 @@ constexpr std::size_t levels_shown = 6; // of more, only those of lowest and hig
 // Smallest start value of a percentage, as a fraction of the end value or of 1 if that is larger.
 constexpr double no_base = 0.05;
 
-class Teller {
+class ChangeText {
 public:
-  explicit Teller(const PlacedEffect& effect) : e_(effect), program_(factor_program(effect)) {}
+  explicit ChangeText(const PlacedEffect& effect) : e_(effect), program_(factor_program(effect)) {}
 
   std::string run() const {
     if (e_.inputs.size() == 1) {
@@ -158,7 +158,7 @@ private:
 } // namespace
 
 std::string change_text(const PlacedEffect& effect) {
-  return Teller(effect).run();
+  return ChangeText(effect).run();
 }
 
 } // namespace frictab::effects

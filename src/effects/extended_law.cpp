@@ -43,7 +43,7 @@ Expr pressure_fading(const PlacedEffect& effect) {
              : Expr(1.0);
 }
 
-std::string held_text(const EffectInput& input) {
+std::string fixed_states_text(const EffectInput& input) {
   return input.levels.empty() ? fmt::format(", held at {:.4g} and {:.4g}", input.low, input.high)
                               : "";
 }
@@ -195,7 +195,7 @@ std::string effect_text(const PlacedEffect& effect) {
     const auto parameters = parameters_of(effect);
     for (std::size_t i = 0; i < symbols.size(); ++i)
       text += fmt::format("{} {} = {}{}", i == 0 ? " with" : ";", symbols[i],
-                          effect.inputs[i].column, held_text(effect.inputs[i]));
+                          effect.inputs[i].column, fixed_states_text(effect.inputs[i]));
     for (std::size_t i = 0; i < parameters.size(); ++i)
       text += fmt::format("; {} = {:.4g}", parameters[i].name, effect.parameters[i]);
   }

@@ -281,7 +281,7 @@ OutputFiles::OutputFiles(fs::path directory, Claim claim) : directory_(std::move
     });
   if (claim == Claim::directory) {
     lock_.emplace(directory_);
-    clear_abandoned(directory_, lock_->held());
+    clear_abandoned(directory_, lock_->is_locked());
   }
   staging_ = make_staging(directory_, claim == Claim::directory ? staging_prefix : one_file_prefix);
   when_interrupted_.emplace([this] {
@@ -408,7 +408,7 @@ void finish_interrupted(const fs::path& directory) {
                      "here to finish that",
                      "let its owner run any frictab command on it, `frictab status JOB` say");
   const DirectoryLock lock(directory, DirectoryLock::Wish::if_free);
-  if (lock.held()) clear_abandoned(directory, true);
+  if (lock.is_locked()) clear_abandoned(directory, true);
 }
 
 std::string read_file(const fs::path& file) {

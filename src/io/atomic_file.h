@@ -40,7 +40,7 @@ public:
   // Location of a file of paths() until commit().
   std::filesystem::path staged(const std::string& path) const;
   // False if the file system has no locks: a second writer would then not be excluded.
-  bool is_exclusive() const { return lock_ && lock_->held(); }
+  bool is_exclusive() const { return lock_ && lock_->is_locked(); }
   // Makes the staged files survive the end of the process without commit(): from here on they then
   // move to the directory's .frictab-kept, with `record` as its file `name`. commit() removes the
   // contents of .frictab-kept.

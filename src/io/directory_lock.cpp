@@ -79,8 +79,8 @@ bool DirectoryLock::open_and_lock(const std::filesystem::path& directory, Wish w
 }
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory, Wish wish)
-    : file_(directory / ".frictab.lock"), held_(open_and_lock(directory, wish)) {
-  if (!held_) return;
+    : file_(directory / ".frictab.lock"), locked_(open_and_lock(directory, wish)) {
+  if (!locked_) return;
   when_interrupted_.emplace([file = file_] { ::unlink(file.c_str()); });
   const std::string text = me() + "\n";
   if (::ftruncate(open_, 0) != 0 || ::pwrite(open_, text.data(), text.size(), 0) < 0) {
@@ -91,7 +91,7 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory, Wish wish)
 DirectoryLock::~DirectoryLock() {
   if (open_ < 0) return;
   // a waiting process notices that the name now refers to another file
-  if (held_) ::unlink(file_.c_str());
+  if (locked_) ::unlink(file_.c_str());
   ::close(open_);
 }
 

@@ -18,7 +18,7 @@ namespace frictab::io {
 class DirectoryLock {
 public:
   // must: waits a few seconds for the current owner; throws InputError that names an owner who
-  // stays, or gives the reason if nothing can be written there. if_free: never waits; held()
+  // stays, or gives the reason if nothing can be written there. if_free: never waits; is_locked()
   // returns whether the lock was free.
   enum class Wish { must, if_free };
   explicit DirectoryLock(const std::filesystem::path& directory, Wish wish = Wish::must);
@@ -26,14 +26,14 @@ public:
   DirectoryLock(const DirectoryLock&) = delete;
   DirectoryLock& operator=(const DirectoryLock&) = delete;
 
-  bool held() const { return held_; }
+  bool is_locked() const { return locked_; }
 
 private:
   bool open_and_lock(const std::filesystem::path& directory, Wish wish);
 
   std::filesystem::path file_;
   int open_ = -1;
-  bool held_;
+  bool locked_;
   std::optional<WhenInterrupted> when_interrupted_;
 };
 

@@ -117,7 +117,7 @@ std::vector<std::size_t> Hdf5Reader::shape(const std::string& dataset) const {
 std::vector<double> Hdf5Reader::values(const std::string& dataset) const {
   const Hdf5Dataset& set = data_->dataset(dataset);
   if (set.is_text) data_->fail("'" + dataset + "' is not numeric");
-  if (set.held) return set.values;
+  if (set.in_memory) return set.values;
   std::vector<double> values;
   blocks(dataset, std::size_t{1} << 20, [&](std::size_t, std::span<const double> part) {
     values.insert(values.end(), part.begin(), part.end());
@@ -131,7 +131,7 @@ void Hdf5Reader::blocks(
   const Hdf5Dataset& set = data_->dataset(dataset);
   if (!set.fault.empty()) data_->fail(set.fault, set.hint);
   if (set.is_text) data_->fail("'" + dataset + "' is not numeric");
-  if (set.held) {
+  if (set.in_memory) {
     for (std::size_t first = 0; first < set.values.size(); first += most)
       take(first, std::span(set.values).subspan(first, std::min(most, set.values.size() - first)));
     return;
@@ -146,7 +146,7 @@ std::vector<std::string> Hdf5Reader::texts(const std::string& dataset) const {
   const Hdf5Dataset& set = data_->dataset(dataset);
   if (!set.fault.empty()) data_->fail(set.fault, set.hint);
   if (!set.is_text) data_->fail("'" + dataset + "' cannot be read as text");
-  if (set.held) return set.texts;
+  if (set.in_memory) return set.texts;
   const Hdf5Slice all{dataset, 0, set.count()};
   return std::move(slices({&all, 1}).front().texts);
 }
@@ -156,7 +156,7 @@ std::vector<Hdf5Values> Hdf5Reader::slices(std::span<const Hdf5Slice> wanted) co
   for (const Hdf5Slice& slice : wanted) {
     const Hdf5Dataset& set = data_->dataset(slice.dataset);
     if (!set.fault.empty()) data_->fail(set.fault, set.hint);
-    if (!set.held) not_held.push_back(slice);
+    if (!set.in_memory) not_held.push_back(slice);
   }
   std::vector<Hdf5Values> read;
   std::string fault, hint;
@@ -171,7 +171,7 @@ std::vector<Hdf5Values> Hdf5Reader::slices(std::span<const Hdf5Slice> wanted) co
   auto next = read.begin();
   for (const Hdf5Slice& slice : wanted) {
     const Hdf5Dataset& set = data_->dataset(slice.dataset);
-    if (!set.held) {
+    if (!set.in_memory) {
       all.push_back(std::move(*next++));
       continue;
     }

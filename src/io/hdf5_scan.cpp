@@ -451,7 +451,7 @@ private:
       read_values(name, set, out.shape, values_at_once, [&](std::span<const double> values) {
         out.values.insert(out.values.end(), values.begin(), values.end());
       });
-    out.held = true;
+    out.in_memory = true;
   }
 
   Handle file_;
@@ -498,7 +498,7 @@ void put(ByteSink& out, const Hdf5Dataset& set) {
   put(out, set.layout.filters);
   out.number(set.layout.stored_bytes);
   out.number(set.is_text);
-  out.number(set.held);
+  out.number(set.in_memory);
   out.number(set.values.size());
   out.doubles(set.values);
   put(out, set.texts);
@@ -602,13 +602,13 @@ private:
       return false;
     set.layout.stored_bytes = stored;
     set.is_text = text_kind == 1;
-    set.held = held == 1;
+    set.in_memory = held == 1;
     set.values.resize(values);
     if (!in_.doubles(set.values) || !take(set.texts) || !text(set.fault) || !text(set.hint) ||
         !text(set.other_type))
       return false;
     const std::size_t wanted = set.count();
-    return !set.fault.empty() || !set.held ||
+    return !set.fault.empty() || !set.in_memory ||
            (set.is_text ? set.texts.size() : set.values.size()) == wanted;
   }
 

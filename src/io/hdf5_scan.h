@@ -24,7 +24,7 @@ struct Hdf5Dataset {
   Hdf5Layout layout;
   bool is_text = false;
   std::string other_type; // description of any type other than numbers and texts; else empty
-  bool held = false;      // values are in memory; else read on request
+  bool in_memory = false; // its values; else read on request
   std::vector<double> values;
   std::vector<std::string> texts;
   std::string fault, hint; // reason why neither can be read; else empty

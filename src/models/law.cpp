@@ -56,7 +56,7 @@ std::vector<std::string> parameter_names(const Law& law) {
   return names;
 }
 
-std::shared_ptr<const Law> held_law(const Law& law) {
+std::shared_ptr<const Law> shared_law(const Law& law) {
   if (!is_registered(law)) return unregistered_law(law);
   return {std::shared_ptr<const Law>(), &law}; // the registry outlives every model
 }

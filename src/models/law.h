@@ -69,8 +69,8 @@ struct Law {
   PieceQuantity quantity = PieceQuantity::mu;
   bool log_value = false; // tabulate ln(value), which is linear for products of powers
   std::map<std::string, bool> log_axes; // axis coordinates that differ from the quantity's
-  std::map<std::string, std::vector<double>> kinks;      // inside `value`, by axis: a node each
-  std::map<std::string, std::pair<double, double>> held; // inputs clamped to [low, high]
+  std::map<std::string, std::vector<double>> kinks; // inside `value`, by axis: a node each
+  std::map<std::string, std::pair<double, double>> clamped_inputs; // to [low, high]
   std::vector<std::string> may_use; // trained laws: states used if the data vary in them
   std::string base; // of a law with traced effects: the registered law it extends; else empty
   // Levels of the inputs that are text columns, in the order of their numbers 0, 1, ...
@@ -126,7 +126,7 @@ struct Model {
 
 // Returns the pointer by which a model keeps its law: to the registry's law, or to a copy of a law
 // that was found from data or written by a user.
-std::shared_ptr<const Law> held_law(const Law& law);
+std::shared_ptr<const Law> shared_law(const Law& law);
 std::shared_ptr<const Law> unregistered_law(Law law);
 
 // Whether the law is the registry's own object, so that its name identifies it.

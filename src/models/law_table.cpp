@@ -91,7 +91,7 @@ Law law_of_table(const LawTable& table) {
   for (const LawTableAxis& axis : table.axes) {
     law.log_axes[axis.name] = axis.log;
     law.kinks[axis.name] = axis.nodes;
-    law.held[axis.name] = {axis.nodes.front(), axis.nodes.back()};
+    law.clamped_inputs[axis.name] = {axis.nodes.front(), axis.nodes.back()};
     if (!data::find_quantity(axis.name)) law.places.emplace(axis.name, axis.place);
   }
   const Expr piece = piece_of(table);

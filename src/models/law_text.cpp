@@ -82,7 +82,7 @@ Expr without_pressure(const Expr& e) {
 struct Candidate {
   Expr part;              // a node of the formula
   bool is_mu;             // the piece is a coefficient
-  bool beside_pressure;   // `part` is sigma_n_MPa times the piece; false: it is the piece
+  bool times_pressure;    // `part` is sigma_n_MPa times the piece; false: it is the piece
   std::size_t states = 0; // number of states that the piece depends on
   std::size_t operations = 0;
 };
@@ -576,8 +576,8 @@ Parts parts_of(const Expr& tau_R, const std::vector<Parameter>& parameters) {
   Splitter splitter(tau_R, parameters);
   splitter.look(tau_R, false);
   const Candidate& best = splitter.best();
-  const Expr piece = best.beside_pressure ? without_pressure(best.part) : best.part;
-  const Expr in_place = best.beside_pressure ? state::value() * state::sigma_n() : state::value();
+  const Expr piece = best.times_pressure ? without_pressure(best.part) : best.part;
+  const Expr in_place = best.times_pressure ? state::value() * state::sigma_n() : state::value();
   using Nodes = std::vector<std::pair<Expr, Expr>>;
   return {{piece, substitute(tau_R, Nodes{{best.part, in_place}})},
           best.is_mu ? PieceQuantity::mu : PieceQuantity::tau_R};

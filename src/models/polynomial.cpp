@@ -155,7 +155,7 @@ Law polynomial(const Polynomial& polynomial) {
   for (const PolynomialState& state : polynomial.states) {
     law.log_axes[state.name] = state.log;
     law.kinks[state.name] = {state.low, state.high};
-    law.held[state.name] = {state.low, state.high};
+    law.clamped_inputs[state.name] = {state.low, state.high};
   }
   return law;
 }

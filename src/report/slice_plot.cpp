@@ -12,9 +12,9 @@ namespace frictab::report {
 
 namespace {
 
-std::string held_text(const table::Slice& slice) {
+std::string fixed_states_text(const table::Slice& slice) {
   std::string text;
-  for (const auto& [name, value] : slice.held)
+  for (const auto& [name, value] : slice.fixed)
     text += fmt::format("{}{} = {:g}", text.empty() ? "; held: " : ", ", name, value);
   return text;
 }
@@ -75,7 +75,7 @@ std::string slice_svg(const table::Slice& slice) {
   plot.labels_beside(x.back(), ends);
   std::string what = slice.model + " over " + slice.along[0];
   if (two) what += ", lines: " + axis_name(slice.along[1]);
-  return plot.file(what, what + held_text(slice));
+  return plot.file(what, what + fixed_states_text(slice));
 }
 
 } // namespace frictab::report

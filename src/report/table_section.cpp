@@ -122,7 +122,7 @@ std::string below_text(const DriftRecord& r) {
 // For native tables: the fixed states and their error. For routines: rows they could not represent.
 std::string subject_text(const DriftRecord& r) {
   std::string text = svg::escape(r.subject);
-  for (const std::string& remark : {r.held ? verify::cost_text(r) : std::string(),
+  for (const std::string& remark : {r.fixed_states ? verify::cost_text(r) : std::string(),
                                     verify::not_representable_text(r), below_text(r)})
     if (!remark.empty()) text += "<br>" + svg::escape(remark);
   return text;

@@ -55,7 +55,7 @@ void add_to(DriftLine& line, const verify::Verification& verification,
                               r.model, r.subject, verify::largest_drift_MPa(r), *r.law_error_MPa);
   if (const std::string left = verify::not_representable_text(r); !left.empty())
     line.notes += fmt::format("  {} {} {}\n", r.model, r.subject, left);
-  if (r.held) return; // add_costs prints these on lines of their own
+  if (r.fixed_states) return; // add_costs prints these on lines of their own
   if (r.n_rows > 0) {
     line.on_rows = std::max(line.on_rows.value_or(0), r.rows.max_abs);
     line.share = 100.0 * static_cast<double>(r.n_outside) / static_cast<double>(r.n_rows);
@@ -121,7 +121,7 @@ void add_below(std::string& out, const verify::Verification& verification,
   for (const std::string& model : models) {
     std::optional<verify::BelowRange> table, routines;
     for (const verify::DriftRecord& r : verification.records) {
-      if (r.model != model || !r.ran || !r.below || r.held) continue;
+      if (r.model != model || !r.ran || !r.below || r.fixed_states) continue;
       std::optional<verify::BelowRange>& one = r.subject == "table" ? table : routines;
       if (!one || r.below->max_abs_MPa > one->max_abs_MPa) one = r.below;
     }
@@ -181,8 +181,8 @@ std::string text_of(const HeldLine& line, std::size_t width) {
 void add_costs(std::string& out, const verify::Verification& verification) {
   std::vector<HeldLine> lines;
   for (const verify::DriftRecord& r : verification.records) {
-    if (!r.ran || !r.held) continue;
-    const std::string text = verify::held_text(r), target = verify::target_of(r);
+    if (!r.ran || !r.fixed_states) continue;
+    const std::string text = verify::fixed_states_text(r), target = verify::target_of(r);
     auto line = std::find_if(lines.begin(), lines.end(), [&](const HeldLine& one) {
       return one.model == r.model && one.text == text;
     });

@@ -136,7 +136,7 @@ double share_outside(const Table& table, const std::vector<StateRange>& ranges) 
 
 } // namespace
 
-TableDifference difference(const Table& a, const Table& b, const HeldStates& held) {
+TableDifference difference(const Table& a, const Table& b, const FixedStates& held) {
   TableDifference out;
   for (const std::string& name : inputs_of(a, b)) {
     const auto at = held.find(name);

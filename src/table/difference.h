@@ -21,7 +21,7 @@ struct TableDifference {
 
 // Compares two tables. `held`: states fixed at one value, required for inputs without a known
 // range. Throws InputError where the ranges of an input do not overlap, or neither is known.
-TableDifference difference(const Table& a, const Table& b, const HeldStates& held);
+TableDifference difference(const Table& a, const Table& b, const FixedStates& held);
 
 std::string difference_text(const TableDifference& difference,
                             const std::array<std::string, 2>& names);

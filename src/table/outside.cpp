@@ -54,7 +54,7 @@ AxisEnds::AxisEnds(const TableAxis& axis, std::size_t number_of_input)
 AxisEnds::AxisEnds(const std::string& held_input, std::size_t number_of_input,
                    std::pair<double, double> range)
     : name(held_input), input(number_of_input), low(range.first), high(range.second),
-      below(Outside::clamp), above(Outside::clamp), held(true), refused_below(-no_end),
+      below(Outside::clamp), above(Outside::clamp), clamped_by_law(true), refused_below(-no_end),
       refused_above(no_end) {}
 
 namespace {
@@ -94,7 +94,7 @@ std::map<std::string, std::pair<double, double>> held_ranges(const Expr& formula
 
 } // namespace
 
-std::vector<AxisEnds> held_input_ends(const Table& table) {
+std::vector<AxisEnds> clamped_input_ends(const Table& table) {
   std::map<std::string, std::pair<double, double>> ranges = held_ranges(table.combine);
   for (const auto& [name, record] : table.record.inputs)
     if (record.levels && record.low && record.high)
@@ -111,7 +111,7 @@ std::vector<AxisEnds> held_input_ends(const Table& table) {
 
 std::vector<AxisEnds> all_ends(const Table& table) {
   std::vector<AxisEnds> ends = axis_ends(table);
-  for (AxisEnds& held : held_input_ends(table))
+  for (AxisEnds& held : clamped_input_ends(table))
     ends.push_back(std::move(held));
   return ends;
 }

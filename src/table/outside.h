@@ -37,7 +37,7 @@ struct AxisEnds {
   std::size_t input; // index in Table::inputs()
   double low, high;
   Outside below, above;
-  bool held = false; // not an axis: the law clamps this input to the same ends
+  bool clamped_by_law = false; // not an axis: the law clamps this input to the same ends
   // Queries are refused beyond these, further out than end_rounding; infinite for a side that does
   // not refuse.
   double refused_below, refused_above;
@@ -61,9 +61,9 @@ std::vector<AxisEnds> axis_ends(const Table& table);
 // Inputs that are not axes and were tested over a limited range: those that `combine` clamps to its
 // ends (traced effects), and numbers of levels. Beyond the range the formula answers as the law
 // does.
-std::vector<AxisEnds> held_input_ends(const Table& table);
+std::vector<AxisEnds> clamped_input_ends(const Table& table);
 
-// Both axis_ends and held_input_ends, in this order: bit i of `outside` is the i-th of them.
+// Both axis_ends and clamped_input_ends, in this order: bit i of `outside` is the i-th of them.
 std::vector<AxisEnds> all_ends(const Table& table);
 
 // Answers where interpolation does not: beyond a side with `error` (NaN) or `law`, and everywhere

@@ -40,7 +40,7 @@ void write_csv(const PlainRequest& request, std::ostream& out) {
   const auto inputs = table.inputs();
   std::vector<std::string> held, row;
   for (const std::string& name : inputs)
-    if (!find_axis(table, name) && request.held.count(name)) held.push_back(name);
+    if (!find_axis(table, name) && request.fixed.count(name)) held.push_back(name);
   const bool known = held.size() + table.axes.size() == inputs.size();
   for (const TableAxis& axis : table.axes)
     row.push_back(axis.name);
@@ -64,7 +64,7 @@ void write_csv(const PlainRequest& request, std::ostream& out) {
                                        inputs.begin())] = x;
       }
       for (const std::string& name : held) {
-        const double x = request.held.at(name);
+        const double x = request.fixed.at(name);
         row.push_back(shortest(x));
         state[static_cast<std::size_t>(std::find(inputs.begin(), inputs.end(), name) -
                                        inputs.begin())] = x;

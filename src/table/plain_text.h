@@ -12,7 +12,7 @@ namespace frictab::table {
 
 struct PlainRequest {
   const Table& table;
-  const HeldStates& held;
+  const FixedStates& fixed;
 };
 
 struct PlainFormat {

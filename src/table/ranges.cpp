@@ -116,7 +116,7 @@ std::string percent(double share) {
 // would not vanish with the pressure, which is worse than the error of any law.
 void judge_end(StateRange& range, std::size_t input, const models::AssembledLaw& law,
                const calibrate::InputColumns& columns) {
-  if (usual_below(range.name) != Outside::law || law.model.law->held.count(range.name) ||
+  if (usual_below(range.name) != Outside::law || law.model.law->clamped_inputs.count(range.name) ||
       law.model.law->quantity != models::PieceQuantity::mu || !law.piece_inputs.count(range.name))
     return;
   const calibrate::StressError error(law.model, columns.names());

@@ -19,7 +19,7 @@ std::string unit_of(const Table& table, const std::string& name) {
   return data::meaning_of(name).unit;
 }
 
-void check_along(const Table& table, const HeldStates& held,
+void check_along(const Table& table, const FixedStates& held,
                  const std::vector<std::string>& along) {
   for (std::size_t i = 0; i < along.size(); ++i) {
     check_input(table, along[i]);
@@ -33,10 +33,10 @@ void check_along(const Table& table, const HeldStates& held,
 
 } // namespace
 
-Slice slice(const Table& table, const HeldStates& held, const std::vector<std::string>& along,
+Slice slice(const Table& table, const FixedStates& held, const std::vector<std::string>& along,
             std::size_t points) {
   check_along(table, held, along);
-  check_held(table, held);
+  check_fixed_states(table, held);
   check_all_known(table, held, along);
   Slice out{table.model, table.inputs(), along, {}, held, {}, {}, {}};
   std::size_t rows = 1;

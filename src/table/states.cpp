@@ -26,9 +26,9 @@ std::string range_text(const Table& table, const std::string& name) {
 
 } // namespace
 
-HeldStates held_states(const std::vector<std::string>& texts,
-                       const std::vector<std::string>& inputs) {
-  HeldStates held;
+FixedStates fixed_states(const std::vector<std::string>& texts,
+                         const std::vector<std::string>& inputs) {
+  FixedStates held;
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
     const std::string name = text.substr(0, equals);
@@ -56,7 +56,7 @@ const TableAxis* find_axis(const Table& table, const std::string& name) {
   return nullptr;
 }
 
-std::vector<std::string> check_held(const Table& table, const HeldStates& held) {
+std::vector<std::string> check_fixed_states(const Table& table, const FixedStates& held) {
   FaultList faults;
   std::vector<std::string> notes;
   for (const auto& [name, value] : held) {
@@ -75,7 +75,7 @@ std::vector<std::string> check_held(const Table& table, const HeldStates& held) 
   return notes;
 }
 
-void check_all_known(const Table& table, const HeldStates& held,
+void check_all_known(const Table& table, const FixedStates& held,
                      const std::vector<std::string>& free) {
   std::vector<std::string> missing, options;
   for (const std::string& name : table.inputs()) {

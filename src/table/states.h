@@ -9,23 +9,23 @@
 
 namespace frictab::table {
 
-using HeldStates = std::map<std::string, double>; // by canonical name
+using FixedStates = std::map<std::string, double>; // by canonical name
 
 // Parses "psi=2" each. Throws InputError for a text that is not name=number, a name that is not an
 // input (naming the nearest), and a name given twice.
-HeldStates held_states(const std::vector<std::string>& texts,
-                       const std::vector<std::string>& inputs);
+FixedStates fixed_states(const std::vector<std::string>& texts,
+                         const std::vector<std::string>& inputs);
 
 // Throws InputError where `name` is not an input of the table.
 void check_input(const Table& table, const std::string& name);
 
 // Throws InputError where an axis is fixed beyond its ends. Returns one line for each input that is
 // not an axis and is fixed beyond the range for which the table was verified.
-std::vector<std::string> check_held(const Table& table, const HeldStates& held);
+std::vector<std::string> check_fixed_states(const Table& table, const FixedStates& held);
 
 // Throws InputError that lists, with their ranges, the inputs that are neither fixed nor among
 // `free`.
-void check_all_known(const Table& table, const HeldStates& held,
+void check_all_known(const Table& table, const FixedStates& held,
                      const std::vector<std::string>& free);
 
 // The axis of this name; nullptr if the input is not an axis.

@@ -170,7 +170,7 @@ TableFunction::TableFunction(const Table& table) : data_(std::make_unique<Data>(
                                                       d.inputs.size(), most_inputs));
   if (OutsideRule::needed(table)) d.rule = std::make_unique<OutsideRule>(table);
   d.n_axes = table.axes.size();
-  d.held = held_input_ends(table);
+  d.held = clamped_input_ends(table);
   if (!table.is_direct()) d.add_axes(table);
   d.log_value = table.log_value;
   std::map<std::string, Expr> constants;

@@ -27,7 +27,7 @@ RowsBeyond rows_beyond(const table::Table& table, const table::States& states) {
   std::vector<BeyondEnd> ends;
   for (const table::AxisEnds& axis : axes) {
     const auto name = [&](table::Outside side) {
-      return axis.held ? "held" : table::outside_name(side);
+      return axis.clamped_by_law ? "held" : table::outside_name(side);
     };
     ends.push_back({axis.name, "below", name(axis.below), axis.low, 0, 0});
     ends.push_back({axis.name, "above", name(axis.above), axis.high, 0, 0});
@@ -42,7 +42,7 @@ RowsBeyond rows_beyond(const table::Table& table, const table::States& states) {
         count(ends[2 * a], axes[a].low - x);
       else
         count(ends[2 * a + 1], x - axes[a].high);
-      if (axes[a].held) continue; // the law clamps it as well: compared
+      if (axes[a].clamped_by_law) continue; // the law clamps it as well: compared
       if (axes[a].refuses(x))
         out.kinds[i] = RowKind::refused;
       else if (!axes[a].extends(x) && out.kinds[i] != RowKind::refused)
@@ -65,9 +65,9 @@ std::string target_of(const DriftRecord& record) {
   return record.subject.substr(0, record.subject.find('/'));
 }
 
-std::string held_text(const DriftRecord& record) {
+std::string fixed_states_text(const DriftRecord& record) {
   std::string held;
-  for (const auto& [name, value] : *record.held)
+  for (const auto& [name, value] : *record.fixed_states)
     held += fmt::format("{}{} = {:.6g}", held.empty() ? "" : ", ", name, value);
   const std::string cost =
       record.n_rows == 0 ? "no rows to measure the cost"
@@ -77,7 +77,7 @@ std::string held_text(const DriftRecord& record) {
 }
 
 std::string cost_text(const DriftRecord& record) {
-  return target_of(record) + " holds " + held_text(record);
+  return target_of(record) + " holds " + fixed_states_text(record);
 }
 
 std::string not_representable_text(const DriftRecord& record) {

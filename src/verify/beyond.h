@@ -32,11 +32,11 @@ std::string beyond_text(const BeyondEnd& end);
 std::string target_of(const DriftRecord& record);
 
 // Formats as "psi = 4.47: mean 3.1, largest 14.2 MPa off the law on the rows". Requires
-// record.held.
-std::string held_text(const DriftRecord& record);
+// record.fixed_states.
+std::string fixed_states_text(const DriftRecord& record);
 
 // Formats as "abaqus_table holds psi = 4.47: mean 3.1, largest 14.2 MPa off the law on the rows".
-// Requires record.held.
+// Requires record.fixed_states.
 std::string cost_text(const DriftRecord& record);
 
 // Formats as "not asked 1,200 of 16,500 rows and ...: states its solver is never in". Empty if all

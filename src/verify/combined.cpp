@@ -63,7 +63,7 @@ Asked ask_table(const codegen::Exporter& exporter, const codegen::ExportRequest&
   Asked asked;
   asked.names = law.table.inputs();
   asked.states = states_of(law.table, samples);
-  const table::HeldStates held = exporter.held(law);
+  const table::FixedStates held = exporter.fixed_states(law);
   for (std::size_t d = 0; d < asked.names.size(); ++d)
     if (const auto value = held.find(asked.names[d]); value != held.end())
       std::fill(asked.states[d].begin(), asked.states[d].end(), value->second);

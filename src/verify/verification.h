@@ -70,7 +70,7 @@ struct DriftRecord {
   // States (canonical values) that a solver's own table, or a routine with constants of the job,
   // fixes. All figures above then compare with the law at the fixed states. The cost of fixing them
   // is the difference from the law at the rows' own states:
-  std::optional<std::map<std::string, double>> held = {};
+  std::optional<std::map<std::string, double>> fixed_states = {};
   double cost_mean_abs_MPa = 0, cost_max_abs_MPa = 0; // over the rows inside the range
 };
 

@@ -257,7 +257,7 @@ Columns columns_for(const table::Table& source, const Subjects& s, const Probe& 
 // Returns the same probes with some states fixed. For a solver's own table, rows that the table
 // refuses count as clamped, because the solver decides what happens beyond its ends.
 Subjects at_held(const table::Table& table, const Subjects& s, const Reference& reference,
-                 const table::HeldStates& held, bool own_table) {
+                 const table::FixedStates& held, bool own_table) {
   Subjects out;
   out.names = s.names;
   out.ranges = s.ranges;
@@ -297,7 +297,7 @@ Subjects with_largest_mu(const Subjects& s) {
 // Returns the law that a solver's own table represents: with fixed states as numbers, and mu at
 // most largest_coefficient.
 models::AssembledLaw law_of_own_table(const models::AssembledLaw& law,
-                                      const table::HeldStates& held, bool gives_mu) {
+                                      const table::FixedStates& held, bool gives_mu) {
   models::AssembledLaw out = law;
   if (gives_mu)
     out.tau_R =
@@ -313,7 +313,7 @@ models::AssembledLaw law_of_own_table(const models::AssembledLaw& law,
 // errors peak inside its cells, which the samples of another table may miss. `ranges` covers all
 // states.
 table::States furthest_states(const table::Table& own, const models::AssembledLaw& law,
-                              const table::HeldStates& held,
+                              const table::FixedStates& held,
                               const std::vector<table::StateRange>& ranges, std::size_t samples) {
   const std::vector<std::string> inputs = own.inputs();
   std::vector<table::StateRange> searched;
@@ -345,7 +345,7 @@ table::States furthest_states(const table::Table& own, const models::AssembledLa
 
 // Adds these states in the range and in the decade below it.
 void add_furthest(Subjects& s, const VerifyInput& input, const Reference& reference,
-                  const table::Table& own, const table::HeldStates& held, bool gives_mu) {
+                  const table::Table& own, const table::FixedStates& held, bool gives_mu) {
   const models::AssembledLaw own_law = law_of_own_table(input.law, held, gives_mu);
   const auto add = [&](Probe& to, const std::vector<table::StateRange>& ranges) {
     table::States states = furthest_states(own, own_law, held, ranges, input.samples);
@@ -358,10 +358,10 @@ void add_furthest(Subjects& s, const VerifyInput& input, const Reference& refere
 using Answer = std::function<void(const Probe&, std::vector<double>&)>;
 
 DriftRecord compare_reduced(const VerifyInput& input, const Subjects& s, const Subjects& at_held,
-                            const table::HeldStates& held, bool own_table,
+                            const table::FixedStates& held, bool own_table,
                             const std::string& subject, const Answer& answer) {
   DriftRecord record = compare(input, at_held, subject, answer);
-  record.held = held;
+  record.fixed_states = held;
   if (s.rows.law.empty()) return record;
   std::vector<double> tau(s.rows.law.size(), not_representable);
   // The solver's table is evaluated at the rows' own states, because it ignores the fixed ones. A
@@ -401,7 +401,7 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
   };
   const bool gives_mu = exporter.gives_mu(source.request);
   const auto given = [&](const Subjects& all) { return gives_mu ? with_largest_mu(all) : all; };
-  const table::HeldStates held = exporter.held(source.request);
+  const table::FixedStates held = exporter.fixed_states(source.request);
   if (exporter.is_routine() && held.empty()) return compare(input, given(s), subject, answer);
   const Reference reference(input, s.names);
   Subjects reduced = at_held(input.table, s, reference, held, !exporter.is_routine());

@@ -111,8 +111,8 @@ static void describe(Fields& f, DriftRecord& r) {
   f.unless_default("over_by_proof", r.over_by_proof);
   f.unless_default("out_of_boxes", r.out_of_boxes);
   f.if_there("below", r.below);
-  f.if_known("held", r.held);
-  if (!r.held) return;
+  f.if_known("held", r.fixed_states);
+  if (!r.fixed_states) return;
   f.known("cost_mean_abs_MPa", r.cost_mean_abs_MPa);
   f.known("cost_max_abs_MPa", r.cost_max_abs_MPa);
 }

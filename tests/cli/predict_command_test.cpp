@@ -79,7 +79,7 @@ constexpr const char* states = "experiment,sigma_n_MPa,psi,v_rel_mm_s,T_contact_
 // tau_R = 0.1 sigma_N up to k, calibrated on 19 experiments with factors of 0.82 to 1.18.
 std::string round_model() {
   calibrate::ModelFit fit;
-  fit.model.law = models::held_law(*models::find_law("coulomb"));
+  fit.model.law = models::shared_law(*models::find_law("coulomb"));
   fit.model.parameters = {0.1};
   fit.std_error = {0.001};
   for (int i = -9; i <= 9; ++i)

@@ -87,7 +87,7 @@ TEST_P(SlowNativeTableOfEveryFormula, MeetsTheToleranceWhereTheSearchFindsItFurt
     const DriftRecord record = c.verified(target);
     EXPECT_TRUE(record.passed) << target << " " << record.worst_case_MPa;
     EXPECT_LE(record.worst_case_MPa, 0.5) << target;
-    ASSERT_TRUE(record.held);
+    ASSERT_TRUE(record.fixed_states);
     EXPECT_EQ(record.subject, std::string(target) + "/deck");
     // No less than was found while it was made, by other means and over pressures below the range.
     const std::string recipe = find_exporter(target)->generate(c.request()).at("recipe.json");
@@ -123,7 +123,7 @@ TEST(SlowNativeCost, IsTheDriftWhereTheLawNeedsNothingThatIsHeld) {
   unlimited.direct = table::direct_form(AssembledLaw(unlimited.model), unlimited.table);
   for (const char* target : {"abaqus_table", "lsdyna_table", "ansys_table", "deform_table"}) {
     const DriftRecord record = unlimited.verified(target);
-    EXPECT_TRUE(record.held->empty()) << target;
+    EXPECT_TRUE(record.fixed_states->empty()) << target;
     EXPECT_EQ(record.cost_mean_abs_MPa, record.rows.mean_abs) << target;
     EXPECT_EQ(record.cost_max_abs_MPa, record.rows.max_abs) << target;
     EXPECT_LE(record.cost_max_abs_MPa, 1e-6) << target;
@@ -150,13 +150,14 @@ TEST(SlowConstantOfTheJob, IsWhereEveryRoutineIsComparedAndItsCostIsTold) {
     const DriftRecord record = c.compared({{&exporter, request, exporter.generate(request)}});
     if (!record.ran) continue;
     EXPECT_TRUE(record.passed) << exporter.name << " " << record.worst_case_MPa;
-    ASSERT_TRUE(record.held) << exporter.name;
-    EXPECT_EQ(*record.held, (table::HeldStates{{"sigma_f_MPa", 480}})) << exporter.name;
+    ASSERT_TRUE(record.fixed_states) << exporter.name;
+    EXPECT_EQ(*record.fixed_states, (table::FixedStates{{"sigma_f_MPa", 480}})) << exporter.name;
     EXPECT_EQ(record.worst_state.at("sigma_f_MPa"), 480) << exporter.name;
     EXPECT_GT(record.cost_max_abs_MPa, 5) << exporter.name;
     const codegen::ExportRequest free = {c.table, "mm-t-s", {}, {}};
     if (exporter.name == "calculix_usrmu") continue; // takes no flow stress from its solver
-    EXPECT_FALSE(c.compared({{&exporter, free, exporter.generate(free)}}).held) << exporter.name;
+    EXPECT_FALSE(c.compared({{&exporter, free, exporter.generate(free)}}).fixed_states)
+        << exporter.name;
   }
 }
 
@@ -166,7 +167,7 @@ TEST(NativeCost, IsWrittenAndReadBackAndTold) {
   const verify::Verification read =
       verify::parse_verification(verify::verification_json(verification), "verify.json");
   const DriftRecord &a = verification.records[0], &b = read.records[0];
-  EXPECT_EQ(b.held, a.held);
+  EXPECT_EQ(b.fixed_states, a.fixed_states);
   EXPECT_EQ(b.cost_mean_abs_MPa, a.cost_mean_abs_MPa);
   EXPECT_EQ(b.cost_max_abs_MPa, a.cost_max_abs_MPa);
   EXPECT_THAT(verify::cost_text(b),

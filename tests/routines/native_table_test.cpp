@@ -251,7 +251,7 @@ TEST(NativeTables, RecipeAndHeldAgreeWithTheComments) {
     const codegen::Exporter& exporter = *find_exporter(target);
     const auto recipe = test::parse_json(exporter.generate(request).at("recipe.json"));
     std::vector<std::string> names;
-    for (const auto& [name, value] : exporter.held(request)) {
+    for (const auto& [name, value] : exporter.fixed_states(request)) {
       names.push_back(name);
       EXPECT_EQ(recipe.at("held").at(name), value);
       EXPECT_THAT(text_of(target, table), HasSubstr("held: " + name + " = "));

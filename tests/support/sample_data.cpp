@@ -84,7 +84,7 @@ Model plausible_model(const models::Law& law) {
       {"exp_coulomb", {0.08, -0.3, -0.001}},
       {"wzl", {0.0855, -0.15, -0.06, -0.05}}};
   Model model;
-  model.law = models::held_law(law);
+  model.law = models::shared_law(law);
   if (const auto found = truth.find(law.name); found != truth.end())
     model.parameters = found->second;
   else

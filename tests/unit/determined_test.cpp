@@ -168,7 +168,7 @@ TEST(Determined, NothingIsToldOfWhatTheTestsDetermine) {
 // A tenth below the lowest pressure: how far the law is off there, and how far the coefficient at
 // the end is, which a table holds; both against the truth. The rule takes the better one.
 TEST(Determined, EndsAreHeldWhereTheLawWouldBeFurtherOff) {
-  double held_law = 0, held_end = 0, followed_law = 0, followed_end = 0;
+  double shared_law = 0, held_end = 0, followed_law = 0, followed_end = 0;
   std::size_t held = 0, followed = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     // From tests over a factor of 4 in the pressure to tests over 5 %.
@@ -185,13 +185,13 @@ TEST(Determined, EndsAreHeldWhereTheLawWouldBeFurtherOff) {
     const double there = 0.1 * range.low, truth = 0.07 * std::pow(there / 1000, c.a);
     const double law = std::pow(std::log(mu(there) / truth), 2),
                  end = std::pow(std::log(mu(range.low) / truth), 2);
-    (range.below ? held_law : followed_law) += law;
+    (range.below ? shared_law : followed_law) += law;
     (range.below ? held_end : followed_end) += end;
     ++(range.below ? held : followed);
   }
   ASSERT_GE(held, 15U);
   ASSERT_GE(followed, 15U);
-  EXPECT_LT(held_end, held_law);
+  EXPECT_LT(held_end, shared_law);
   EXPECT_LT(followed_law, followed_end);
 }
 

@@ -24,7 +24,7 @@ using Values = std::map<std::string, double>;
 double tau_R(const std::string& name, const Values& states, const Values& parameters = {},
              models::ShearYield yield = models::ShearYield::mises) {
   models::Model model;
-  model.law = models::held_law(*job::literature().find(name));
+  model.law = models::shared_law(*job::literature().find(name));
   model.conventions = {yield, models::shear_yield_ratio(yield), false};
   for (const models::Parameter& p : model.law->parameters)
     model.parameters.push_back(parameters.count(p.name) ? parameters.at(p.name) : p.start);

@@ -183,10 +183,10 @@ Table with_held_humidity() {
 TEST(HeldInputs, AreThoseThatTheFormulaHoldsAndNumbersOfLevels) {
   const Table table = with_held_humidity();
   std::vector<std::string> texts;
-  for (const table::AxisEnds& end : table::held_input_ends(table))
+  for (const table::AxisEnds& end : table::clamped_input_ends(table))
     texts.push_back(fmt::format("{} {} {}", end.name, end.low, end.high));
   EXPECT_EQ(texts, (std::vector<std::string>{"humidity_pct 30 60", "tool 0 2"}));
-  EXPECT_TRUE(table::held_input_ends(test::sides_table()).empty());
+  EXPECT_TRUE(table::clamped_input_ends(test::sides_table()).empty());
 }
 
 TEST(HeldInputs, HaveBitsBehindThoseOfTheAxesWhoeverAnswers) {

@@ -71,7 +71,7 @@ inline ReportSample report_sample(std::size_t laws, std::size_t experiments, std
   const auto sigma = s.validation.values("sigma_n_MPa");
   for (std::size_t l = 0; l < laws; ++l) {
     calibrate::ModelFit fit;
-    fit.model.law = models::held_law(
+    fit.model.law = models::shared_law(
         models::all_laws()[models::all_laws().size() - 1 - l % models::all_laws().size()]);
     std::vector<double> predicted;
     for (const double value : sigma)

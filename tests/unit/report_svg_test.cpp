@@ -192,7 +192,7 @@ table::Slice slice_over_psi() {
   slice.model = "law";
   slice.along = {"sigma_n_MPa", "psi"};
   slice.units = {"MPa", "1"};
-  slice.held = {{"T_contact_C", 100}};
+  slice.fixed = {{"T_contact_C", 100}};
   slice.values = {{500, 1000, 2000}, {1, 2, 4, 5}};
   for (const double sigma : slice.values[0])
     for (const double factor : {0.05, 0.06, 0.08, 0.08001})

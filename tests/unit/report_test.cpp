@@ -195,7 +195,7 @@ calibrate::Comparisons three_laws() {
 ReportSample orowan_sample(double m, double flow_stress_span) {
   ReportSample sample = report_sample(1, 4, 100);
   ModelFit& fit = sample.calibration.fits[0];
-  fit.model.law = models::held_law(*models::find_law("orowan"));
+  fit.model.law = models::shared_law(*models::find_law("orowan"));
   fit.model.parameters = {0.1, m};
   fit.std_error = {0.01, 0.01};
   data::Column flow_stress{"sigma_f_MPa", "MPa", {}, {}};
@@ -380,14 +380,14 @@ TEST(Benchmark, IsThisTextForTwoLaws) {
   const double none = std::nan("");
   calibrate::Calibration c;
   ModelFit orowan;
-  orowan.model.law = models::held_law(*models::find_law("orowan"));
+  orowan.model.law = models::shared_law(*models::find_law("orowan"));
   orowan.model.parameters = {0.0792, 0.49981};
   orowan.std_error = {0.00201, std::nan("")};
   orowan.remarks = {"a|b"};
   orowan.training = {12.5, 16, 0, {12, 13}, {15, 17}, {-1, 1}, 44550, 81};
   orowan.validation = {11.558, 13.56, -2.74, {9.69, 13.54}, {11, 16}, {-6, 1}, 16500, 30};
   ModelFit fixed;
-  fixed.model.law = models::held_law(*models::find_law("coulomb_0.08"));
+  fixed.model.law = models::shared_law(*models::find_law("coulomb_0.08"));
   fixed.model.parameters = {0.08};
   fixed.training = {28.5, 31, -20, {25, 31}, {28, 34}, {-22, -18}, 44550, 81};
   fixed.validation = {26.3, 30.2, -24.8, {21.6, 31.6}, {25, 35}, {none, none}, 16500, 30};

@@ -76,7 +76,7 @@ const std::string target_notes =
     std::string("Columns for slip rate, pressure, temperature, and field variables where "
                 "[export.inputs] says field:N (up to 4, counted from 1); every other state of the "
                 "law ") +
-    native_held_states +
+    native_fixed_words +
     "A column the law does not depend on stays blank. TAUMAX holds the law's shear limit at the "
     "held flow stress. The grid is made to table.tolerance_MPa with at most 30,000 lines. Beyond "
     "the ends Abaqus keeps "

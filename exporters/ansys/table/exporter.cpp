@@ -53,7 +53,7 @@ const char* const source_of_signature =
 const std::string target_notes =
     std::string("Fields for pressure, sliding velocity, sliding distance, temperature, and UF0N "
                 "where [export.inputs] says field:N (1 to 9); every other state of the law ") +
-    native_held_states +
+    native_fixed_words +
     "RMODIF sets TAUMAX to the "
     "law's shear limit at the held flow stress: without it the friction exceeds the limit. Set "
     "ft_mat and ft_real to your material and real constant set. The grid is made to "

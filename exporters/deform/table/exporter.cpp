@@ -57,7 +57,7 @@ const char* const source_of_signature =
 const std::string target_notes =
     std::string("Pressure, temperature and surface stretch are all this table knows, in 2-D as in "
                 "3-D; every other state of the law, sliding speed and distance among them, ") +
-    native_held_states +
+    native_fixed_words +
     "deform_friction = \"shear\" writes m = tau_R/k with k = sigma_f/sqrt(3) at the held flow "
     "stress, which DEFORM multiplies by its own k; coulomb writes mu = tau_R/pressure, the shear "
     "limit within. "

@@ -62,7 +62,7 @@ const char* const source_of_signature =
 
 const std::string target_notes =
     std::string("Velocity and pressure are all this table knows; every other state of the law ") +
-    native_held_states +
+    native_fixed_words +
     "The shear limit is part of the table, at the held flow stress. Table and curves are numbered "
     "from 90000: renumber them where your deck has these. The grid is made to "
     "table.tolerance_MPa with at most 30,000 points.";

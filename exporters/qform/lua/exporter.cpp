@@ -151,7 +151,7 @@ public:
     });
   }
 
-  table::HeldStates held(const ExportRequest& request) const override {
+  table::FixedStates fixed_states(const ExportRequest& request) const override {
     const CurvedRequest curved(request, gives());
     return declared_constants(curved.get(), solver_inputs(curved.get(), gives()));
   }

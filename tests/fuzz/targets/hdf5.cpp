@@ -79,7 +79,7 @@ private:
   }
 
   static void fill(io::Hdf5Dataset& set) {
-    set.held = true;
+    set.in_memory = true;
     std::size_t count = 1;
     for (std::size_t& n : set.shape)
       count *= n = std::min(n, count == 0 ? n : most_values / count);
@@ -117,10 +117,10 @@ void read_scan(std::string_view bytes) {
   ::close(file);
   if (!taken) throw InputError({"t.h5", 0, 0}, "is damaged");
   for (const auto& [name, set] : contents.datasets) {
-    promise(!set.held || !set.fault.empty() ||
+    promise(!set.in_memory || !set.fault.empty() ||
                 (set.is_text ? set.texts.size() : set.values.size()) == set.count(),
             "a dataset that is held has all its values");
-    if (!set.held) return; // its values stay in the file
+    if (!set.in_memory) return; // its values stay in the file
   }
   check(table::read_table(contents, "t.h5"));
 }
