@@ -16,7 +16,9 @@ foreach(suite IN LISTS suites)
   string(REGEX REPLACE "^\n|\\.$" "" suite "${suite}")
   set(properties "TIMEOUT 900 SKIP_REGULAR_EXPRESSION [==[${skipped}]==]\n")
   string(APPEND properties "  ENVIRONMENT_MODIFICATION [==[PATH=path_list_prepend:${COMPILERS}]==]")
-  if(suite MATCHES "^Slow|/Slow") # begun first: what is quick fills the gaps at the end
+  if(suite MATCHES "^Long|/Long")
+    string(APPEND properties " LABELS [==[slow;long]==] COST 200")
+  elseif(suite MATCHES "^Slow|/Slow") # begun first: what is quick fills the gaps at the end
     string(APPEND properties " LABELS slow COST 100")
   endif()
   string(APPEND text "add_test([==[${suite}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${suite}.*]==])\n"

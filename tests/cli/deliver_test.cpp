@@ -105,10 +105,10 @@ TEST_F(DeliveredLaws, AreAnotherKeyThanAnyOther) {
                         "  experiments together"));
 }
 
-struct SlowDeliveredLaws : DeliveredLaws {};
+struct LongDeliveredLaws : DeliveredLaws {};
 
 // Coulomb's mu knows no state: the trace adds what it follows.
-TEST_F(SlowDeliveredLaws, WithTracedEffectsAreFittedToAllExperimentsAsWell) {
+TEST_F(LongDeliveredLaws, WithTracedEffectsAreFittedToAllExperimentsAsWell) {
   const std::vector<std::string> traced = {"--set", "models.use=[\"coulomb\"]", "--set",
                                            "table.model=coulomb_traced"};
   const auto with = [&](std::vector<std::string> arguments) {
@@ -139,7 +139,7 @@ TEST_F(SlowDeliveredLaws, WithTracedEffectsAreFittedToAllExperimentsAsWell) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
 }
 
-TEST_F(SlowDeliveredLaws, OfAllExperimentsAreInTablesAndSources) {
+TEST_F(LongDeliveredLaws, OfAllExperimentsAreInTablesAndSources) {
   const CommandResult result = run({"run", "job.toml"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(

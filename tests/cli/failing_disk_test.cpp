@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 using Files = std::map<std::string, std::string>;
 
-class SlowFailingDisk : public test::SmallCampaign {
+class LongFailingDisk : public test::SmallCampaign {
 protected:
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(SmallCampaign::SetUp());
@@ -82,7 +82,7 @@ protected:
   }
 };
 
-TEST_F(SlowFailingDisk, CalibrationIsThatOfBeforeOrThatOfAfter) {
+TEST_F(LongFailingDisk, CalibrationIsThatOfBeforeOrThatOfAfter) {
   const std::vector<std::string> again = {
       "calibrate", "job.toml", "-j1", "-q", "--set", "models.use=[\"shear\", \"orowan\"]"};
   ASSERT_EQ(frictab({"calibrate", "job.toml", "-j1"}).exit_code, 0);
@@ -94,7 +94,7 @@ TEST_F(SlowFailingDisk, CalibrationIsThatOfBeforeOrThatOfAfter) {
   EXPECT_GT(fail_each(again, "kill", 2, 3, before, after), 30);
 }
 
-TEST_F(SlowFailingDisk, TablesHoldTheirValuesOrAreNotWritten) {
+TEST_F(LongFailingDisk, TablesHoldTheirValuesOrAreNotWritten) {
   const std::vector<std::string> again = {"tabulate", "job.toml", "-j1",
                                           "-q",       "--set",    "table.tolerance_MPa=0.1"};
   ASSERT_EQ(frictab({"tabulate", "job.toml", "-j1"}).exit_code, 0);
@@ -106,7 +106,7 @@ TEST_F(SlowFailingDisk, TablesHoldTheirValuesOrAreNotWritten) {
   EXPECT_GT(fail_each(again, "kill", 1, 5, before, after), 20);
 }
 
-TEST_F(SlowFailingDisk, TwoAtATimeAreNotLetInAndTheMessageSaysWhoIsThere) {
+TEST_F(LongFailingDisk, TwoAtATimeAreNotLetInAndTheMessageSaysWhoIsThere) {
   fs::create_directories(directory.path("out"));
   const CommandResult result = run_command(
       {"sh", "-c",
@@ -120,14 +120,14 @@ TEST_F(SlowFailingDisk, TwoAtATimeAreNotLetInAndTheMessageSaysWhoIsThere) {
                         "DIR\n");
 }
 
-TEST_F(SlowFailingDisk, WithoutLocksItIsSaidThatNobodyIsKeptOff) {
+TEST_F(LongFailingDisk, WithoutLocksItIsSaidThatNobodyIsKeptOff) {
   const CommandResult result = run_frictab({"calibrate", "job.toml"}, directory.path(),
                                            {"LD_PRELOAD=" + test::failing_disk(), "NO_LOCKS=1"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "out is on a file system without locks: run one frictab at a time there\n");
 }
 
-TEST_F(SlowFailingDisk, NothingIsWrittenThroughALinkThatLeadsElsewhere) {
+TEST_F(LongFailingDisk, NothingIsWrittenThroughALinkThatLeadsElsewhere) {
   fs::create_directories(directory.path("victim"));
   fs::create_directories(directory.path("out"));
   fs::create_directory_symlink(directory.path("victim"), directory.path("out/models"));

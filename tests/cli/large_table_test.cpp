@@ -32,7 +32,7 @@ T_contact_C = { nodes = 25 }
 targets = []
 )";
 
-class SlowLargeTable : public testing::Test {
+class LongLargeTable : public testing::Test {
 protected:
   void SetUp() override {
     ASSERT_EQ(run_frictab({"twin", directory.path("data"), "--seed", "3", "--design",
@@ -56,7 +56,7 @@ protected:
   TemporaryDirectory directory;
 };
 
-TEST_F(SlowLargeTable, IsVerifiedByTheJobAndAlone) {
+TEST_F(LongLargeTable, IsVerifiedByTheJobAndAlone) {
   const std::vector<std::string> with_sums = {"--set", "table.hdf5.fletcher32=true"};
   ASSERT_EQ(run("run", with_sums).exit_code, 0);
   EXPECT_EQ(files(), (std::vector<std::string>{"log_coulomb.h5"}));
@@ -70,7 +70,7 @@ TEST_F(SlowLargeTable, IsVerifiedByTheJobAndAlone) {
                         "fletcher32\n"));
 }
 
-TEST_F(SlowLargeTable, TargetsThatCannotHoldItAreRefusedAndNothingIsWritten) {
+TEST_F(LongLargeTable, TargetsThatCannotHoldItAreRefusedAndNothingIsWritten) {
   // Values, nodes and constants.
   const std::string what = ": the table of log_coulomb needs 3,000,";
   const std::string why =
@@ -88,7 +88,7 @@ TEST_F(SlowLargeTable, TargetsThatCannotHoldItAreRefusedAndNothingIsWritten) {
               testing::AllOf(testing::StartsWith("error: c" + what), testing::HasSubstr(why)));
 }
 
-TEST_F(SlowLargeTable, SourceReadsItsValuesFromAFileAndIsVerifiedWithThem) {
+TEST_F(LongLargeTable, SourceReadsItsValuesFromAFileAndIsVerifiedWithThem) {
   const std::vector<std::string> set = {"--set", "export.targets=[\"c\",\"fortran\"]"};
   const CommandResult whole = run("run", set);
   EXPECT_EQ(whole.exit_code, 0) << whole.err;

@@ -17,7 +17,7 @@ using test::run_frictab;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-class SlowLiterature : public test::SmallCampaign {
+class LongLiterature : public test::SmallCampaign {
 protected:
   void export_to(const std::string& targets) {
     std::string names;
@@ -31,7 +31,7 @@ protected:
   }
 };
 
-TEST_F(SlowLiterature, GoesTheWholeWayToEveryTarget) {
+TEST_F(LongLiterature, GoesTheWholeWayToEveryTarget) {
   export_to("\"all\"");
   export_to("[\"c\", \"abaqus_vfric\"]"); // two that are compiled and run, for the time it takes
   const CommandResult verified = frictab({"verify", "job.toml"});
@@ -42,7 +42,7 @@ TEST_F(SlowLiterature, GoesTheWholeWayToEveryTarget) {
     EXPECT_THAT(verified.out, HasSubstr(law->name));
 }
 
-TEST_F(SlowLiterature, ALawWithAStateIsTracedAndFittedToAllTests) {
+TEST_F(LongLiterature, ALawWithAStateIsTracedAndFittedToAllTests) {
   write_job("[models]\nuse = [\"coulomb\", \"rate_and_state_aging\"]\n"
             "[calibration]\ndeliver = \"all\"\n[trace]\nmodels = [\"rate_and_state_aging\"]\n"
             "[table]\nmodel = \"rate_and_state_aging\"\n[export]\ntargets = [\"c\"]\n");

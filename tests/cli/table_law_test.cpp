@@ -14,7 +14,7 @@ namespace {
 using test::CommandResult;
 using testing::HasSubstr;
 
-class SlowTableLaw : public test::SmallCampaign {
+class LongTableLaw : public test::SmallCampaign {
 protected:
   // Speeds in the data reach from 5 to 500.
   void write_table(double scale = 1) const {
@@ -37,7 +37,7 @@ protected:
   }
 };
 
-TEST_F(SlowTableLaw, GoesTheWholeWayToEveryTarget) {
+TEST_F(LongTableLaw, GoesTheWholeWayToEveryTarget) {
   write_table();
   write_table_job("[table]\nmodel = \"paper\"\n[export]\ntargets = \"all\"\n");
   const CommandResult all = frictab({"export", "job.toml"});
@@ -62,7 +62,7 @@ TEST_F(SlowTableLaw, GoesTheWholeWayToEveryTarget) {
   }
 }
 
-TEST_F(SlowTableLaw, IsTabulatedOnItsOwnNodesToRounding) {
+TEST_F(LongTableLaw, IsTabulatedOnItsOwnNodesToRounding) {
   write_table();
   write_table_job("[table]\nmodel = \"paper\"\n");
   ASSERT_EQ(frictab({"tabulate", "job.toml"}).exit_code, 0);
@@ -77,7 +77,7 @@ TEST_F(SlowTableLaw, IsTabulatedOnItsOwnNodesToRounding) {
   }
 }
 
-TEST_F(SlowTableLaw, StandsAloneInItsModelFile) {
+TEST_F(LongTableLaw, StandsAloneInItsModelFile) {
   write_table();
   write_table_job("[table]\nmodel = \"paper\"\n[export]\ntargets = [\"c\"]\n");
   ASSERT_EQ(frictab({"run", "job.toml"}).exit_code, 0);
@@ -91,7 +91,7 @@ TEST_F(SlowTableLaw, StandsAloneInItsModelFile) {
   EXPECT_EQ(predicted.exit_code, 0) << predicted.err;
 }
 
-TEST_F(SlowTableLaw, SaysWhichRowsLieBeyondItsAxes) {
+TEST_F(LongTableLaw, SaysWhichRowsLieBeyondItsAxes) {
   write_table();
   write_table_job("");
   const CommandResult result = frictab({"calibrate", "job.toml"});
@@ -102,7 +102,7 @@ TEST_F(SlowTableLaw, SaysWhichRowsLieBeyondItsAxes) {
   EXPECT_THAT(result.out, HasSubstr("lie beyond the ends at which the law is held"));
 }
 
-TEST_F(SlowTableLaw, IsReadAgainWhenItsFileHasChanged) {
+TEST_F(LongTableLaw, IsReadAgainWhenItsFileHasChanged) {
   write_table();
   write_table_job("[table]\nmodel = \"paper\"\n");
   ASSERT_EQ(frictab({"tabulate", "job.toml"}).exit_code, 0);
@@ -119,7 +119,7 @@ TEST_F(SlowTableLaw, IsReadAgainWhenItsFileHasChanged) {
   EXPECT_FALSE(directory.read("out/tables/paper.h5") == before);
 }
 
-TEST_F(SlowTableLaw, NeedsItsInterpolationStated) {
+TEST_F(LongTableLaw, NeedsItsInterpolationStated) {
   write_table();
   write_job("[models.paper]\ntable = \"paper.csv\"\n");
   EXPECT_EQ(frictab({"calibrate", "job.toml"}).err,

@@ -43,7 +43,7 @@ const char* const rows_of_wide = "rows = [[c if i == 0 else float(c) for c in r]
                                  "for i, r in enumerate(csv.reader(open('wide.csv')))]";
 
 // The run of one job on a SYNTHETIC campaign, for all claims.
-class SlowTracedTableLaw : public testing::Test {
+class LongTracedTableLaw : public testing::Test {
 protected:
   static void SetUpTestSuite() {
     directory = std::make_unique<test::TemporaryDirectory>();
@@ -89,10 +89,10 @@ protected:
   static std::unique_ptr<test::TemporaryDirectory> directory;
   static std::string summary;
 };
-std::unique_ptr<test::TemporaryDirectory> SlowTracedTableLaw::directory;
-std::string SlowTracedTableLaw::summary;
+std::unique_ptr<test::TemporaryDirectory> LongTracedTableLaw::directory;
+std::string LongTracedTableLaw::summary;
 
-TEST_F(SlowTracedTableLaw, FromAWorkbookOverFiveAxesIsTabulatedAndVerified) {
+TEST_F(LongTracedTableLaw, FromAWorkbookOverFiveAxesIsTabulatedAndVerified) {
   const auto info =
       nlohmann::json::parse(frictab({"table", "info", "out/tables/wide.h5", "--json"}).out);
   std::vector<std::string> axes;
@@ -106,7 +106,7 @@ TEST_F(SlowTracedTableLaw, FromAWorkbookOverFiveAxesIsTabulatedAndVerified) {
 }
 
 // slid knows no pressure, and mu of the campaign falls with it.
-TEST_F(SlowTracedTableLaw, IsDeliveredWithTheEffectThatTheTraceFinds) {
+TEST_F(LongTracedTableLaw, IsDeliveredWithTheEffectThatTheTraceFinds) {
   const auto model = json_of("out/models/slid_traced.json");
   EXPECT_THAT(model.dump(), HasSubstr("sigma_n_MPa"));
   const auto traces = json_of("out/trace.json");
@@ -115,7 +115,7 @@ TEST_F(SlowTracedTableLaw, IsDeliveredWithTheEffectThatTheTraceFinds) {
   EXPECT_THAT(summary, HasSubstr("slid_traced"));
 }
 
-TEST_F(SlowTracedTableLaw, GivesTheSameBytesOnFourThreads) {
+TEST_F(LongTracedTableLaw, GivesTheSameBytesOnFourThreads) {
   const auto result = frictab({"run", "job.toml", "-j", "4", "-o", "again"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto diff = test::run_command({"/usr/bin/diff", "-rq", "out", "again"}, directory->path());

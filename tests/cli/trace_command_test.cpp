@@ -46,9 +46,9 @@ protected:
 const std::string humidity = "form=power,column=humidity_pct,strength=0.5";
 const std::string run_in = "form=saturation,column=s_mm,strength=0.3,x0=3";
 
-using SlowTraceCommand = TraceCommand;
+using LongTraceCommand = TraceCommand;
 
-TEST_F(SlowTraceCommand, RunShipsTheEffectThatNobodyDeclared) {
+TEST_F(LongTraceCommand, RunShipsTheEffectThatNobodyDeclared) {
   make({humidity, run_in}, "[export]\ntargets = [\"c\", \"abaqus_vfric\"]\n"
                            "[export.inputs]\nhumidity_pct = \"field:1\"\n");
   const auto result = run_frictab({"run", job});
@@ -101,7 +101,7 @@ TEST_F(TraceCommand, SaysThatNothingWasFoundAndWhatItCouldHaveSeen) {
   EXPECT_EQ(trace().at("verdict"), "nothing_missing");
 }
 
-TEST_F(SlowTraceCommand, ForgetsTheLawOfAnEarlierTrace) {
+TEST_F(LongTraceCommand, ForgetsTheLawOfAnEarlierTrace) {
   make({humidity});
   ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);
   ASSERT_EQ(run_frictab({"trace", job}).exit_code, 0);
@@ -111,7 +111,7 @@ TEST_F(SlowTraceCommand, ForgetsTheLawOfAnEarlierTrace) {
   EXPECT_EQ(directory.read("out/calibration.json").find("humidity_pct"), std::string::npos);
 }
 
-TEST_F(SlowTraceCommand, TracesEveryLawAskedFor) {
+TEST_F(LongTraceCommand, TracesEveryLawAskedFor) {
   // (Coulomb's law lacks much here: few tests, so that a search is quick.)
   make({humidity}, "", "p=500,2750;psi=1,20;v=5,500;T=20,200;points=20");
   ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);
@@ -122,7 +122,7 @@ TEST_F(SlowTraceCommand, TracesEveryLawAskedFor) {
   EXPECT_EQ(t.at("others").at(0).at("model"), "coulomb");
 }
 
-TEST_F(SlowTraceCommand, ReportShowsAHistoryOfTheLawsOwnStress) {
+TEST_F(LongTraceCommand, ReportShowsAHistoryOfTheLawsOwnStress) {
   make({"form=saturation,column=friction_work,strength=0.5"});
   const auto result = run_frictab({"run", job});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -130,7 +130,7 @@ TEST_F(SlowTraceCommand, ReportShowsAHistoryOfTheLawsOwnStress) {
   EXPECT_THAT(directory.read("out/report.html"), HasSubstr("friction_work"));
 }
 
-TEST_F(SlowTraceCommand, ALawThatIsExactLacksNothing) {
+TEST_F(LongTraceCommand, ALawThatIsExactLacksNothing) {
   ASSERT_EQ(run_frictab({"twin", directory.path("data"), "-q", "--law", "coulomb", "--noise-scale",
                          "0", "--design", "points=40;p=500,2000;psi=1,20;v=5;T=20,200"})
                 .exit_code,
@@ -145,7 +145,7 @@ TEST_F(SlowTraceCommand, ALawThatIsExactLacksNothing) {
 
 // In one fold of the nested search an effect is found on the limit, which effects found after it
 // leave without influence.
-TEST_F(SlowTraceCommand, GoesOnWhereALaterEffectTakesTheSiteOfAnEarlierOne) {
+TEST_F(LongTraceCommand, GoesOnWhereALaterEffectTakesTheSiteOfAnEarlierOne) {
   ASSERT_EQ(run_frictab({"twin", directory.path("data"), "-q", "--seed", "16", "--design",
                          "p=1725,2005;psi=1,4.47,20;v=5,500;T=20,200;points=20;validation=6",
                          "--effect", "form=power,column=humidity_pct,strength=0.5,on=mu"})

@@ -96,9 +96,9 @@ Expected expected(Habit habit) {
   }
 }
 
-class SlowRigHabits : public testing::TestWithParam<Habit> {};
+class LongRigHabits : public testing::TestWithParam<Habit> {};
 
-TEST_P(SlowRigHabits, LeaveTheLawOfTheCleanCampaignAndAreSaid) {
+TEST_P(LongRigHabits, LeaveTheLawOfTheCleanCampaignAndAreSaid) {
   const auto [said, furthest] = expected(GetParam());
   double most = 0;
   for (std::uint64_t seed = 1; seed <= campaigns; ++seed) {
@@ -112,7 +112,7 @@ TEST_P(SlowRigHabits, LeaveTheLawOfTheCleanCampaignAndAreSaid) {
   RecordProperty("largest_move_in_standard_errors", fmt::format("{:.3f}", most));
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, SlowRigHabits, testing::ValuesIn(test::habits()),
+INSTANTIATE_TEST_SUITE_P(Each, LongRigHabits, testing::ValuesIn(test::habits()),
                          [](const auto& each) { return std::string(test::name_of(each.param)); });
 
 } // namespace

@@ -31,7 +31,7 @@ struct Case {
   std::string units;
 };
 
-class SlowAgreement : public testing::TestWithParam<Case> {};
+class LongAgreement : public testing::TestWithParam<Case> {};
 
 struct Rows {
   std::size_t count;
@@ -116,7 +116,7 @@ TEST(SharedCore, OfFortranIsOneTextInTheRoutinesOfAllSolvers) {
 
 // The law alone, in C and in Fortran, over two million states; what stands around the same core in
 // a solver's routine over a tenth of them.
-TEST_P(SlowAgreement, OfTheRoutineWithFrictabItselfAndItCompilesWithoutAWarning) {
+TEST_P(LongAgreement, OfTheRoutineWithFrictabItselfAndItCompilesWithoutAWarning) {
   const Exporter& exporter = *find_exporter(GetParam().target);
   const std::size_t rows = exporter.has_batch() ? 200000 : 20000;
   for (const test::NamedTable& sample : test::sample_tables()) {
@@ -193,7 +193,7 @@ std::vector<Case> every_routine() {
   return cases;
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, SlowAgreement, testing::ValuesIn(every_routine()),
+INSTANTIATE_TEST_SUITE_P(Targets, LongAgreement, testing::ValuesIn(every_routine()),
                          [](const testing::TestParamInfo<Case>& given) {
                            std::string name = given.param.target + "_" + given.param.units;
                            std::replace(name.begin(), name.end(), '-', '_');

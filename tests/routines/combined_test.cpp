@@ -226,7 +226,7 @@ void expect_one_user_file(const std::vector<std::string>& targets, const Laws& l
   }
 }
 
-TEST(SlowCombinedLaws, OfContactPairsAndOfGeneralContactStandInOneUserFile) {
+TEST(LongCombinedLaws, OfContactPairsAndOfGeneralContactStandInOneUserFile) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   const Laws laws{{"PUNCH", "DIE"}, {test::one_axis_table(), test::constant_table()}};
   expect_one_user_file({"abaqus_vfric", "abaqus_vfriction", "abaqus_vfric_coef"}, laws);
@@ -303,7 +303,7 @@ TEST(CombinedText, RefusesHistoriesThatNothingTellsApartByContact) {
               HasSubstr("3: frictab_usrupd.f would keep histories of this law"));
 }
 
-TEST(SlowCombinedLaws, AreTheirSeparateRoutinesBitForBitInEveryTargetThatCombines) {
+TEST(LongCombinedLaws, AreTheirSeparateRoutinesBitForBitInEveryTargetThatCombines) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   for (const codegen::Exporter& exporter : codegen::all_exporters()) {
     if (!exporter.combines()) continue;

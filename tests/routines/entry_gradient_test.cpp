@@ -138,14 +138,14 @@ Row row(const test::States& states, std::size_t i) {
   return x;
 }
 
-class SlowEntryGradient : public testing::TestWithParam<Target> {
+class LongEntryGradient : public testing::TestWithParam<Target> {
 protected:
   void SetUp() override {
     if (!have_program(GetParam().compiler)) GTEST_SKIP() << GetParam().compiler << " is missing";
   }
 };
 
-TEST_P(SlowEntryGradient, IsThatOfTheTableInBothUnitSystemsWithTheValuesOwnBits) {
+TEST_P(LongEntryGradient, IsThatOfTheTableInBothUnitSystemsWithTheValuesOwnBits) {
   for (const test::NamedTable& sample : test::sample_tables())
     for (const std::string units : {"mm-t-s", "m-kg-s"}) {
       if (units == "m-kg-s" && GetParam().compiler == "clang") continue; // only warnings to see
@@ -159,7 +159,7 @@ TEST_P(SlowEntryGradient, IsThatOfTheTableInBothUnitSystemsWithTheValuesOwnBits)
     }
 }
 
-TEST_P(SlowEntryGradient, OfALargerNetworkIsItsFormulas) {
+TEST_P(LongEntryGradient, OfALargerNetworkIsItsFormulas) {
   Table table = test::direct_network();
   table::add_extension(table, models::AssembledLaw(test::network_model(20, 8)));
   const Functions entry(table, "mm-t-s", GetParam());
@@ -169,7 +169,7 @@ TEST_P(SlowEntryGradient, OfALargerNetworkIsItsFormulas) {
     ASSERT_NO_FATAL_FAILURE(expect_gradient(entry, table, function, "mm-t-s", row(states, i)));
 }
 
-TEST_P(SlowEntryGradient, IsNaNByAllThatAreUsedWhereOneIsNaNAndZeroByTheOthers) {
+TEST_P(LongEntryGradient, IsNaNByAllThatAreUsedWhereOneIsNaNAndZeroByTheOthers) {
   const Functions entry(test::four_axis_table(), "mm-t-s", GetParam()); // s is not used
   for (std::size_t i = 0; i < 6; ++i) {
     Row x = {1000, 2, 50, 100, 1, 480}, slopes;
@@ -181,7 +181,7 @@ TEST_P(SlowEntryGradient, IsNaNByAllThatAreUsedWhereOneIsNaNAndZeroByTheOthers) 
   }
 }
 
-TEST_P(SlowEntryGradient, InBatchHasTheSameBitsAndTakesNullForWhatIsNotUsed) {
+TEST_P(LongEntryGradient, InBatchHasTheSameBitsAndTakesNullForWhatIsNotUsed) {
   const Table table = test::four_axis_table();
   const Functions entry(table, "mm-t-s", GetParam());
   const test::States states(table, 500, 5);
@@ -197,7 +197,7 @@ TEST_P(SlowEntryGradient, InBatchHasTheSameBitsAndTakesNullForWhatIsNotUsed) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, SlowEntryGradient, testing::ValuesIn(targets),
+INSTANTIATE_TEST_SUITE_P(Targets, LongEntryGradient, testing::ValuesIn(targets),
                          [](const testing::TestParamInfo<Target>& given) {
                            return given.param.name + "_" + given.param.compiler;
                          });

@@ -60,9 +60,9 @@ TEST(SlowExport, FixedFormSourcesAreFortran2008) {
     }
 }
 
-class SlowSourcesOf : public testing::TestWithParam<std::string> {};
+class LongSourcesOf : public testing::TestWithParam<std::string> {};
 
-TEST_P(SlowSourcesOf, EveryFormulaCompileWithoutAWarningInCAndFortranInBothForms) {
+TEST_P(LongSourcesOf, EveryFormulaCompileWithoutAWarningInCAndFortranInBothForms) {
   const models::Model model = test::plausible_model(*models::find_law(GetParam()));
   const models::AssembledLaw law(model);
   const Table table =
@@ -83,7 +83,7 @@ TEST_P(SlowSourcesOf, EveryFormulaCompileWithoutAWarningInCAndFortranInBothForms
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, SlowSourcesOf, testing::ValuesIn(test::laws_by_formula()),
+INSTANTIATE_TEST_SUITE_P(Registry, LongSourcesOf, testing::ValuesIn(test::laws_by_formula()),
                          test::law_test_name);
 
 TEST(Export, ReportsEveryFaultOfTheJobsInputsInOneGo) {

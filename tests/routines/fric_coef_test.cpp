@@ -158,7 +158,7 @@ TEST_P(SlowFricCoef, CompilesWithoutAWarningForEveryTable) {
 
 TEST_P(SlowFricCoef, AgreesWithFrictabItselfBySlippingBlocks) {
   const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_fric_coef");
-  for (const NamedTable& sample : sample_tables()) { // SlowAgreement has all of them
+  for (const NamedTable& sample : sample_tables()) { // LongAgreement has all of them
     if (!has_every_kind_of_argument(sample)) continue;
     SCOPED_TRACE(sample.name);
     const codegen::ExportRequest request{

@@ -159,12 +159,12 @@ TEST(TracedLaw, TableIsProvenLikeAnyOther) {
   }
 }
 
-class SlowTracedLawOf : public testing::TestWithParam<std::string> {
+class LongTracedLawOf : public testing::TestWithParam<std::string> {
 protected:
   static void expect_verified(const Case& c);
 };
 
-void SlowTracedLawOf::expect_verified(const Case& c) {
+void LongTracedLawOf::expect_verified(const Case& c) {
   const codegen::Exporter& exporter = *find_exporter(GetParam());
   const Table direct = table::direct_form(AssembledLaw(c.model), c.table);
   std::map<std::string, std::string> held;
@@ -196,22 +196,22 @@ std::vector<std::string> all_targets() {
   return names;
 }
 
-TEST_P(SlowTracedLawOf, TargetIsTheLawOnRowsAndOverTheRange) {
+TEST_P(LongTracedLawOf, TargetIsTheLawOnRowsAndOverTheRange) {
   expect_verified(with_all_effects());
 }
 
-TEST_P(SlowTracedLawOf, TargetIsTheLawOfHistoriesThatAskForStateVariables) {
+TEST_P(LongTracedLawOf, TargetIsTheLawOfHistoriesThatAskForStateVariables) {
   static const Case c({"energy", "dwell", "warmth", "fastest"});
   expect_verified(c);
 }
 
-TEST_P(SlowTracedLawOf, TargetIsTheLawOfHistoriesOfLoadAndHeat) {
+TEST_P(LongTracedLawOf, TargetIsTheLawOfHistoriesOfLoadAndHeat) {
   static const Case c({"unloading", "falling", "since_peak", "heating", "lag", "flash"});
   expect_verified(c);
 }
 
 // A formula alone: through the targets that have a core of their own.
-class SlowSmoothLawOf : public SlowTracedLawOf {};
+class SlowSmoothLawOf : public LongTracedLawOf {};
 
 TEST_P(SlowSmoothLawOf, TargetIsTheLaw) {
   static const Case c({"curve", "surface", "curve_by_tool"});
@@ -228,7 +228,7 @@ std::vector<std::string> targets_with_cores() {
 INSTANTIATE_TEST_SUITE_P(Targets, SlowSmoothLawOf, testing::ValuesIn(targets_with_cores()),
                          [](const auto& given) { return given.param; });
 
-INSTANTIATE_TEST_SUITE_P(Targets, SlowTracedLawOf, testing::ValuesIn(all_targets()),
+INSTANTIATE_TEST_SUITE_P(Targets, LongTracedLawOf, testing::ValuesIn(all_targets()),
                          [](const auto& given) { return given.param; });
 
 // An effect on mu, one on the limit, one added, in every law that knows them.
@@ -244,9 +244,9 @@ std::vector<effects::PlacedEffect> everywhere(const models::Law& law) {
   return effects;
 }
 
-class SlowTracedLawFrom : public testing::TestWithParam<std::string> {};
+class LongTracedLawFrom : public testing::TestWithParam<std::string> {};
 
-TEST_P(SlowTracedLawFrom, IsTabulatedExportedAndReadBack) {
+TEST_P(LongTracedLawFrom, IsTabulatedExportedAndReadBack) {
   const models::Law& law = *models::find_law(GetParam());
   const Model base = law.calibrated == models::Calibrated::train     ? test::network_model(1)
                      : law.calibrated == models::Calibrated::regress ? test::polynomial_model()
@@ -266,7 +266,7 @@ TEST_P(SlowTracedLawFrom, IsTabulatedExportedAndReadBack) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, SlowTracedLawFrom, testing::ValuesIn(test::laws_by_formula()),
+INSTANTIATE_TEST_SUITE_P(Registry, LongTracedLawFrom, testing::ValuesIn(test::laws_by_formula()),
                          test::law_test_name);
 
 TEST(TracedLaw, CTakesFurtherArgumentsInTheOrderOfItsRecipe) {

@@ -59,7 +59,7 @@ TEST(ValuesFile, EveryRoutineOfEverySolverReadsItButLua) {
   EXPECT_EQ(others, (std::vector<std::string>{"qform_lua"}));
 }
 
-class SlowValuesFileOf : public testing::TestWithParam<const Exporter*> {
+class LongValuesFileOf : public testing::TestWithParam<const Exporter*> {
 protected:
   const Exporter& exporter() const { return *GetParam(); }
   // Rows driven through a routine whose file is `bytes` (nullptr: there is none).
@@ -81,7 +81,7 @@ bool is_the_text(const Exporter& exporter) {
   return exporter.name == "c" || exporter.name == "abaqus_vfric";
 }
 
-TEST_P(SlowValuesFileOf, GivesTheBitsThatTheSourceGives) {
+TEST_P(LongValuesFileOf, GivesTheBitsThatTheSourceGives) {
   for (const test::NamedTable& sample : samples()) {
     SCOPED_TRACE(sample.name);
     if (!is_the_text(exporter()) && sample.name != "four_axes") continue;
@@ -105,7 +105,7 @@ TEST_P(SlowValuesFileOf, GivesTheBitsThatTheSourceGives) {
   }
 }
 
-TEST_P(SlowValuesFileOf, GivesNoStressFromAFileThatIsMissingCutLongerDamagedOrAnothers) {
+TEST_P(LongValuesFileOf, GivesNoStressFromAFileThatIsMissingCutLongerDamagedOrAnothers) {
   const Table table = test::four_axis_table();
   const ExportRequest request = request_of(exporter(), table, "file");
   const SourceBundle bundle = exporter().generate(request);
@@ -126,7 +126,7 @@ TEST_P(SlowValuesFileOf, GivesNoStressFromAFileThatIsMissingCutLongerDamagedOrAn
       ASSERT_FALSE(tau > 0) << (bytes ? bytes->size() : 0) << " bytes";
 }
 
-TEST_P(SlowValuesFileOf, IsListedByTheRecipeWithItsChecksum) {
+TEST_P(LongValuesFileOf, IsListedByTheRecipeWithItsChecksum) {
   const Table table = test::four_axis_table();
   const SourceBundle bundle = exporter().generate(request_of(exporter(), table, "file"));
   const auto recipe = test::parse_json(bundle.at("recipe.json"));
@@ -140,7 +140,7 @@ TEST_P(SlowValuesFileOf, IsListedByTheRecipeWithItsChecksum) {
   EXPECT_EQ(bundle.at(values_file_name).size(), sizeof(double) * values.size());
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, SlowValuesFileOf, testing::ValuesIn(with_values_option()),
+INSTANTIATE_TEST_SUITE_P(Targets, LongValuesFileOf, testing::ValuesIn(with_values_option()),
                          [](const testing::TestParamInfo<const Exporter*>& given) {
                            return given.param->name;
                          });

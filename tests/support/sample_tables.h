@@ -43,7 +43,7 @@ struct NamedTable {
 const std::vector<NamedTable>& sample_tables();
 // Units and the choices that a target offers change what stands around the core of a routine, not
 // the core: they are swept over these samples, which have arguments and histories of every kind.
-// (SlowAgreement takes all samples through each target with a core of its own, SlowCalculix with
+// (LongAgreement takes all samples through each target with a core of its own, SlowCalculix with
 // bounds checked.)
 bool has_every_kind_of_argument(const NamedTable& sample);
 

@@ -113,7 +113,7 @@ bool names(const JointPath& path, std::size_t column) {
                      [&](const trace::JointStep& step) { return step.term == column; });
 }
 
-TEST(SlowJointSearch, ThreeColumnsThatHideEachOtherAreNamedTogether) {
+TEST(LongJointSearch, ThreeColumnsThatHideEachOtherAreNamedTogether) {
   int all = 0, others = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Campaign c(24, 0.03, seed);
@@ -132,7 +132,7 @@ TEST(SlowJointSearch, ThreeColumnsThatHideEachOtherAreNamedTogether) {
   EXPECT_LE(others, 3) << "binomial, 20 at 0.02: 99.9 % lie below 4";
 }
 
-TEST(SlowJointSearch, NoiseIsNamedNoMoreOftenThanAsked) {
+TEST(LongJointSearch, NoiseIsNamedNoMoreOftenThanAsked) {
   int alarms = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Campaign c(24, 0.05, seed);
@@ -143,7 +143,7 @@ TEST(SlowJointSearch, NoiseIsNamedNoMoreOftenThanAsked) {
 }
 
 // A worn tool, whose tests scatter three times as much as the others, about the same mean.
-TEST(SlowJointSearch, ALevelWhoseTestsScatterMoreIsNotNamedForThat) {
+TEST(LongJointSearch, ALevelWhoseTestsScatterMoreIsNotNamedForThat) {
   int alarms = 0, turned_down = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Campaign c(24, 0.05, seed);
@@ -202,7 +202,7 @@ TEST(JointSearch, WhatTheLawExplainsIsNotFoundAgain) {
   EXPECT_GT(beside.left.seen[1].own, 0.5);
 }
 
-TEST(SlowJointSearch, TheSmallestEffectItCouldHaveSeenIsSeenInFourOfFive) {
+TEST(LongJointSearch, TheSmallestEffectItCouldHaveSeenIsSeenInFourOfFive) {
   int seen = 0, half = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Campaign c(24, 0.05, seed);

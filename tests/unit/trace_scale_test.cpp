@@ -126,7 +126,7 @@ Deviations deviations_of(const stats::NoiseModel& n) {
 }
 
 // A standard deviation of 200 tests is off by 5 % (of normal ones; of uniform ones less).
-TEST(SlowTraceScale, NoiseOfSelectedTestsAgreesWithThatOfAll) {
+TEST(LongTraceScale, NoiseOfSelectedTestsAgreesWithThatOfAll) {
   const stats::Blocks all = tests_of(1600, 12);
   const auto some = trace::select_tests(all, {}, 1);
   const auto count = static_cast<Index>(all.count());
@@ -196,7 +196,7 @@ data::Dataset campaign(std::size_t tests, std::uint64_t seed) {
   return data;
 }
 
-TEST(SlowTraceScale, FindsWhatWasPlantedInAThousandTestsWithTheSameBytesOnAnyThreads) {
+TEST(LongTraceScale, FindsWhatWasPlantedInAThousandTestsWithTheSameBytesOnAnyThreads) {
   const data::Dataset training = campaign(1000, 1), validation = campaign(60, 2);
   calibrate::ModelOptions models;
   models.use = {"log_coulomb"};

@@ -132,7 +132,7 @@ std::vector<std::string> causes(const Trace& trace) {
 
 // Under the noise model's weights a law without the twin's running-in and wear predicts twice as
 // badly as it was calibrated.
-TEST(SlowTrace, NoiseFloorIsNotAboveWhatTheCalibratedLawLeaves) {
+TEST(LongTrace, NoiseFloorIsNotAboveWhatTheCalibratedLawLeaves) {
   TwinOptions options;
   options.seed = 3;
   options.design = parse_design("points=20", twin::default_design(twin::twin_set("D")));
@@ -142,7 +142,7 @@ TEST(SlowTrace, NoiseFloorIsNotAboveWhatTheCalibratedLawLeaves) {
   EXPECT_LT(t.noise_floor.rmse_MPa, 1.05 * t.as_calibrated.training.rmse_MPa);
 }
 
-TEST(SlowTrace, SaysThatNothingWasFoundWhereTheLawIsTheTruth) {
+TEST(LongTrace, SaysThatNothingWasFoundWhereTheLawIsTheTruth) {
   for (const char* law : {"coulomb", "orowan", "log_coulomb", "exp_coulomb"}) {
     const Trace t = traced(campaign(law, 11));
     EXPECT_EQ(t.verdict, Verdict::nothing_found) << law << trace_text(t);
@@ -240,7 +240,7 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"form=logarithmic,column=dwell_s,strength=0.6", "dwell_s", ActsOn::mu}),
     name_of);
 
-TEST(SlowTrace, DriftAlongADeclaredOrderIsReportedNotShipped) {
+TEST(LongTrace, DriftAlongADeclaredOrderIsReportedNotShipped) {
   const TwinOptions options =
       campaign("log_coulomb", 6, "form=linear,column=latent,latent=drift,strength=0.6");
   const Trace t = traced(options, declared_order());
@@ -311,7 +311,7 @@ TEST(Trace, AColumnCalledLikeAnOrderThatNumbersTheTestsIsOne) {
 }
 
 // Also where a search sees a part of the tests only, which are not numbered without gaps.
-TEST(SlowTrace, IsTheSameWhereTheOrderIsDeclaredByItsNameAndByTheJob) {
+TEST(LongTrace, IsTheSameWhereTheOrderIsDeclaredByItsNameAndByTheJob) {
   TwinOptions options =
       few_columns(campaign("log_coulomb", 6, "form=category,column=tool,strength=0.6"));
   options.effects.push_back(
@@ -331,7 +331,7 @@ TEST(SlowTrace, IsTheSameWhereTheOrderIsDeclaredByItsNameAndByTheJob) {
   EXPECT_EQ(trace_json({by_name}, true), trace_json({by_job}, true));
 }
 
-TEST(SlowTrace, ABatchIsNotBlamedForWhatFollowsTheOrderOfTests) {
+TEST(LongTrace, ABatchIsNotBlamedForWhatFollowsTheOrderOfTests) {
   for (const char* hidden : {"latent=order,on=tau", "latent=batch"}) {
     const Trace t =
         traced(campaign("log_coulomb", 3,
@@ -342,7 +342,7 @@ TEST(SlowTrace, ABatchIsNotBlamedForWhatFollowsTheOrderOfTests) {
   }
 }
 
-TEST(SlowTrace, WearMayBeShippedWhereTheUserDeclaresTheToolDistance) {
+TEST(LongTrace, WearMayBeShippedWhereTheUserDeclaresTheToolDistance) {
   TraceOptions how = declared_order();
   how.tool_distance = "run_order";
   const Trace t =
@@ -351,7 +351,7 @@ TEST(SlowTrace, WearMayBeShippedWhereTheUserDeclaresTheToolDistance) {
 }
 
 // Not the twin's: its effects act on one of the two branches.
-TEST(SlowTrace, AParameterOfTheTracedLawThatABoundHoldsHasNoErrorAndSaysSo) {
+TEST(LongTrace, AParameterOfTheTracedLawThatABoundHoldsHasNoErrorAndSaysSo) {
   // Orowan's kink is Shaw's law with an exponent beyond any bound.
   const Data data =
       data_of(few_columns(campaign("orowan", 5, "form=power,column=humidity_pct,strength=0.8")));
@@ -364,7 +364,7 @@ TEST(SlowTrace, AParameterOfTheTracedLawThatABoundHoldsHasNoErrorAndSaysSo) {
   EXPECT_THAT(fit.remarks, Contains(StartsWith("n is at its bound 20: experiments with sigma_N")));
 }
 
-TEST(SlowTrace, WhatMovesBothBranchesOfOrowanIsPlacedOnBoth) {
+TEST(LongTrace, WhatMovesBothBranchesOfOrowanIsPlacedOnBoth) {
   Data data = data_of(campaign("orowan", 6));
   for (Dataset* part : {&data.training, &data.validation}) {
     const auto humidity = part->values("humidity_pct");
@@ -380,7 +380,7 @@ TEST(SlowTrace, WhatMovesBothBranchesOfOrowanIsPlacedOnBoth) {
 }
 
 // A humidity that rises with the order of tests, or is set in turn.
-TEST(SlowTrace, WhatGoesWithTheOrderOfTestsIsOfferedTogetherWithTheTestsThatWouldDecide) {
+TEST(LongTrace, WhatGoesWithTheOrderOfTestsIsOfferedTogetherWithTheTestsThatWouldDecide) {
   Data data = data_of(campaign("log_coulomb", 6));
   std::vector<double> humidity;
   for (Dataset* part : {&data.training, &data.validation}) {
@@ -420,7 +420,7 @@ TEST(Trace, IgnoredColumnsCannotBeACause) {
 }
 
 // One trace for what would cost three.
-TEST(SlowTrace, IsTheSameForAnyNumberOfThreadsAndReadBackFromItsFile) {
+TEST(LongTrace, IsTheSameForAnyNumberOfThreadsAndReadBackFromItsFile) {
   TwinOptions options =
       few_columns(campaign("log_coulomb", 4, "form=power,column=humidity_pct,strength=0.6"));
   options.design = parse_design("points=10", *options.design);
@@ -453,7 +453,7 @@ void expect_same(const Trace& one, const Trace& other, const char* what) {
 }
 
 // (Coulomb's law: log_coulomb bounds the stress in its logarithm at 1 kPa, which a unit moves.)
-TEST(SlowTrace, DoesNotDependOnUnitDigitsOrTheOrderOfFiles) {
+TEST(LongTrace, DoesNotDependOnUnitDigitsOrTheOrderOfFiles) {
   TwinOptions options =
       few_columns(campaign("coulomb", 4, "form=power,column=humidity_pct,strength=0.6"));
   options.design = parse_design("points=8", *options.design); // five traces
@@ -506,7 +506,7 @@ Data with_factor(double size, double in_validation) {
 }
 
 // Twelve tests, left out in turn, leave open whether a run-in predicts better; forty others do not.
-TEST(SlowTrace, ManyValidationTestsShowWhatFewLeftOutTestsLeaveOpen) {
+TEST(LongTrace, ManyValidationTestsShowWhatFewLeftOutTestsLeaveOpen) {
   TwinOptions options = campaign("log_coulomb", 1, "form=saturation,column=s_mm,strength=0.17");
   options.design = parse_design("p=500,1200,2750;psi=1,20;v=5,500;T=110;points=10;validation=40",
                                 twin::default_design(twin::twin_set("D")));
@@ -538,7 +538,7 @@ TEST(Trace, TestsThatChangeOneStateAtATimeAreRecognised) {
   EXPECT_FALSE(trace::one_factor_at_a_time(Eigen::MatrixXd::Random(24, 1))) << "of one state";
 }
 
-TEST(SlowTrace, AnEffectThatValidationContradictsIsALeadThatSaysSo) {
+TEST(LongTrace, AnEffectThatValidationContradictsIsALeadThatSaysSo) {
   const Trace good = traced(with_factor(0.3, 1), "log_coulomb");
   EXPECT_EQ(good.verdict, Verdict::effect_added) << trace_text(good);
   EXPECT_EQ(causes(good), std::vector<std::string>{"wire"});
@@ -589,7 +589,7 @@ TEST(Trace, SaysWhatItCouldHaveSeen) {
       << "what changes within every experiment is seen better";
 }
 
-TEST(SlowTrace, FewExperimentsProveNothingAndSaySo) {
+TEST(LongTrace, FewExperimentsProveNothingAndSaySo) {
   TwinOptions options = campaign("coulomb", 1, "form=saturation,column=s_mm,amplitude=0.8");
   options.design = parse_design("p=500,2750;psi=1;v=5;T=20,200;points=60;validation=2",
                                 twin::default_design(twin::twin_set("D")));
@@ -619,7 +619,7 @@ TEST(Trace, OneOrTwoExperimentsGiveLeadsAndNoEffect) {
 }
 
 // Rates over small campaigns; frictab_bench_trace has the large set and the table.
-TEST(SlowTraceRates, SevenOfEightPlantedEffectsAreFoundInTheNamedSet) {
+TEST(LongTraceRates, SevenOfEightPlantedEffectsAreFoundInTheNamedSet) {
   const std::pair<const char*, const char*> planted[] = {
       {"exponential", "T_tool_C"}, {"linear", "Ra_um"},
       {"logarithmic", "film_um"},  {"bump", "T_contact_C"},
@@ -638,7 +638,7 @@ TEST(SlowTraceRates, SevenOfEightPlantedEffectsAreFoundInTheNamedSet) {
   EXPECT_GE(named, 7);
 }
 
-TEST(SlowTraceRates, CampaignsThatLackNothingGiveFalseAlarmsAsRarelyAsAsked) {
+TEST(LongTraceRates, CampaignsThatLackNothingGiveFalseAlarmsAsRarelyAsAsked) {
   int found = 0, added = 0, flagged = 0;
   for (std::uint64_t seed = 31; seed < 41; ++seed)
     for (const char* noise : {"normal", "t4", "heteroscedastic"}) {
@@ -659,7 +659,7 @@ TEST(SlowTraceRates, CampaignsThatLackNothingGiveFalseAlarmsAsRarelyAsAsked) {
   EXPECT_LE(flagged, 3);
 }
 
-TEST(SlowTraceRates, NoneOfSixUnrecordedCausesIsBlamedOnAColumn) {
+TEST(LongTraceRates, NoneOfSixUnrecordedCausesIsBlamedOnAColumn) {
   for (const char* hidden : {"direction", "dwell_s", "film_um"})
     for (const std::uint64_t seed : {51u, 52u}) {
       TwinOptions options =
