@@ -10,8 +10,9 @@
 #include "core/text.h"
 #include "data/derived.h"
 #include "trace/advise/leads.h"
-#include "trace/trace_text.h"
 #include "trace_results.h"
+#include "words/render.h"
+#include "words/trace.h"
 
 namespace frictab::foreign {
 
@@ -65,7 +66,8 @@ Trace traced(const Campaign& campaign, const calibrate::ModelFit& fit, const Opt
   trace::TraceOptions how;
   how.alpha = alpha;
   Trace found = trace::trace({campaign.training, campaign.validation, fit, how, 50, options.seed});
-  if (options.show) std::fputs(trace::trace_text(found).c_str(), stderr);
+  if (options.show)
+    std::fputs(words::as_text(words::trace(found, words::Detail::full)).c_str(), stderr);
   return found;
 }
 

@@ -32,7 +32,7 @@ struct FitResult {
   double cost = 0; // mean loss
   std::size_t evaluations = 0;
   std::string termination; // "converged: ...", "stopped: ..."
-  // Of H at the end; a fit of the same law to similar rows may start with it.
+  // Correction of H at the end; a fit of the same law to similar rows may start with it.
   Eigen::MatrixXd correction;
   // No parameter changes any row there, as when the shear limit acts in all of them; agreement of
   // two such fits does not indicate a minimum.

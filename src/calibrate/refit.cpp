@@ -94,7 +94,7 @@ std::string folds_text(std::size_t folds, std::size_t experiments, std::size_t r
 
 std::string interval_words(const Interval& interval, int decimals) {
   if (!std::isfinite(interval.low) || !std::isfinite(interval.high)) return "";
-  return fmt::format(" ({:.{}f} .. {:.{}f})", interval.low, decimals, interval.high, decimals);
+  return fmt::format(" ({:.{}f} to {:.{}f})", interval.low, decimals, interval.high, decimals);
 }
 
 std::string experiments_words(std::size_t n) {

@@ -24,7 +24,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 6> results =
      {"NOT PROVEN", red},
      {" UNTESTED", yellow},
      {" SYNTHETIC data", yellow},
-     {"   ok", green}}};
+     {"  ok", green}}};
 
 std::string line_coloured(std::string_view line) {
   if (line.starts_with("next: ")) return painted(line, bold);

@@ -12,9 +12,9 @@
 #include "codegen/combine.h"
 #include "codegen/recipe.h"
 #include "codegen/values_file.h"
-#include "core/column_width.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/text_table.h"
 #include "io/atomic_file.h"
 #include "io/json.h"
 #include "job/job.h"
@@ -204,24 +204,15 @@ verify::Verification verify_combined(const std::string& directory,
 }
 
 std::string combined_drift_text(const verify::Verification& verification) {
-  std::vector<std::string> laws, subjects;
-  for (const verify::DriftRecord& r : verification.records) {
-    laws.push_back(r.model);
-    subjects.push_back(r.subject);
-  }
-  const std::size_t first = column_width(laws, 26), second = column_width(subjects, 28);
-  std::string out = fmt::format("{:<{}}{:<{}}{:>12}{:>14}\n", "MPa, over the whole range",
-                                first + 2, "", second, "from table", "from law");
-  for (const verify::DriftRecord& r : verification.records) {
-    out += fmt::format("  {:<{}}{:<{}}", r.model, first, r.subject, second);
-    if (r.ran)
-      out += fmt::format("{:>12.3g}{:>14}   {}\n", r.max_vs_table_MPa,
-                         fmt::format("<= {:.3g}", r.worst_case_MPa),
-                         r.passed ? "ok" : "OVER TOLERANCE");
-    else
-      out += "not run: " + r.why_not + "\n";
-  }
-  return out;
+  std::vector<std::vector<std::string>> rows = {{"law", "routine", "from table", "from law", ""}};
+  for (const verify::DriftRecord& r : verification.records)
+    rows.push_back(
+        r.ran ? std::vector<std::string>{r.model, r.subject,
+                                         fmt::format("{:.3g}", r.max_vs_table_MPa),
+                                         fmt::format("<= {:.3g}", r.worst_case_MPa),
+                                         r.passed ? "ok" : "OVER TOLERANCE"}
+              : std::vector<std::string>{r.model, r.subject, "-", "-", "not run: " + r.why_not});
+  return "Drift over the whole range, MPa:\n" + text_table(rows, {false, false, true, true});
 }
 
 } // namespace frictab::cli

@@ -107,9 +107,9 @@ int run_stage_command(const std::string& file, const CommonOptions& common,
     for (const std::string& line : run.data->training.notes)
       note(common, line);
   // A single stage prints all its findings; a whole run is brief, because it has a page.
-  const run::Detail detail = common.verbose     ? run::Detail::verbose
-                             : command == "run" ? run::Detail::brief
-                                                : run::Detail::full;
+  const words::Detail detail = common.verbose     ? words::Detail::verbose
+                               : command == "run" ? words::Detail::brief
+                                                  : words::Detail::full;
   if (common.json)
     show(run::summary_json(run));
   else

@@ -18,10 +18,11 @@
 #include "data/quantity.h"
 #include "io/number.h"
 #include "job/literature.h"
-#include "run/drift_text.h"
 #include "table/build.h"
 #include "table/table_file.h"
 #include "verify/verify.h"
+#include "words/drift.h"
+#include "words/render.h"
 
 namespace frictab::cli {
 
@@ -177,7 +178,7 @@ int export_law(const LawOptions& options, const CommonOptions& common) {
   output.write(options.law + ".json", model_file(law.model));
   write_sources(output, exporters, table, options.units);
   commit_and_list(output, common);
-  show(run::drift_text(verification, run::Detail::full));
+  show(words::as_text(words::drift(verification, words::Detail::full)));
   return verification.passed() ? 0 : 1;
 }
 

@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 
 #include "cli/job_commands.h"
-#include "trace/trace_text.h"
+#include "words/render.h"
+#include "words/trace.h"
 
 namespace frictab::cli::trace_command {
 
@@ -24,7 +25,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
     return run_stage_command(arguments->file, common, "trace", [&](const run::Run& run) {
       if (arguments->power && !common.json)
         for (const trace::Trace& trace : run.traces)
-          show(trace::detectable_text(trace));
+          show("\n" + words::as_text(words::detectable_effects(trace)));
     });
   };
 }

@@ -14,6 +14,8 @@
 #include "run/summary.h"
 #include "table/table_file.h"
 #include "verify/verify.h"
+#include "words/drift.h"
+#include "words/render.h"
 
 namespace frictab::cli::verify_command {
 
@@ -77,7 +79,7 @@ int verify_alone(const Options& options, const CommonOptions& common) {
   if (common.json)
     show(verify::verification_json(verification));
   else
-    show(run::drift_text(verification, run::Detail::full));
+    show(words::as_text(words::drift(verification, words::Detail::full)));
   return verification.passed() ? 0 : 1;
 }
 
@@ -101,7 +103,7 @@ int verify_job(const Options& options, const CommonOptions& common) {
   print_notes(run, common);
   write_junit(options, *run.verification);
   show(common.json ? run::summary_json(run)
-                   : run::drift_text(*run.verification, run::Detail::full));
+                   : words::as_text(words::drift(*run.verification, words::Detail::full)));
   return run.verification->passed() ? 0 : 1;
 }
 

@@ -23,11 +23,6 @@ inline expr::Expr sliding_distance() {
 inline expr::Expr sigma_f() {
   return expr::Expr::symbol("sigma_f_MPa");
 }
-// Returns sigma_n over a strength of the workpiece, sigma_f or k. 0/0 becomes 0, because a melt
-// with neither pressure nor strength has no friction.
-inline expr::Expr sigma_n_over(const expr::Expr& strength) {
-  return sigma_n() / maximum(strength, 1e-100);
-}
 inline expr::Expr value() {
   return expr::Expr::symbol("value");
 } // the tabulated piece, in `combine`

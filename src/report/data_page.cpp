@@ -9,17 +9,13 @@
 #include <fmt/format.h>
 
 #include "core/no_value.h"
-#include "core/template.h"
-#include "core/text.h"
-#include "data/overview.h"
 #include "data/quantity.h"
-#include "data/roles.h"
-#include "report/data_lines.h"
-#include "report/judged.h"
-#include "report/numbers.h"
-#include "report/sections.h"
+#include "report/page.h"
 #include "report/state_plots.h"
 #include "report/svg.h"
+#include "words/data.h"
+#include "words/judged.h"
+#include "words/numbers.h"
 
 namespace frictab::report {
 
@@ -125,86 +121,54 @@ svg::Axis row_axis(const DataPage& page) {
   return svg::nice_axis(0, static_cast<double>(most), 2, "row");
 }
 
-void add_strokes(TemplateValues& values, const DataPage& page) {
+words::Section strokes_of(const DataPage& page) {
+  words::Section section{"strokes", "Strokes", "Strokes"};
+  section.say(words::symbol("tau_R") +
+              " of every test, all on the same axes; what validates is orange, what is not fitted "
+              "(at rest, turning, unloaded) grey. Long tests are drawn by the lowest and highest "
+              "value of 150 pieces.");
   const data::Quantity* over = abscissa(page.training);
   const svg::Axis x = over ? axis_over(page, over->name) : row_axis(page);
   const svg::Axis y = axis_over(page, "tau_R_MPa");
+  words::Pictures pictures{"strokes", {}};
   const auto add = [&](const Dataset& data, const char* use, const char* colour) {
     const RowsAside aside(data);
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
       const Curve curve = curve_of(data, e, over);
       svg::Plot plot(150, 90, x, y);
       const std::string& name = data.experiments[e];
-      const Curve beside = aside.curve_of(name, over);
-      if (!beside.x.empty()) plot.line(beside.x, beside.y, {"#9aa3ad", 1.2, "", false});
+      const Curve not_fitted = aside.curve_of(name, over);
+      if (!not_fitted.x.empty()) plot.line(not_fitted.x, not_fitted.y, {"#9aa3ad", 1.2, "", false});
       plot.line(curve.x, curve.y, {colour, 1.2, "", false});
       const std::size_t rows = data.first_row[e + 1] - data.first_row[e];
-      values.lists["strokes"].push_back(
-          {{{"name", svg::escape(name)},
-            {"use", use},
-            {"plot",
-             plot.text(fmt::format("test {}", name),
-                       fmt::format("tau_R of {} of test {}", count_of(rows, "row"), name))}},
-           {},
-           {}});
+      pictures.pictures.push_back(
+          {plot.text(fmt::format("test {}", name),
+                     fmt::format("tau_R of {} of test {}", words::count_of(rows, "row"), name)),
+           name + use});
     }
   };
   add(page.training, "", "#1d5491");
-  add(page.validation, "validation", "#b45309");
-}
-
-std::string span_text(const std::pair<double, double>& span) {
-  return span.first == span.second
-             ? short_figures(span.first)
-             : short_figures(span.first) + " to " + short_figures(span.second);
-}
-
-void add_tests(TemplateValues& values, const Dataset& data, const char* use) {
-  for (const data::TestOverview& test : data::overview(data)) {
-    TemplateValues row{{{"name", svg::escape(test.experiment)},
-                        {"use", use},
-                        {"rows", thousands(test.rows)},
-                        {"mu", figures(test.mean_mu)},
-                        {"of_k", test.mean_of_k ? figures(*test.mean_of_k) : "\u2013"}},
-                       {},
-                       {}};
-    for (const auto& [name, span] : test.spans)
-      row.text["spans"] += "<td class=\"num\">" + span_text(span) + "</td>";
-    values.lists["tests"].push_back(std::move(row));
-  }
-}
-
-// Lists each column's role for friction.
-void add_columns(TemplateValues& values, const Dataset& data) {
-  for (const data::Column& column : data.columns)
-    values.lists["columns"].push_back({{{"name", svg::escape(column.name)},
-                                        {"role", data::role_name(column.role)},
-                                        {"why", svg::escape(column.why)}},
-                                       {},
-                                       {}});
+  add(page.validation, " (validation)", "#b45309");
+  section.add(std::move(pictures));
+  return section;
 }
 
 } // namespace
 
 std::string data_html(const DataPage& page) {
-  TemplateValues values;
-  values.text["title"] = svg::escape(shown_path(page.title));
-  values.text["style"] = std::string(embedded_template("report/style.css"));
-  values.text["size"] = size_text(page.judged_by, page.training, page.validation);
-  values.flags["synthetic"] = page.synthetic;
+  const words::DataParts parts{page.training, page.validation, page.judged_by};
+  words::Section first{"verdict", "", {}};
+  first.say(words::size_text(page.judged_by, page.training, page.validation), "verdict");
+  Page out{words::shown_path(page.title),
+           "The data before the fit",
+           {},
+           std::move(first),
+           {strokes_of(page), words::tests(parts), words::column_roles(page.training),
+            words::data_read(parts, words::Detail::full)}};
+  if (page.synthetic) out.warnings.push_back(synthetic_warning());
   for (const std::string& fault : page.faults)
-    values.lists["faults"].push_back({{{"text", svg::escape(fault)}}, {}, {}});
-  values.flags["has_faults"] = !page.faults.empty();
-  for (const data::Quantity& quantity : data::quantities())
-    if (page.training.has(quantity.name))
-      values.text["quantity_names"] +=
-          "<th scope=\"col\" class=\"num\">" + svg::escape(quantity.name) + "</th>";
-  add_strokes(values, page);
-  add_tests(values, page.training, "training");
-  add_tests(values, page.validation, "validation");
-  add_columns(values, page.training);
-  add_data_lines(values, page.training, page.validation, page.judged_by);
-  return render_template("report/data.html", values);
+    out.warnings.push_back(words::strong("No rig measures this:") + " " + fault);
+  return html_of(out);
 }
 
 } // namespace frictab::report

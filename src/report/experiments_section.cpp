@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
-#include "report/judged.h"
-#include "report/numbers.h"
-#include "report/published.h"
 #include "report/sections.h"
 #include "report/svg.h"
+#include "words/judged.h"
+#include "words/numbers.h"
+#include "words/published.h"
 
 namespace frictab::report {
 
@@ -25,7 +25,8 @@ const std::string held_out_colour = "#c2410c", trained_colour = "#3f78ab";
 std::vector<std::size_t> laws_to_show(const ReportInput& input) {
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < input.by_experiment.size() && shown.size() < shown_laws; ++i)
-    if (i == 0 || kind_of(*input.calibration.fits[i].model.law) != LawKind::literature)
+    if (i == 0 ||
+        words::kind_of(*input.calibration.fits[i].model.law) != words::LawKind::literature)
       shown.push_back(i);
   return shown;
 }
@@ -42,9 +43,10 @@ std::vector<std::size_t> worst_of(const std::vector<ExperimentError>& tests) {
   return order;
 }
 
-std::string said(const ExperimentError& test, int decimals) {
-  return fmt::format("{}: {} MPa, bias {}, {}", test.experiment, fixed(test.mae_MPa, decimals),
-                     fixed(test.bias_MPa, decimals), test.held_out ? "held out" : "trained on");
+std::string described(const ExperimentError& test, int decimals) {
+  return fmt::format("{}: {} MPa, bias {}, {}", test.experiment,
+                     words::fixed(test.mae_MPa, decimals), words::fixed(test.bias_MPa, decimals),
+                     test.held_out ? "held out" : "trained on");
 }
 
 void add_dots(svg::Plot& plot, const std::vector<ExperimentError>& tests, bool held_out,
@@ -55,7 +57,7 @@ void add_dots(svg::Plot& plot, const std::vector<ExperimentError>& tests, bool h
     if (tests[e].held_out != held_out) continue;
     x.push_back(static_cast<double>(e + 1));
     y.push_back(tests[e].mae_MPa);
-    text.push_back(said(tests[e], decimals));
+    text.push_back(described(tests[e], decimals));
   }
   plot.dots(x, y, text, tests.size() > 40 ? 2.5 : 4, held_out ? held_out_colour : trained_colour,
             !held_out);
@@ -83,9 +85,9 @@ void add_names(svg::Plot& plot, const std::vector<ExperimentError>& tests,
   }
 }
 
-TemplateValues figure_of(const ReportInput& input, std::size_t law, const svg::Axis& errors) {
+words::Section figure_of(const ReportInput& input, std::size_t law, const svg::Axis& errors) {
   const std::vector<ExperimentError>& tests = input.by_experiment[law].experiments;
-  const int decimals = error_decimals(input.calibration);
+  const int decimals = words::error_decimals(input.calibration);
   const double mae = input.calibration.fits[law].validation.mae_MPa;
   svg::Plot plot(figure_width, figure_height,
                  svg::nice_axis(0, static_cast<double>(tests.size() + 1), 10, "test"), errors);
@@ -97,34 +99,32 @@ TemplateValues figure_of(const ReportInput& input, std::size_t law, const svg::A
   add_names(plot, tests, worst);
   std::vector<std::string> named;
   for (const std::size_t e : worst)
-    named.push_back(said(tests[e], decimals));
-  const std::string name = input.by_experiment[law].law;
-  return {{{"name", svg::escape(name)},
-           {"worst", svg::escape("Worst: " + join(named, "; ") + ".")},
-           {"plot",
-            plot.text(name + ": mean absolute error of each test", "Worst: " + join(named, "; "))}},
-          {},
-          {}};
+    named.push_back(described(tests[e], decimals));
+  const std::string worst_text = "Worst: " + join(named, "; ");
+  const std::string& name = input.by_experiment[law].law;
+  words::Section section{"", "", name};
+  section.say(worst_text + ".");
+  section.add(words::Pictures{
+      "scroll wide", {{plot.text(name + ": mean absolute error of each test", worst_text)}}});
+  return section;
 }
 
 } // namespace
 
-void add_experiment_errors(TemplateValues& page, const ReportInput& input) {
+words::Section errors_by_test(const ReportInput& input) {
+  words::Section section{"experiments", "By test", "Errors by test"};
   const std::vector<std::size_t> shown = laws_to_show(input);
-  page.flags["has_experiment_errors"] = !shown.empty();
-  page.text["by_experiment_link"] = shown.empty() ? "" : "<a href=\"#experiments\">By test</a> ";
-  const std::string alike = judged_words(input.calibration.judged_by).dots;
-  page.flags["has_held_out_names"] = alike.empty();
-  page.text["experiment_colours"] =
-      !alike.empty()
-          ? alike
-          : "<span class=\"held\">&#9679;</span> held out (disc), <span class=\"trained\">"
-            "&#9675;</span> trained on (ring).";
-  page.text["held_out_names"] = svg::escape(join(input.calibration.validation_experiments, ", "));
+  if (shown.empty()) return section;
+  const std::string alike = words::judged_words(input.calibration.judged_by).dots;
+  section.say("Mean absolute error of single tests, in the order of the data; the dashed line is "
+              "the law's error on the tests that it was not fitted to. " +
+              words::Text(alike.empty() ? "Disc: held out; ring: trained on." : alike) +
+              " The worst are named; " + words::code("errors_by_experiment.csv") +
+              " has every test and law.");
   const svg::Axis errors = axis_of_errors(input, shown);
-  std::vector<TemplateValues>& figures = page.lists["experiment_errors"];
   for (const std::size_t law : shown)
-    figures.push_back(figure_of(input, law, errors));
+    section.add(figure_of(input, law, errors));
+  return section;
 }
 
 } // namespace frictab::report

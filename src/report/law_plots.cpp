@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
-#include "report/numbers.h"
-#include "report/published.h"
+#include "words/numbers.h"
+#include "words/published.h"
 
 namespace frictab::report {
 
@@ -66,8 +66,8 @@ svg::Density residual_cells(const ReportInput& input, std::size_t law, const Plo
 std::string beyond(std::size_t outside, std::size_t rows, const char* plot) {
   if (outside == 0) return "";
   const double percent = 100 * static_cast<double>(outside) / static_cast<double>(rows);
-  return fmt::format("{} ({} %) lie beyond the axes of the {} plot.", count_of(outside, "row"),
-                     figures(percent, 2), plot);
+  return fmt::format("{} ({} %) lie beyond the axes of the {} plot.",
+                     words::count_of(outside, "row"), words::figures(percent, 2), plot);
 }
 
 } // namespace
@@ -135,11 +135,12 @@ PlotFrame plot_frame(const ReportInput& input) {
   Extent tau, residual;
   tau.hold(measured, 0);
   const Extent own = tau;
-  const bool only_literature =
-      std::all_of(input.calibration.fits.begin(), input.calibration.fits.end(),
-                  [](const auto& fit) { return kind_of(*fit.model.law) == LawKind::literature; });
+  const bool only_literature = std::all_of(
+      input.calibration.fits.begin(), input.calibration.fits.end(),
+      [](const auto& fit) { return words::kind_of(*fit.model.law) == words::LawKind::literature; });
   for (std::size_t law = 0; law < input.predicted.size(); ++law) {
-    const bool literature = kind_of(*input.calibration.fits[law].model.law) == LawKind::literature;
+    const bool literature =
+        words::kind_of(*input.calibration.fits[law].model.law) == words::LawKind::literature;
     tau.hold(input.predicted[law], 0.001);
     if (!literature || only_literature)
       residual.hold(residuals(measured, input.predicted[law]), 0.005);
@@ -187,8 +188,8 @@ LawPlots law_plots(const ReportInput& input, std::size_t law, const PlotFrame& f
 
   const calibrate::Metrics& v = input.calibration.fits[law].validation;
   const std::string figures_text =
-      fmt::format("{}, mean absolute error {} MPa, bias {} MPa.", count_of(v.n_rows, "row"),
-                  figures(v.mae_MPa), figures(v.bias_MPa));
+      fmt::format("{}, mean absolute error {} MPa, bias {} MPa.", words::count_of(v.n_rows, "row"),
+                  words::figures(v.mae_MPa), words::figures(v.bias_MPa));
   LawPlots plots;
   plots.predicted = left.text(name + ": measured against predicted friction shear stress",
                               figures_text + " The line is measured = predicted.");

@@ -9,10 +9,10 @@
 #include "calibrate/recommended.h"
 #include "data/quantity.h"
 #include "expr/program.h"
-#include "report/numbers.h"
 #include "report/sections.h"
 #include "report/state_plots.h"
 #include "report/svg.h"
+#include "words/numbers.h"
 
 namespace frictab::report {
 
@@ -95,14 +95,14 @@ std::vector<Level> levels_of(const DrawnLaw& drawn, const std::vector<double>& x
                                {0.5, "#c2410c", "", "", {}},
                                {0.9, "#7e22ce", "1 3", "", {}}};
   for (Level& level : levels) {
-    level.value = short_figures(quantile(drawn.sorted[other], level.share), 3);
+    level.value = words::short_figures(quantile(drawn.sorted[other], level.share), 3);
     level.tau = tau_over(drawn, x, other, level.share);
   }
   return levels;
 }
 
 // Part of the caption on the lines: "409, 432 and 454 (10, 50 and 90 % of the rows lie below)".
-std::string said(const std::vector<Level>& levels) {
+std::string described(const std::vector<Level>& levels) {
   if (levels.front().value == levels.back().value)
     return levels.front().value + " (10 to 90 % of the rows)";
   return fmt::format("{}, {} and {} (10, 50 and 90 % of the rows lie below)", levels[0].value,
@@ -137,12 +137,12 @@ std::string draw_levels(svg::Plot& plot, const std::vector<Level>& levels,
   if (low.value == high.value || !(at_low || at_high)) return "";
   if (at_low && at_high)
     return fmt::format(": one line, the law differs by {} MPa at most",
-                       figures(largest_difference(levels), 2));
+                       words::figures(largest_difference(levels), 2));
   return fmt::format(": {} and {} are one line", (at_low ? low : median).value,
                      (at_low ? median : high).value);
 }
 
-TemplateValues panel(const ReportInput& input, const DrawnLaw& drawn, std::size_t other,
+words::Picture panel(const ReportInput& input, const DrawnLaw& drawn, std::size_t other,
                      const svg::Axis& x_axis, const svg::Axis& y_axis) {
   const auto& sigma = drawn.sorted[drawn.sigma];
   std::vector<double> x;
@@ -158,39 +158,42 @@ TemplateValues panel(const ReportInput& input, const DrawnLaw& drawn, std::size_
     plot.line(x, levels[1].tau, {levels[1].colour, 2.2, "", true});
   } else {
     what = drawn.law.inputs[other];
-    lines = " at " + said(levels) + draw_levels(plot, levels, x);
+    lines = " at " + described(levels) + draw_levels(plot, levels, x);
   }
-  return {{{"what", svg::escape(what + lines)},
-           {"plot", plot.text(drawn.law.model.law->name + " over contact normal stress, by " + what,
-                              "Lines" + lines + "; dotted: the band of experiments")}},
-          {},
-          {}};
+  return {plot.text(drawn.law.model.law->name + " over contact normal stress, by " + what,
+                    "Lines" + lines + "; dotted: the band of experiments"),
+          what + lines};
 }
 
 } // namespace
 
-void add_law_with_data(TemplateValues& page, const ReportInput& input) {
-  std::vector<TemplateValues>& panels = page.lists["law_panels"];
-  page.flags["has_law_panels"] = false;
-  page.text["drawn_law"] = page.text["law_link"] = "";
+words::Section best_law_with_data(const ReportInput& input) {
+  words::Section section{"law", "The law", {}};
   const data::Dataset& data = input.validation;
   if (input.calibration.fits.empty() || !data.has(abscissa_name) || !data.has("tau_R_MPa") ||
       data.rows() == 0)
-    return;
+    return section;
   const auto drawn = drawn_law(input);
   const auto tau = span_of(data.values("tau_R_MPa"));
   const auto sigma = span_of(data.values(abscissa_name));
-  if (!drawn || !tau || !sigma) return;
-  page.flags["has_law_panels"] = true;
-  page.text["drawn_law"] = svg::escape(drawn->law.model.law->name);
-  page.text["law_link"] = "<a href=\"#law\">The law</a> ";
+  if (!drawn || !tau || !sigma) return section;
+  section.title = "The law with the data: " + drawn->law.model.law->name;
+  section.say(words::symbol("tau_R") + " over " + words::symbol("sigma_N") +
+              ", one plot for each other input of the law. Lines: the law with that input low "
+              "(dashed), at its median (solid) and high (dotted), the remaining inputs at their "
+              "medians; lines that coincide are drawn once. Thin dotted lines: the band "
+              "in which 90 % of new experiments are expected, around the median. Shades: all rows "
+              "the law was judged by, at all values of their inputs.");
   const svg::Axis x = svg::nice_axis(sigma->first, sigma->second, 5, axis_name(abscissa_name));
   const svg::Axis y =
       svg::nice_axis(std::min(0.0, tau->first), tau->second, 5, axis_name("tau_R_MPa"));
+  words::Pictures panels{"panels", {}};
   for (std::size_t i = 0; i < drawn->sorted.size(); ++i)
     if (i != drawn->sigma && drawn->sorted[i].front() < drawn->sorted[i].back())
-      panels.push_back(panel(input, *drawn, i, x, y));
-  if (panels.empty()) panels.push_back(panel(input, *drawn, drawn->sigma, x, y));
+      panels.pictures.push_back(panel(input, *drawn, i, x, y));
+  if (panels.pictures.empty()) panels.pictures.push_back(panel(input, *drawn, drawn->sigma, x, y));
+  section.add(std::move(panels));
+  return section;
 }
 
 } // namespace frictab::report

@@ -1,21 +1,18 @@
-// Writes the ranking table and the plots of each law.
+// Adds bars to the ranking; draws each law against the measurement.
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "calibrate/noise_floor.h"
 #include "calibrate/recommended.h"
-#include "calibrate/refit.h"
-#include "core/no_value.h"
-#include "core/text.h"
 #include "report/formula.h"
-#include "report/judged.h"
 #include "report/law_plots.h"
-#include "report/numbers.h"
-#include "report/published.h"
 #include "report/sections.h"
 #include "report/state_plots.h"
+#include "words/judged.h"
+#include "words/laws.h"
+#include "words/numbers.h"
+#include "words/published.h"
 
 namespace frictab::report {
 
@@ -60,194 +57,99 @@ svg::Axis bar_axis(const calibrate::Calibration& calibration) {
   return svg::nice_axis(0, high, 5, "MPa");
 }
 
-std::string bar_of(const calibrate::ModelFit& fit, double best, const svg::Axis& axis) {
-  const calibrate::Metrics& v = fit.validation;
-  svg::Bar bar;
-  bar.value = v.mae_MPa;
-  bar.low = v.mae_interval.low;
-  bar.high = v.mae_interval.high;
-  bar.reference = best;
-  bar.colour = bar_colour(*fit.model.law);
-  bar.description =
-      fmt::format("{}: {} MPa, 95 % interval {} to {} MPa", fit.model.law->name, figures(v.mae_MPa),
-                  figures(v.mae_interval.low), figures(v.mae_interval.high));
-  return svg::bar(bar, axis, bar_width, bar_height);
+words::Cell bar_cell(double mae, const calibrate::Interval& interval, double best,
+                     const std::string& colour, const std::string& name, const svg::Axis& axis) {
+  words::Cell cell;
+  cell.picture =
+      svg::bar({mae, interval.low, interval.high, best, colour,
+                fmt::format("{}: {} MPa, 95 % interval {} to {} MPa", name, words::figures(mae),
+                            words::figures(interval.low), words::figures(interval.high))},
+               axis, bar_width, bar_height);
+  return cell;
 }
 
-std::string parameter_text(const models::Parameter& parameter, double value, double std_error,
-                           bool fixed_law) {
-  ValueText v = with_error(value, std_error);
-  if (fixed_law) v = {short_figures(value), ""};
-  std::string text =
-      fmt::format("<span class=\"parameter\">{} = {}", svg::escape(parameter.name), v.value);
-  if (!v.std_error.empty())
-    text += " \u00B1 " + v.std_error;
-  else if (!fixed_law)
-    text += " (\u00B1 not determined)";
-  if (!parameter.unit.empty() && parameter.unit != "1") text += " " + svg::escape(parameter.unit);
-  return text + "</span>";
-}
-
-std::string parameter_list(const calibrate::ModelFit& fit) {
-  const models::Law& law = *fit.model.law;
-  if (std::string size = calibrate::size_of_trained(fit); !size.empty()) return size;
-  const std::size_t n = std::min(law.parameters.size(), fit.model.parameters.size());
-  if (n > 8) return fmt::format("{} parameters, in models/{}.json", n, svg::escape(law.name));
-  std::string text;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double error = i < fit.std_error.size() ? fit.std_error[i] : no_value;
-    text += parameter_text(law.parameters[i], fit.model.parameters[i], error,
-                           law.calibrated == Calibrated::fixed);
-  }
-  return text;
-}
-
-// Returns the noise floor, on the same scale as the laws above it.
-TemplateValues floor_row(const calibrate::Calibration& calibration, const svg::Axis& axis) {
-  const calibrate::NoiseFloor& floor = calibration.noise_floors.front();
-  const int decimals = error_decimals(calibration);
-  const svg::Bar bar{floor.mae_MPa,
-                     floor.mae_interval.low,
-                     floor.mae_interval.high,
-                     calibrate::best_fit(calibration).validation.mae_MPa,
-                     "#9c9268",
-                     "noise floor: " + figures(floor.mae_MPa) + " MPa"};
-  return {
-      {{"name", calibrate::noise_floor_name(floor) + (floor.lower_bound ? ": a lower bound" : "") +
-                    (floor.part == "training" ? ", training data" : "")},
-       {"mae", svg::escape(calibrate::noise_floor_sign(floor)) + fixed(floor.mae_MPa, decimals)},
-       {"interval", interval_text(floor.mae_interval, decimals)},
-       {"rmse", fixed(floor.rmse_MPa, decimals)},
-       {"bar", svg::bar(bar, axis, bar_width, bar_height)}},
-      {},
-      {}};
-}
-
-TemplateValues law_row(const calibrate::ModelFit& fit, std::size_t rank, bool best, int decimals) {
-  const calibrate::Metrics& v = fit.validation;
-  const std::string reference = std::string("; ") + calibrate::reference_words;
-  TemplateValues row;
-  row.text = {{"rank", std::to_string(rank)},
-              {"row_class", best ? "best" : "other"},
-              {"name", svg::escape(fit.model.law->name)},
-              {"title", svg::escape(fit.model.law->title)},
-              {"formula", formula_html(*fit.model.law)},
-              {"kind", kind_text(*fit.model.law) + (fit.reference ? reference : "")},
-              {"mae", fixed(v.mae_MPa, decimals)},
-              {"interval", interval_text(v.mae_interval, decimals)},
-              {"rmse", fixed(v.rmse_MPa, decimals)},
-              {"bias", fixed(v.bias_MPa, decimals)},
-              {"training_mae", fixed(fit.training.mae_MPa, decimals)},
-              {"parameters", parameter_list(fit)}};
-  std::vector<TemplateValues>& remarks = row.lists["remarks"];
-  for (const std::string& remark : fit.remarks)
-    remarks.push_back({{{"text", svg::escape(remark)}}, {}, {}});
-  return row;
-}
-
-const char* loss_text(calibrate::Loss loss) {
-  switch (loss) {
-  case calibrate::Loss::l2:
-    return "L2 (least squares)";
-  case calibrate::Loss::l1:
-    return "L1 (least absolute errors)";
-  case calibrate::Loss::huber:
-    break;
-  }
-  return "Huber";
-}
-
-// Describes how the parameters in the ranking were found.
-std::string method_text(const calibrate::Calibration& calibration) {
-  std::vector<std::string> methods;
-  for (const calibrate::ModelFit& fit : calibration.fits)
-    if (fit.model.law->calibrated != Calibrated::fixed && !fit.std_error_method.empty() &&
-        std::find(methods.begin(), methods.end(), fit.std_error_method) == methods.end())
-      methods.push_back(fit.std_error_method);
-  std::string text =
-      fmt::format("Loss: {}. Seed {}. Data fingerprint {}.", loss_text(calibration.loss),
-                  calibration.seed, svg::escape(calibration.data_hash));
-  if (!methods.empty()) text += " Standard errors: " + svg::escape(join(methods, "; ")) + ".";
-  return text;
-}
-
-// Describes the delivered laws; the ranking is of the validated ones.
-std::string delivery_text(const calibrate::Calibration& calibration) {
-  std::string text = calibrate::delivery_sentence(calibration, error_decimals(calibration));
-  if (text.empty()) return "";
-  text.front() = 'D';
-  const bool others = calibrate::best_fit(calibration).on_all != nullptr;
-  return " " + svg::escape(text) + "." +
-         (others ? " Their parameters stand in models/NAME.json and in benchmark.md." : "");
-}
-
-void add_plots(TemplateValues& page, const ReportInput& input, std::vector<TemplateValues>& laws) {
-  const bool has_plots = input.validation.has("tau_R_MPa") && input.validation.rows() > 0 &&
-                         input.predicted.size() == laws.size() && !laws.empty();
-  page.flags["has_plots"] = has_plots;
-  const PlotFrame frame = has_plots ? plot_frame(input) : PlotFrame{};
-  page.text["legend"] = has_plots ? plot_legend(frame) : "";
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    const LawPlots plots = has_plots ? law_plots(input, i, frame) : LawPlots{};
-    const std::string& name = laws[i].text["name"];
-    laws[i].text["link"] = has_plots ? fmt::format("<a href=\"#law-{}\">{}</a>", name, name) : name;
-    laws[i].text["plot_predicted"] = plots.predicted;
-    laws[i].text["plot_residual"] = plots.residual;
-    laws[i].text["note"] = plots.note;
-    laws[i].flags["has_note"] = !plots.note.empty();
-    laws[i].text["open"] = i == 0 ? " open=\"open\"" : "";
-    // Errors of constants of the literature do not depend on a single state.
-    const bool literature = kind_of(*input.calibration.fits[i].model.law) == LawKind::literature;
-    laws[i].text["state_plots"] =
-        has_plots && !literature ? residuals_over_states(input, i, frame) : "";
-    laws[i].flags["has_state_plots"] = !laws[i].text["state_plots"].empty();
-  }
+bool has_plots(const ReportInput& input) {
+  return input.validation.has("tau_R_MPa") && input.validation.rows() > 0 &&
+         input.predicted.size() == input.calibration.fits.size() && !input.predicted.empty();
 }
 
 } // namespace
 
-void add_ranking(TemplateValues& page, const ReportInput& input) {
-  const calibrate::Calibration& calibration = input.calibration;
-  const bool has_laws = !calibration.fits.empty();
-  std::vector<TemplateValues>& laws = page.lists["laws"];
-  page.lists["floor_rows"] = {};
-  page.flags["has_laws"] = has_laws;
-  page.text["made_by"] = method_text(calibration) + delivery_text(calibration);
-  page.text["validation_size"] = page.text["bar_scale"] = "";
-  page.text["plotted_rows"] = judged_words(calibration.judged_by).plotted;
-  if (has_laws) {
-    const calibrate::Metrics& v = calibrate::best_fit(calibration).validation;
-    const svg::Axis axis = bar_axis(calibration);
-    page.text["validation_size"] = judged_text(calibration);
-    page.text["bar_scale"] = svg::bar_scale(axis, bar_width, bar_height);
-    if (!calibration.noise_floors.empty())
-      page.lists["floor_rows"].push_back(floor_row(calibration, axis));
-    for (std::size_t i = 0; i < calibration.fits.size(); ++i) {
-      laws.push_back(law_row(calibration.fits[i], i + 1, i == calibrate::best_place(calibration),
-                             error_decimals(calibration)));
-      laws.back().text["bar"] = bar_of(calibration.fits[i], v.mae_MPa, axis);
+words::Section ranking_with_bars(const ReportInput& input) {
+  const calibrate::Calibration& c = input.calibration;
+  words::Section section = words::ranking(c);
+  if (c.fits.empty()) return section;
+  words::Table& table = section.table();
+  constexpr std::size_t law_column = 1, bar_column = 4; // after the interval
+  const svg::Axis axis = bar_axis(c);
+  const double best = calibrate::best_fit(c).validation.mae_MPa;
+  words::Column bars{"MAE", false, "", words::Shown::in_html, "bars"};
+  bars.picture = svg::bar_scale(axis, bar_width, bar_height);
+  table.columns.insert(table.columns.begin() + bar_column, std::move(bars));
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    std::vector<words::Cell>& cells = table.rows[i].cells;
+    if (i == c.fits.size()) {
+      const calibrate::NoiseFloor& floor = c.noise_floors.front();
+      cells.insert(cells.begin() + bar_column, bar_cell(floor.mae_MPa, floor.mae_interval, best,
+                                                        "#9c9268", "noise floor", axis));
+      continue;
     }
+    const models::Law& law = *c.fits[i].model.law;
+    const calibrate::Metrics& v = c.fits[i].validation;
+    words::Cell& name = cells[law_column];
+    name.note = kind_text(law) + (name.note.empty() ? "" : "; " + name.note);
+    if (has_plots(input)) name.text = words::link(law.name, "#law-" + law.name);
+    cells.insert(cells.begin() + bar_column,
+                 bar_cell(v.mae_MPa, v.mae_interval, best, bar_colour(law), law.name, axis));
   }
-  add_plots(page, input, laws);
-  std::vector<TemplateValues>& left_out = page.lists["left_out"];
-  for (const calibrate::LeftOut& left : calibration.left_out)
-    left_out.push_back({{{"text", svg::escape(left.text())}}, {}, {}});
-  page.flags["has_left_out"] = !left_out.empty();
+  return section;
 }
 
-void add_published_figures(TemplateValues& page, const ReportInput& input) {
-  page.text["published_warning"] = published_warning;
-  page.text["published_source"] = published_source;
-  std::vector<TemplateValues>& list = page.lists["published"];
-  const auto figures = published_figures();
-  for (std::size_t i = 0; i < figures.size(); ++i) {
-    const std::string ours = counterpart(input.calibration, i);
-    list.push_back({{{"what", figures[i].what},
-                     {"published", figures[i].mae_MPa},
-                     {"ours", ours.empty() ? "\u2013" : svg::escape(ours)}},
-                    {},
-                    {}});
+namespace {
+
+words::Section law_against_measurement(const ReportInput& input, std::size_t i,
+                                       const PlotFrame& frame) {
+  const calibrate::ModelFit& fit = input.calibration.fits[i];
+  const models::Law& law = *fit.model.law;
+  const LawPlots plots = law_plots(input, i, frame);
+  words::Section section{
+      "law-" + law.name, "",
+      fmt::format("{}. {}: {} MPa", i + 1, law.name,
+                  words::fixed(fit.validation.mae_MPa, words::error_decimals(input.calibration)))};
+  section.foldable = true;
+  section.open = i == 0;
+  section.say(law.title + ".");
+  section.add(words::Pictures{"formula", {{formula_html(law)}}});
+  section.add(words::Pictures{"pair", {{plots.predicted}, {plots.residual}}});
+  section.say(plots.note, "small");
+  // Errors of constants of the literature do not depend on a single state.
+  if (words::kind_of(law) != words::LawKind::literature)
+    if (std::string states = residuals_over_states(input, i, frame); !states.empty())
+      section.add(words::Pictures{"states", {{std::move(states)}}});
+  return section;
+}
+
+} // namespace
+
+words::Section each_law(const ReportInput& input) {
+  words::Section section{"plots", "Plots", "Each law against the measurement"};
+  if (!has_plots(input)) {
+    section.say("There are no predictions to show.");
+    return section;
   }
+  const PlotFrame frame = plot_frame(input);
+  section.say(
+      words::judged_words(input.calibration.judged_by).plotted +
+      ". The same axes and colours for all laws. Left: a good law follows the line. Right, "
+      "and below over each state (not for constants of the literature): a good law leaves a "
+      "narrow band around zero, without trend. Residuals stand over the prediction and the "
+      "states, not over the measurement: its noise alone would tilt every law. The residual "
+      "axis holds 99 % of the rows of each calibrated law. Rows are counted in cells; each "
+      "point of the running lines stands for at least 20 rows.");
+  section.add(words::Pictures{"legends", {{plot_legend(frame)}}});
+  for (std::size_t i = 0; i < input.calibration.fits.size(); ++i)
+    section.add(law_against_measurement(input, i, frame));
+  return section;
 }
 
 } // namespace frictab::report

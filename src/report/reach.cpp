@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "report/law_plots.h"
-#include "report/numbers.h"
 #include "report/sections.h"
 #include "report/svg.h"
+#include "words/numbers.h"
 
 namespace frictab::report {
 
@@ -33,7 +33,7 @@ std::string reach_rect(double from, double to, double y, double height, const ch
 
 } // namespace
 
-std::string reach_bar(const ReportInput& input, const table::TableAxis& axis) {
+words::Cell reach_cell(const ReportInput& input, const table::TableAxis& axis) {
   const std::vector<double> data = values_of(input, axis.name);
   if (data.empty() || axis.nodes.size() < 2) return "\u2013";
   const double low = std::min(axis.nodes.front(), data.front());
@@ -44,17 +44,20 @@ std::string reach_bar(const ReportInput& input, const table::TableAxis& axis) {
     return (scaled(value) - scaled(low)) / (scaled(high) - scaled(low)) * reach_width;
   };
   const double p05 = quantile(data, 0.05), p95 = quantile(data, 0.95);
-  const std::string said =
-      fmt::format("data {} to {}, 90 % of the rows {} to {}", short_figures(data.front(), 3),
-                  short_figures(data.back(), 3), short_figures(p05, 3), short_figures(p95, 3));
-  return fmt::format(
-      "<svg class=\"reach\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"table {} "
-      "to {}; {}\">{}{}{}</svg><span class=\"interval\">{}</span>",
-      reach_width, reach_height, short_figures(axis.nodes.front(), 3),
-      short_figures(axis.nodes.back(), 3), said,
-      reach_rect(at(axis.nodes.front()), at(axis.nodes.back()), 0, 22, "range"),
-      reach_rect(at(data.front()), at(data.back()), 9, 4, "all"),
-      reach_rect(at(p05), at(p95), 6, 10, "most"), said);
+  const std::string described =
+      fmt::format("data {} to {}, 90 % of the rows {} to {}", words::short_figures(data.front(), 3),
+                  words::short_figures(data.back(), 3), words::short_figures(p05, 3),
+                  words::short_figures(p95, 3));
+  words::Cell cell{words::Text(), described};
+  cell.picture =
+      fmt::format("<svg class=\"reach\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"table {} "
+                  "to {}; {}\">{}{}{}</svg>",
+                  reach_width, reach_height, words::short_figures(axis.nodes.front(), 3),
+                  words::short_figures(axis.nodes.back(), 3), described,
+                  reach_rect(at(axis.nodes.front()), at(axis.nodes.back()), 0, 22, "range"),
+                  reach_rect(at(data.front()), at(data.back()), 9, 4, "all"),
+                  reach_rect(at(p05), at(p95), 6, 10, "most"));
+  return cell;
 }
 
 } // namespace frictab::report

@@ -1,34 +1,31 @@
-// report.html: fills templates/report/report.html section by section.
+// Puts the sections of pages together.
 #include "report/report.h"
 
 #include <cctype>
-#include <filesystem>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "core/template.h"
+#include "report/page.h"
 #include "report/sections.h"
-#include "report/svg.h"
+#include "words/answer.h"
+#include "words/data.h"
+#include "words/laws.h"
+#include "words/render.h"
+#include "words/tables.h"
+#include "words/trace.h"
 
 namespace frictab::report {
 
-std::string shown_path(const std::string& path) {
-  const std::filesystem::path p(path);
-  return p.is_absolute() ? p.filename().string() : path;
-}
-
-std::string shown_unit(const std::string& unit) {
-  if (unit == "degC") return "\u00B0C";
-  return unit.empty() || unit == "1" ? "\u2013" : svg::escape(unit);
-}
+using words::Detail;
+using words::Section;
 
 namespace {
 
 // Links to a file next to the page; characters that RFC 3986 reserves are written as %XX.
 std::string link_to(const std::string& file) {
   std::string link = "./";
-  for (const char c : shown_path(file))
+  for (const char c : file)
     if (std::isalnum(static_cast<unsigned char>(c)) ||
         std::string_view("-._~/").find(c) != std::string_view::npos)
       link += c;
@@ -37,34 +34,108 @@ std::string link_to(const std::string& file) {
   return link;
 }
 
+Section files_written(const ReportInput& input) {
+  Section section{"files", "Files", "Files written"};
+  words::List list{{}, "files"};
+  for (const std::string& file : input.files) {
+    const std::string shown = words::shown_path(file);
+    list.items.push_back(words::link(shown, link_to(shown)));
+  }
+  if (list.items.empty()) section.say("None.");
+  section.add(std::move(list));
+  return section;
+}
+
+words::DataParts data_of(const ReportInput& input) {
+  static const data::Dataset none;
+  return {input.training,
+          on_other_experiments(input.calibration.judged_by) ? input.validation : none,
+          input.calibration.judged_by};
+}
+
+Section data_with_ranges(const ReportInput& input) {
+  Section section = words::data_read(data_of(input), Detail::full);
+  section.add(words::ranges(data_of(input)));
+  return section;
+}
+
+Section drift_with_details(const ReportInput& input) {
+  Section section = words::drift(input.verification, Detail::full);
+  if (input.verification.records.empty()) return section;
+  Section each{"", "", "Each table and routine"};
+  each.say("On the validation rows inside the table's range, and the largest found over the whole "
+           "range, with its state. The bound of a table is by branch and bound over its cells.");
+  each.add(words::drift_of_each(input.verification));
+  section.add(std::move(each));
+  return section;
+}
+
+Section in_short(const ReportInput& input) {
+  return words::in_short({&input.calibration,
+                          input.verification.records.empty() ? nullptr : &input.verification,
+                          input.traces,
+                          {}}); // times of forms differ from run to run
+}
+
 } // namespace
 
 std::string report_html(const ReportInput& input) {
-  TemplateValues page;
-  page.text["title"] = svg::escape(shown_path(input.title));
-  page.text["style"] = std::string(embedded_template("report/style.css"));
-  page.flags["synthetic"] = input.calibration.synthetic;
-  add_verdict(page, input);
-  add_drift_summary(page, input);
-  add_ranking(page, input);
-  add_comparisons(page, input);
-  add_errors(page, input);
-  add_experiment_errors(page, input);
-  add_polynomial(page, input);
-  add_law_with_data(page, input);
-  add_predicted_strokes(page, input);
-  add_wiring(page, input);
-  add_conditional(page, input);
-  add_trace(page, input);
-  add_published_figures(page, input);
-  add_data(page, input);
-  add_tables(page, input);
-  add_drift(page, input);
-  std::vector<TemplateValues>& files = page.lists["files"];
-  for (const std::string& file : input.files)
-    files.push_back({{{"path", svg::escape(shown_path(file))}, {"link", link_to(file)}}, {}, {}});
-  page.flags["has_files"] = !files.empty();
-  return render_template("report/report.html", page);
+  Page page{words::shown_path(input.title), "Friction report", {}, in_short(input), {}};
+  if (input.calibration.synthetic) page.warnings.push_back(synthetic_warning());
+  page.sections = {ranking_with_bars(input),
+                   words::comparison(input.calibration),
+                   words::all_errors(input.calibration),
+                   errors_by_test(input),
+                   words::experiment_band(input.calibration),
+                   words::polynomial_terms(input.calibration),
+                   best_law_with_data(input),
+                   strokes(input),
+                   words::published_comparison(input.calibration),
+                   words::conditional_use(input.calibration),
+                   traces_with_plots(input),
+                   each_law(input),
+                   data_with_ranges(input),
+                   tables_with_data(input),
+                   drift_with_details(input),
+                   words::wiring(input.recipes, Detail::full),
+                   files_written(input)};
+  return html_of(page);
+}
+
+namespace {
+
+Section markdown_page(const std::string& title, bool synthetic, std::vector<Section> sections) {
+  Section page{"", "", title};
+  if (synthetic) page.say(words::strong("Synthetic data: nothing here was measured."));
+  for (Section& section : sections)
+    if (!section.blocks.empty()) page.add(std::move(section));
+  return page;
+}
+
+} // namespace
+
+std::string report_md(const ReportInput& input) {
+  std::vector<Section> sections = {in_short(input), words::data_read(data_of(input), Detail::brief),
+                                   words::ranking(input.calibration),
+                                   words::drift(input.verification, Detail::brief),
+                                   words::tables(input.tables)};
+  for (const trace::Trace& trace : input.traces)
+    sections.push_back(words::trace(trace, Detail::brief));
+  sections.push_back(words::wiring(input.recipes, Detail::brief));
+  return words::as_markdown(markdown_page("Friction report: " + input.title,
+                                          input.calibration.synthetic, std::move(sections)),
+                            1);
+}
+
+std::string benchmark_md(const calibrate::Calibration& calibration) {
+  return words::as_markdown(
+      markdown_page(
+          "Friction laws on experiments they were not calibrated on", calibration.synthetic,
+          {words::ranking(calibration), words::delivered_laws(calibration),
+           words::comparison(calibration), words::all_errors(calibration),
+           words::experiment_band(calibration), words::polynomial_terms(calibration),
+           words::published_comparison(calibration), words::conditional_use(calibration)}),
+      1);
 }
 
 } // namespace frictab::report

@@ -1,4 +1,5 @@
-// report.html and benchmark.md: the results of a run as pages to read. Only renders values.
+// report.html, report.md and benchmark.md: the results of a run as pages to read. Only renders
+// values.
 #pragma once
 
 #include <string>
@@ -10,14 +11,9 @@
 #include "trace/trace.h"
 #include "verify/forms.h"
 #include "verify/verification.h"
+#include "words/wiring.h"
 
 namespace frictab::report {
-
-// The text of a recipe.json and its path, relative to the output directory.
-struct Recipe {
-  std::string path;
-  std::string text;
-};
 
 struct ReportInput {
   std::string title; // the campaign's name
@@ -32,7 +28,7 @@ struct ReportInput {
       {};                                // per table, sizes only: times differ from run to run
   std::vector<trace::Trace> traces = {}; // empty if not traced
   std::vector<calibrate::ErrorsOfLaw> by_experiment = {}; // per calibration.fits entry
-  std::vector<Recipe> recipes = {};                       // recipes of the generated sources
+  std::vector<words::Recipe> recipes = {};                // recipes of the generated sources
 };
 
 // Writes one self-contained page that opens offline: ranking, measured against predicted and
@@ -43,8 +39,7 @@ std::string report_html(const ReportInput& input);
 // wiring, remarks.
 std::string report_md(const ReportInput& input);
 
-// Writes the ranking as a Markdown table, followed by the paper's published figures, marked as
-// such.
+// Writes all that a calibration found, as Markdown.
 std::string benchmark_md(const calibrate::Calibration& calibration);
 
 } // namespace frictab::report

@@ -1,38 +1,23 @@
-// The parts of report.html as values of its template, one function per section.
+// The parts of report.html that have pictures: what words/ says, with plots added.
 #pragma once
 
 #include <string>
 
-#include "core/template.h"
 #include "report/report.h"
+#include "words/document.h"
 
 namespace frictab::report {
 
-void add_verdict(TemplateValues& page, const ReportInput& input);
-void add_drift_summary(TemplateValues& page, const ReportInput& input);
-void add_ranking(TemplateValues& page, const ReportInput& input); // with the plots
-void add_comparisons(TemplateValues& page, const ReportInput& input);
-void add_errors(TemplateValues& page, const ReportInput& input); // with the noise floors
-void add_experiment_errors(TemplateValues& page, const ReportInput& input);
-void add_polynomial(TemplateValues& page, const ReportInput& input);
-void add_law_with_data(TemplateValues& page, const ReportInput& input);
-void add_predicted_strokes(TemplateValues& page, const ReportInput& input);
-void add_wiring(TemplateValues& page, const ReportInput& input);
-void add_conditional(TemplateValues& page, const ReportInput& input);
-void add_trace(TemplateValues& page, const ReportInput& input);
-void add_published_figures(TemplateValues& page, const ReportInput& input);
-void add_data(TemplateValues& page, const ReportInput& input);
-void add_tables(TemplateValues& page, const ReportInput& input);
-void add_drift(TemplateValues& page, const ReportInput& input);
+words::Section ranking_with_bars(const ReportInput& input);
+words::Section errors_by_test(const ReportInput& input);
+words::Section best_law_with_data(const ReportInput& input);
+words::Section strokes(const ReportInput& input);
+words::Section traces_with_plots(const ReportInput& input);
+words::Section each_law(const ReportInput& input); // against the measurement
+words::Section tables_with_data(const ReportInput& input);
 
 // Draws the range of the data along an axis of a table (SVG); a dash where the data do not have
 // that column.
-std::string reach_bar(const ReportInput& input, const table::TableAxis& axis);
-
-// Reduces an absolute path of a user's machine to the file's name.
-std::string shown_path(const std::string& path);
-
-// Escapes a unit; "degC" in the usual notation, empty for "1".
-std::string shown_unit(const std::string& unit);
+words::Cell reach_cell(const ReportInput& input, const table::TableAxis& axis);
 
 } // namespace frictab::report

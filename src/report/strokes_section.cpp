@@ -6,11 +6,11 @@
 
 #include "calibrate/input_columns.h"
 #include "calibrate/recommended.h"
-#include "report/judged.h"
-#include "report/numbers.h"
 #include "report/sections.h"
 #include "report/state_plots.h"
 #include "report/svg.h"
+#include "words/judged.h"
+#include "words/numbers.h"
 
 namespace frictab::report {
 
@@ -58,7 +58,7 @@ StrokeAxes stroke_axes(const data::Dataset& data) {
   return axes;
 }
 
-TemplateValues stroke_of(const data::Dataset& data, std::span<const double> predicted,
+words::Picture stroke_of(const data::Dataset& data, std::span<const double> predicted,
                          std::size_t e, const StrokeAxes& axes) {
   const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
   std::vector<double> x(rows);
@@ -74,41 +74,41 @@ TemplateValues stroke_of(const data::Dataset& data, std::span<const double> pred
   plot.line(at, condensed(measured), {"#1d5491", 1.4, "", false});
   plot.line(at, condensed(predicted.subspan(first, rows)), {"#c2410c", 1.4, "4 2", false});
   const std::string& name = data.experiments[e];
-  return {{{"name", svg::escape(name)},
-           {"plot", plot.text("test " + name, "measured (solid) and predicted (dashed)")}},
-          {},
-          {}};
+  return {plot.text("test " + name, "measured (solid) and predicted (dashed)"), name};
 }
 
-void add_part(std::vector<TemplateValues>& out, const data::Dataset& data,
-              std::span<const double> predicted) {
+words::Pictures strokes_of(const data::Dataset& data, std::span<const double> predicted) {
   const StrokeAxes axes = stroke_axes(data);
+  words::Pictures out{"strokes", {}};
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
-    out.push_back(stroke_of(data, predicted, e, axes));
+    out.pictures.push_back(stroke_of(data, predicted, e, axes));
+  return out;
 }
 
 } // namespace
 
-void add_predicted_strokes(TemplateValues& page, const ReportInput& input) {
-  std::vector<TemplateValues>&judged = page.lists["judged_strokes"],
-  &trained = page.lists["trained_strokes"];
+words::Section strokes(const ReportInput& input) {
+  words::Section section{"strokes", "Strokes", "Strokes: measured and predicted"};
   const data::Dataset &data = input.validation, &training = input.training;
-  const bool any = !input.predicted.empty() && data.has("tau_R_MPa") && data.rows() > 0;
-  page.flags["has_strokes"] = any;
-  page.flags["has_trained_strokes"] = false;
-  page.text["strokes_link"] = any ? "<a href=\"#strokes\">Strokes</a> " : "";
-  page.text["stroke_law"] = page.text["judged_count"] = page.text["trained_count"] = "";
-  if (!any) return;
+  if (input.predicted.empty() || !data.has("tau_R_MPa") || data.rows() == 0) return section;
   const calibrate::ModelFit& best = calibrate::best_fit(input.calibration);
-  page.text["stroke_law"] = svg::escape(best.model.law->name);
-  page.text["judged_count"] = count_of(data.experiments.size(), "test");
-  add_part(judged, data, input.predicted[calibrate::best_place(input.calibration)]);
+  section.say(words::symbol("tau_R") + " of each test as measured (solid) and as " +
+              best.model.law->name +
+              " predicts it (dashed), on the same axes. Vertical: " + words::symbol("tau_R") +
+              ", MPa. Each line is condensed to at most 25 means of neighbouring rows.");
+  words::Section judged{"", "", "Judged by: " + words::count_of(data.experiments.size(), "test")};
+  judged.add(strokes_of(data, input.predicted[calibrate::best_place(input.calibration)]));
+  section.add(std::move(judged));
   if (!on_other_experiments(input.calibration.judged_by) || !training.has("tau_R_MPa") ||
       !calibrate::missing_inputs(models::AssembledLaw(best.model).inputs, training).empty())
-    return;
-  page.flags["has_trained_strokes"] = true;
-  page.text["trained_count"] = count_of(training.experiments.size(), "test");
-  add_part(trained, training, calibrate::predict(best.model, training));
+    return section;
+  words::Section trained{"", "",
+                         "Trained on: " + words::count_of(training.experiments.size(), "test")};
+  trained.foldable = true;
+  trained.open = false;
+  trained.add(strokes_of(training, calibrate::predict(best.model, training)));
+  section.add(std::move(trained));
+  return section;
 }
 
 } // namespace frictab::report

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "words/render.h"
+
 namespace frictab::report::svg {
 
-// Replaces characters with a meaning in XML by entities, and what XML and UTF-8 do not allow by
-// U+FFFD. Safe in text and in quoted attributes.
-std::string escape(std::string_view text);
+using words::escape;
 
 // Writes a coordinate in pixels: at most two decimals, no trailing zeros, never "-0".
 std::string pixel(double value);

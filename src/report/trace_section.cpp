@@ -1,22 +1,17 @@
-// Writes what the best law lacked: verdict, errors before and after, each effect with its
-// residuals.
+// Adds plots to what a trace found: residuals before and after, the effect between them.
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "calibrate/input_columns.h"
 #include "core/text.h"
-#include "effects/change_text.h"
-#include "report/judged.h"
 #include "report/law_plots.h"
-#include "report/numbers.h"
 #include "report/sections.h"
 #include "report/state_plots.h"
-#include "trace/trace_text.h"
+#include "words/judged.h"
+#include "words/trace.h"
 
 namespace frictab::report {
-
-using trace::Verdict;
 
 namespace {
 
@@ -24,24 +19,6 @@ using Values = std::span<const double>;
 
 constexpr double plot_width = 300, plot_height = 220;
 constexpr std::size_t cells_wide = 75, cells_high = 55;
-
-const char* badge_of(Verdict verdict) {
-  switch (verdict) {
-  case Verdict::effect_added:
-    return "effect added";
-  case Verdict::nothing_missing:
-    return "nothing is missing";
-  case Verdict::nothing_found:
-    return "nothing was found";
-  case Verdict::unexplained_structure:
-    break;
-  }
-  return "unexplained structure";
-}
-
-const char* class_of(Verdict verdict) {
-  return verdict == Verdict::effect_added || verdict == Verdict::nothing_missing ? "pass" : "none";
-}
 
 // Draws rows as cells.
 void draw_cloud(svg::Plot& plot, Values x, Values y, const svg::Axis& x_axis,
@@ -83,7 +60,7 @@ std::string curve_plot(const trace::TracedEffect& effect, const svg::Axis& x_axi
   const effects::PlacedEffect& placed = effect.placed;
   const std::string what = placed.acts_on == effects::ActsOn::tau
                                ? fmt::format("1 + addition / {:.4g} MPa", placed.tau_scale_MPa)
-                               : std::string("factor ") + trace::site_text(placed.acts_on);
+                               : std::string("factor ") + words::site_text(placed.acts_on);
   const svg::Axis y_axis = svg::nice_axis(low - margin, high + margin, 5, what);
   svg::Plot plot(plot_width, plot_height, x_axis, y_axis);
   if (!c.point_x.empty()) draw_cloud(plot, c.point_x, c.point_factor, x_axis, y_axis);
@@ -128,167 +105,29 @@ std::string effect_plots(const ReportInput& input, const trace::Trace& trace,
   std::sort(sorted.begin(), sorted.end());
   const svg::Axis y_axis =
       svg::nice_axis(quantile(sorted, 0.005), quantile(sorted, 0.995), 5, "residual / MPa");
-  const std::string on = ", " + judged_words(input.calibration.judged_by).trace;
+  const std::string on = ", " + words::judged_words(input.calibration.judged_by).trace;
   return residual_plot({x, r0}, x_axis, y_axis, "residual before" + on) +
          curve_plot(effect, x_axis) + residual_plot({x, r1}, x_axis, y_axis, "residual after" + on);
 }
 
-TemplateValues error_row(const std::string& what, const trace::TraceErrors& errors, int decimals) {
-  const auto one = [&](const calibrate::Metrics& m) {
-    return fmt::format("{} <span class=\"interval\">{}</span>", fixed(m.mae_MPa, decimals),
-                       interval_text(m.mae_interval, decimals));
-  };
-  return {{{"what", what},
-           {"validation", one(errors.validation)},
-           {"validation_rmse", fixed(errors.validation.rmse_MPa, decimals)},
-           {"validation_bias", fixed(errors.validation.bias_MPa, decimals)},
-           {"training", one(errors.training)},
-           {"training_rmse", fixed(errors.training.rmse_MPa, decimals)},
-           {"training_bias", fixed(errors.training.bias_MPa, decimals)}},
-          {},
-          {}};
-}
-
-std::string parameters_of(const trace::TracedEffect& effect) {
-  std::string text;
-  for (const trace::TracedParameter& p : effect.parameters) {
-    const ValueText shown = with_error(p.value, p.std_error);
-    text += fmt::format("{}{} = {}{}{}{}", text.empty() ? "" : ", ", svg::escape(p.name),
-                        shown.value, shown.std_error.empty() ? "" : " &#177; " + shown.std_error,
-                        p.unit == "1" || p.unit.empty() ? "" : " " + shown_unit(p.unit),
-                        p.why_none.empty() ? "" : " (" + svg::escape(p.why_none) + ")");
-  }
-  return text;
-}
-
-std::string alternatives_of(const trace::TracedEffect& effect) {
-  std::string same, others;
-  for (const trace::Alternative& a : effect.alternatives) {
-    std::string& list = a.in_set ? same : others;
-    list += (list.empty() ? "" : ", ") + svg::escape(a.name);
-  }
-  std::string text;
-  if (!same.empty()) text += "These experiments cannot distinguish it from: " + same + ". ";
-  if (!others.empty()) text += "Explain less: " + others + ".";
-  return text;
-}
-
-// Proposes tests that would decide between explanations: a sentence and a table; empty without such
-// tests.
-std::string design_of(const trace::Design& design) {
-  if (design.tests.empty()) return "";
-  const auto row = [](const std::vector<std::string>& cells, const char* tag) {
-    std::string text = "<tr>";
-    for (const std::string& cell : cells)
-      text += fmt::format("<{0}>{1}</{0}>", tag, svg::escape(cell));
-    return text + "</tr>";
-  };
-  const auto rows = trace::design_rows(design);
-  std::string text = "<p>" + svg::escape(trace::design_sentence(design)) + ":</p><table><thead>" +
-                     row(rows[0], "th") + "</thead><tbody>";
-  for (std::size_t i = 1; i < rows.size(); ++i)
-    text += row(rows[i], "td");
-  return text + "</tbody></table>";
-}
-
-TemplateValues lead_values(const trace::Lead& lead) {
-  TemplateValues values;
-  const std::string size =
-      lead.share != 0 ? fmt::format(", {:.2g} %", 100 * std::abs(lead.share)) : "";
-  values.text = {{"cause", svg::escape(trace::lead_name(lead))},
-                 {"form", lead.form + size},
-                 {"why", svg::escape(lead.why)},
-                 {"design", design_of(lead.design)}};
-  return values;
-}
-
-TemplateValues effect_values(const ReportInput& input, const trace::Trace& trace,
-                             const trace::TracedEffect& effect, int decimals) {
-  TemplateValues values;
-  values.text = {{"cause", svg::escape(trace::cause_text(effect))},
-                 {"form", effect.placed.form->title},
-                 {"place", trace::site_text(effect.placed.acts_on)},
-                 {"change", svg::escape(effects::change_text(effect.placed))},
-                 {"formula", svg::escape(effects::formula_text(effect.placed))},
-                 {"parameters", parameters_of(effect)},
-                 {"p", p_text(effect.p_value)},
-                 {"gain", fixed(effect.gain_MPa, decimals)},
-                 {"alternatives", alternatives_of(effect)},
-                 {"design", design_of(effect.design)},
-                 {"plots", effect_plots(input, trace, effect)}};
-  return values;
-}
-
-std::string sentence_of(const trace::Trace& t) {
-  std::string text = svg::escape(t.remaining.note) + ". ";
-  if (const std::string found = trace::not_confirmed(t); !found.empty())
-    text.insert(0, "N" + svg::escape(found.substr(1)) + ". ");
-  for (const trace::Alias& alias : t.cannot_tell)
-    text += svg::escape(alias.text) + ". ";
-  for (const std::string& rejected : t.rejected)
-    text += "Not added: " + svg::escape(rejected) + ". ";
-  return text +
-         fmt::format("Tried: {} quantities in {} directions; a false alarm has a probability of "
-                     "{:g} over all of them.",
-                     t.n_columns, thousands(t.n_candidates), t.alpha);
-}
-
-std::string gain_text(const calibrate::Difference& gain, int decimals) {
-  return fmt::format("{} MPa (95 %: {})", fixed(gain.value_MPa, decimals),
-                     interval_text(gain.interval, decimals));
-}
-
-TemplateValues trace_values(const ReportInput& input, const trace::Trace& trace, int decimals) {
-  TemplateValues values;
-  values.text["model"] = svg::escape(trace.model);
-  values.text["badge"] = badge_of(trace.verdict);
-  values.text["badge_class"] = class_of(trace.verdict);
-  values.text["sentence"] = sentence_of(trace);
-  values.text["floor"] = fixed(trace.noise_floor.mae_MPa, decimals);
-  values.flags["has_effects"] = !trace.extended_model.empty();
-  values.text["improvement"] = gain_text(trace.improvement, decimals);
-  values.flags["has_calibrated"] = trace.over_calibrated.has_value();
-  values.text["over_calibrated"] =
-      trace.over_calibrated ? gain_text(*trace.over_calibrated, decimals) : "";
-  const std::string shown = trace::shown_by_validation(trace);
-  values.flags["has_shown"] = !shown.empty();
-  values.text["shown"] = svg::escape(shown);
-  auto& errors = values.lists["errors"];
-  errors.push_back(error_row("as calibrated", trace.as_calibrated, decimals));
-  errors.push_back(
-      error_row("before: the same law, fitted again as the extended one", trace.before, decimals));
-  if (!trace.extended_model.empty())
-    errors.push_back(error_row(trace.effects.empty() ? "without what follows the order of tests"
-                                                     : "with the effects",
-                               trace.after, decimals));
-  for (const trace::TracedEffect& effect : trace.effects)
-    values.lists["effects"].push_back(effect_values(input, trace, effect, decimals));
-  for (const trace::Lead& lead : trace.leads)
-    values.lists["leads"].push_back(lead_values(lead));
-  values.flags["has_leads"] = !trace.leads.empty();
-  values.lists["leads"];
-  auto& detectable = values.lists["detectable"];
-  for (const trace::Detectable& d : trace.detectable)
-    detectable.push_back({{{"column", svg::escape(d.column)},
-                           {"size", d.identifiable ? figures(d.size_MPa) : "&#8211;"},
-                           {"share", d.identifiable ? figures(100 * d.share, 2)
-                                                    : "imitated by the law's own parameters"}},
-                          {},
-                          {}});
-  values.flags["has_detectable"] = !detectable.empty();
-  values.lists["effects"];
-  return values;
-}
-
 } // namespace
 
-void add_trace(TemplateValues& page, const ReportInput& input) {
-  const int decimals = error_decimals(input.calibration);
-  page.flags["has_trace"] = !input.traces.empty();
-  page.text["trace_link"] = input.traces.empty() ? "" : "<a href=\"#trace\">What it lacks</a> ";
-  auto& traces = page.lists["traces"];
-  for (const trace::Trace& trace : input.traces)
-    traces.push_back(trace_values(input, trace, decimals));
+words::Section traces_with_plots(const ReportInput& input) {
+  words::Section section{"trace", "What it lacks", "What the law lacks, by its residual"};
+  for (const trace::Trace& trace : input.traces) {
+    words::Section one = words::trace(trace, words::Detail::full);
+    const std::vector<words::Section*> effects = one.sections(); // before the leads
+    for (std::size_t e = 0; e < trace.effects.size(); ++e)
+      if (std::string plots = effect_plots(input, trace, trace.effects[e]); !plots.empty())
+        effects[e]->add(words::Pictures{"triple", {{std::move(plots)}}});
+    if (words::Section smallest = words::detectable_effects(trace); !smallest.blocks.empty()) {
+      smallest.foldable = true;
+      smallest.open = false;
+      one.add(std::move(smallest));
+    }
+    section.add(std::move(one));
+  }
+  return section;
 }
 
 } // namespace frictab::report

@@ -1,22 +1,19 @@
-// Lists the tests as lines of a table.
+// Text and JSON of the data as read.
 #include "run/data_summary.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "calibrate/calibration.h"
-#include "core/text.h"
 #include "data/append.h"
 #include "data/overview.h"
 #include "data/phases.h"
-#include "data/quantity.h"
 #include "data/roles.h"
 #include "io/json.h"
-#include "report/judged.h"
-#include "report/numbers.h"
+#include "words/data.h"
+#include "words/render.h"
 
 namespace frictab::run {
 
@@ -27,88 +24,12 @@ using Json = nlohmann::ordered_json;
 
 const char* const uses[] = {"train", "validate"};
 
-using Cells = std::vector<std::string>;
-
-std::string span_text(const std::pair<double, double>& span) {
-  const std::string low = report::short_figures(span.first, 3);
-  return span.first == span.second ? low : low + ".." + report::short_figures(span.second, 3);
-}
-
-bool is_shown(const std::string& name) {
-  const data::Quantity* quantity = data::find_quantity(name);
-  return quantity->state || name == "time_s" || name == "tau_R_MPa";
-}
-
-Cells header_of(const Dataset& data) {
-  Cells cells = {"test", "use", "rows", "mean mu", "tau_R/k"};
-  for (const data::Quantity& quantity : data::quantities())
-    if (data.has(quantity.name) && is_shown(quantity.name)) cells.push_back(quantity.name);
-  return cells;
-}
-
-Cells cells_of(const data::TestOverview& test, const char* use) {
-  Cells cells = {test.experiment, use, thousands(test.rows), report::figures(test.mean_mu),
-                 test.mean_of_k ? report::figures(*test.mean_of_k) : "-"};
-  for (const auto& [name, span] : test.spans)
-    if (is_shown(name)) cells.push_back(span_text(span));
-  return cells;
-}
-
-// Pads columns to their widest cell; aligns the first `names` columns left, numbers right.
-std::string aligned(const std::vector<Cells>& rows, std::size_t names = 2) {
-  std::vector<std::size_t> width(rows.front().size());
-  for (const Cells& cells : rows)
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      width[i] = std::max(width[i], fmt::formatted_size("{}", cells[i]));
-  std::string out;
-  for (const Cells& cells : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      line += i < names ? fmt::format("{:<{}}  ", cells[i], width[i])
-                        : fmt::format("{:>{}}  ", cells[i], width[i]);
-    out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
-  return out;
-}
-
-void add_lines(std::string& out, const char* title, const std::vector<std::string>& lines) {
-  for (const std::string& line : lines)
-    out += fmt::format("{}: {}\n", title, line);
-}
-
-std::vector<std::string> dropped_lines(const Dataset& data) {
-  std::vector<std::string> lines;
-  for (const Dataset::Dropped& dropped : data.dropped)
-    lines.push_back(fmt::format("{} rows, {}", thousands(dropped.rows), dropped.rule));
-  return lines;
-}
-
 // Notes of training and validation, each once.
 std::vector<std::string> notes_of(const JobData& data) {
   std::vector<std::string> notes = data.training.notes;
   for (const std::string& note : data.validation.notes)
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   return notes;
-}
-
-std::string clock_text(const data::ClockOffset& clock) {
-  return fmt::format("test {}: offset {:.5g} +- {:.2g}, correlation {:.4f}", clock.experiment,
-                     clock.offset, clock.std_error, clock.correlation);
-}
-
-// Roles of the columns in friction; leaves out quantities, whose names state their role.
-std::string roles_text(const Dataset& data) {
-  constexpr std::size_t shown = 100;
-  std::vector<Cells> rows = {{"column", "role", "why"}};
-  std::size_t more = 0;
-  for (const data::Column& column : data.columns)
-    if (!data::find_quantity(column.name)) {
-      if (rows.size() <= shown)
-        rows.push_back({column.name, data::role_name(column.role), column.why});
-      else
-        ++more;
-    }
-  return rows.size() == 1 ? "" : aligned(rows, 3) + (more ? and_more(more, "column") + "\n" : "");
 }
 
 Json roles_json(const Dataset& data) {
@@ -138,34 +59,11 @@ Json test_json(const data::TestOverview& test, const char* use) {
 } // namespace
 
 std::string data_text(const JobData& data) {
-  std::vector<Cells> rows = {header_of(data.training)};
-  std::size_t use = 0;
-  for (const Dataset* part : {&data.training, &data.validation}) {
-    for (const data::TestOverview& test : data::overview(*part))
-      rows.push_back(cells_of(test, uses[use]));
-    ++use;
-  }
-  std::string out = aligned(rows) + "\n";
-  add_lines(out, "read", notes_of(data));
-  for (const Dataset* part : {&data.training, &data.validation}) {
-    for (const data::ClockOffset& clock : part->clocks)
-      out += "joined: " + clock_text(clock) + "\n";
-    if (const std::string phases = report::phases_text(*part); !phases.empty())
-      out += "rows read: " + phases + "\n";
-    add_lines(out, "left out", dropped_lines(*part));
-    add_lines(out, "unit not given", part->unit_questions);
-    add_lines(out, "implausible", part->implausible);
-  }
-  add_lines(out, "in none of the data", data.training.unused);
-  if (const std::string roles = roles_text(data.training); !roles.empty())
-    out += "\n" + roles + "\n";
-  if (const std::string how = report::condensed_text(data.training, data.validation); !how.empty())
-    out += "rows are " + how + "\n";
-  if (const std::string how = report::uneven_text(data.judged_by, data.training, data.validation);
-      !how.empty())
-    out += how + "\n";
-  return out + report::size_text(data.judged_by, data.training, data.validation) +
-         (calibrate::is_synthetic(data.training) ? " - SYNTHETIC data\n" : "\n");
+  const words::DataParts parts{data.training, data.validation, data.judged_by};
+  std::string out = words::as_text(words::tests(parts)) + "\n";
+  if (const words::Section roles = words::column_roles(data.training); !roles.blocks.empty())
+    out += words::as_text(roles) + "\n";
+  return out + words::as_text(words::data_read(parts, words::Detail::full));
 }
 
 std::string data_json(const JobData& data) {

@@ -7,7 +7,7 @@
 
 namespace frictab::run {
 
-// Lists all tests, then what was converted, computed, joined and left out.
+// Lists all tests, the other columns, then what was converted, computed, joined and left out.
 std::string data_text(const JobData& data);
 std::string data_json(const JobData& data);
 

@@ -23,9 +23,9 @@ std::string campaign_name(const std::string& job_file) {
 }
 
 // Recipes of the sources made in this run, otherwise of those in the directory.
-std::vector<report::Recipe> recipes_of(const Run& run) {
+std::vector<words::Recipe> recipes_of(const Run& run) {
   const std::vector<std::string> staged = run.workspace.files();
-  std::vector<report::Recipe> found;
+  std::vector<words::Recipe> found;
   for (const codegen::Exporter* exporter : codegen::exporters_named(run.job.exports.targets))
     for (const Table& table : run.tables) {
       const std::string path = export_directory(run, exporter->name, table) + "/recipe.json";

@@ -3,13 +3,13 @@
 
 #include <string>
 
-#include "run/drift_text.h"
 #include "run/run.h"
+#include "words/drift.h"
 
 namespace frictab::run {
 
 // `brief` ends with the findings in a few lines; `full` has everything that the report has.
-std::string summary_text(const Run& run, Detail detail);
+std::string summary_text(const Run& run, words::Detail detail);
 std::string summary_json(const Run& run);
 
 } // namespace frictab::run

@@ -5,11 +5,13 @@
 #include "calibrate/noise_floor.h"
 #include "calibrate/recommended.h"
 #include "io/json.h"
-#include "report/judged.h"
 #include "run/summary.h"
 #include "table/beyond_data.h"
 #include "trace/trace_file.h"
 #include "verify/verify.h"
+#include "words/answer.h"
+#include "words/judged.h"
+#include "words/render.h"
 
 namespace frictab::run {
 
@@ -43,7 +45,7 @@ nlohmann::ordered_json table_json(const table::Table& table) {
 nlohmann::ordered_json condensed_json(const JobData& data) {
   return {{"rows", data.training.source_rows() + data.validation.source_rows()},
           {"blocks", data.training.rows() + data.validation.rows()},
-          {"from_blocks", report::from_blocks()}};
+          {"from_blocks", words::from_blocks()}};
 }
 
 } // namespace
@@ -72,6 +74,9 @@ std::string summary_json(const Run& run) {
                                 "trace.json");
   for (const verify::FormComparison& form : run.forms)
     j["forms"].push_back(form_json(form));
+  j["in_short"] = words::as_json(words::in_short({run.calibration ? &*run.calibration : nullptr,
+                                                  run.verification ? &*run.verification : nullptr,
+                                                  run.traces, run.forms}))["lines"];
   j["directory"] = run.job.directory;
   j["files"] = run.workspace.files();
   return io::json_text(j);

@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 constexpr std::array slow_lengths = {0.025, 0.05, 0.1, 0.2, 0.4}; // of an experiment
 // of a standard deviation, relative to the residual's own
 constexpr double least_log = -8, most_log = 2;
-// Of the logarithms, about 0: costs 1e-4 of log likelihood over the whole range.
+// Prior of the logarithms, about 0: costs 1e-4 of log likelihood over the whole range.
 constexpr double prior_precision = 2e-6;
 
 // Shape of experiments: the number of blocks, and the white noise of each relative to the usual

@@ -27,7 +27,7 @@
 
 namespace frictab::stats {
 
-// What the criterion depends on.
+// Sums over the rows that give the criterion.
 struct RestrictedSums {
   Eigen::MatrixXd information; // A'WA + T^-1, of which only the lower triangle is read
   Eigen::VectorXd right;       // A'W y

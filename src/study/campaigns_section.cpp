@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
-#include "report/numbers.h"
 #include "report/svg.h"
 #include "study/page_sections.h"
 #include "study/row_plot.h"
+#include "words/numbers.h"
 
 namespace frictab::study {
 
@@ -38,7 +38,7 @@ std::string campaign_plot(const std::string& name, const CampaignResult& result,
   std::vector<PlotRow> rows;
   for (std::size_t i = 0; i < result.laws.size() && i < most_laws; ++i) {
     const LawResult& law = result.laws[i];
-    rows.push_back({law.law + " " + report::figures(law.mae_MPa), law.mae_MPa, law.mae_interval.low,
+    rows.push_back({law.law + " " + words::figures(law.mae_MPa), law.mae_MPa, law.mae_interval.low,
                     law.mae_interval.high, law.best_p_value < 0.05});
   }
   return row_plot(rows, axis, 200, "laws of campaign " + name,
@@ -49,29 +49,33 @@ std::string about_text(const Study& study, const Campaign& campaign, const Campa
   std::string text;
   for (std::size_t i = 0; i < campaign.factors.size(); ++i)
     if (!campaign.factors[i].empty()) text += study.factors[i] + " " + campaign.factors[i] + ", ";
-  return text + report::count_of(result.experiments, "test") +
+  return text + words::count_of(result.experiments, "test") +
          (result.synthetic ? ", synthetic" : "");
 }
 
 } // namespace
 
-void add_campaigns(TemplateValues& page, const Plan& plan, const Tally& tally) {
-  const svg::Axis axis = shared_axis(tally);
-  page.lists["campaigns"];
-  for (const Shown& one : tally.shown) {
-    const Campaign& campaign = plan.study.campaigns[one.campaign];
-    page.lists["campaigns"].push_back(
-        {{{"name", svg::escape(campaign.name)},
-          {"about", svg::escape(about_text(plan.study, campaign, one.result))},
-          {"plot", campaign_plot(campaign.name, one.result, axis)}},
-         {},
-         {}});
-  }
-  page.text["shown_text"] =
+words::Section first_campaigns(const Plan& plan, const Tally& tally) {
+  words::Section section{"campaigns", "Campaigns", "Campaigns"};
+  const std::string first =
       tally.counts.done > tally.shown.size()
           ? fmt::format("The first {} of {}, of each its first {} laws.",
                         thousands(tally.shown.size()), thousands(tally.counts.done), most_laws)
           : fmt::format("Of each its first {} laws.", most_laws);
+  section.say(
+      "Mean absolute error of each law with its 95 % interval, all on the same axis in MPa. "
+      "A disc: the best law, or one as good; a ring: another law is better. " +
+      first);
+  const svg::Axis axis = shared_axis(tally);
+  words::Pictures pictures{"strokes", {}};
+  for (const Shown& one : tally.shown) {
+    const Campaign& campaign = plan.study.campaigns[one.campaign];
+    pictures.pictures.push_back(
+        {campaign_plot(campaign.name, one.result, axis),
+         campaign.name + ": " + about_text(plan.study, campaign, one.result)});
+  }
+  section.add(std::move(pictures));
+  return section;
 }
 
 } // namespace frictab::study

@@ -16,7 +16,9 @@
 #include "io/json.h"
 #include "study/campaigns_csv.h"
 #include "study/law_order.h"
+#include "study/page_sections.h"
 #include "study/result_store.h"
+#include "words/render.h"
 
 namespace frictab::study {
 
@@ -115,10 +117,7 @@ std::string report_text(const Plan& plan, const Tally& tally) {
       fmt::format("{} campaigns: {} done, {} failed, {} missing{}\n", thousands(plan.keys.size()),
                   thousands(counts.done), thousands(counts.failed), thousands(counts.missing),
                   tally.synthetic > 0 ? " - SYNTHETIC data among them" : "");
-  for (const auto& [name, law] : laws_by_success(tally))
-    text +=
-        fmt::format("  {:<20} best in {:>7} of {:>7}, best or indistinguishable in {:>7}\n", name,
-                    thousands(law->best), thousands(law->campaigns), thousands(law->may_be_best));
+  text += words::as_text(laws_over_campaigns(tally));
   for (std::size_t i = 0; i < std::min(tally.failed.size(), most_listed); ++i)
     text += fmt::format("failed: {}: {}\n", plan.study.campaigns[tally.failed[i].campaign].name,
                         tally.failed[i].message);

@@ -1,4 +1,4 @@
-// report.html of a study: fills templates/report/study.html section by section.
+// report.html of a study.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -6,14 +6,13 @@
 #include <fmt/format.h>
 
 #include "core/no_value.h"
-#include "core/template.h"
 #include "core/text.h"
-#include "report/numbers.h"
-#include "report/sections.h"
+#include "report/page.h"
 #include "report/svg.h"
 #include "study/law_order.h"
 #include "study/page_sections.h"
 #include "study/report_study.h"
+#include "words/numbers.h"
 
 namespace frictab::study {
 
@@ -37,14 +36,16 @@ double quantile_of(std::vector<double> values, double p) {
   return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
-std::string verdict_text(const Plan& plan, const Tally& tally) {
+words::Text verdict_text(const Plan& plan, const Tally& tally) {
   if (tally.laws.empty()) return "No campaign has a result yet.";
   const auto [name, law] = laws_by_success(tally).front();
   const std::string judged = of_campaigns(law->may_be_best, tally.compared);
-  std::string text =
-      fmt::format("<strong>{}</strong> is best, or indistinguishable from the best, in "
-                  "{} campaigns that compare laws; it is best in {} of {}.",
-                  svg::escape(name), judged, thousands(law->best), thousands(law->campaigns));
+  words::Text text =
+      words::strong(name) +
+      fmt::format(
+          " is best, or indistinguishable from the best, in {} campaigns that compare laws; "
+          "it is best in {} of {}.",
+          judged, thousands(law->best), thousands(law->campaigns));
   if (tally.counts.missing > 0)
     text += fmt::format(" {} of {} campaigns are missing here.", thousands(tally.counts.missing),
                         thousands(plan.keys.size()));
@@ -60,7 +61,7 @@ std::string size_sentence(const Plan& plan, const Tally& tally) {
       stage_name(plan.study.stage));
   if (!plan.notes.empty())
     text += fmt::format(" {} are the same as another one and count once.",
-                        report::count_of(plan.notes.size(), "campaign"));
+                        words::count_of(plan.notes.size(), "campaign"));
   return text;
 }
 
@@ -71,49 +72,20 @@ std::string name_of(const std::string& study_file) {
   return file.filename() == "study.toml" && !folder.empty() ? folder : file.filename().string();
 }
 
-void add_head(TemplateValues& page, const Plan& plan, const Tally& tally) {
-  page.text["title"] = svg::escape(name_of(plan.study.file));
-  page.text["style"] = std::string(embedded_template("report/style.css"));
-  page.flags["synthetic"] = tally.synthetic > 0;
-  page.text["synthetic_text"] =
-      fmt::format("{} campaigns with results were not measured: their rows come from a simulated "
-                  "tribometer.",
-                  of_campaigns(tally.synthetic, tally.counts.done));
-  page.text["verdict"] = verdict_text(plan, tally);
-  page.text["counts"] = size_sentence(plan, tally);
-}
-
 std::string share_bar(const std::string& name, const LawTally& law, const svg::Axis& axis) {
   const calibrate::Interval interval = stats::share_interval(law.may_be_best, law.campaigns);
   const double share =
       100.0 * static_cast<double>(law.may_be_best) / static_cast<double>(law.campaigns);
   const std::string text =
-      fmt::format("{}: {} %, 95 % interval {} to {} %", name, report::fixed(share, 0),
-                  report::fixed(100 * interval.low, 0), report::fixed(100 * interval.high, 0));
+      fmt::format("{}: {} %, 95 % interval {} to {} %", name, words::fixed(share, 0),
+                  words::fixed(100 * interval.low, 0), words::fixed(100 * interval.high, 0));
   const svg::Bar bar{share, 100 * interval.low, 100 * interval.high, no_value, "#6595c4", text};
   return svg::bar(bar, axis, bar_width, bar_height);
 }
 
-void add_laws(TemplateValues& page, const Tally& tally) {
-  const svg::Axis axis = svg::nice_axis(0, 100, 4, "%");
-  page.text["scale"] = svg::bar_scale(axis, bar_width, bar_height);
-  std::vector<TemplateValues>& rows = page.lists["laws"];
-  for (const auto& [name, law] : laws_by_success(tally))
-    rows.push_back({{{"name", svg::escape(name)},
-                     {"campaigns", thousands(law->campaigns)},
-                     {"best", thousands(law->best)},
-                     {"may_be_best", thousands(law->may_be_best)},
-                     {"bar", share_bar(name, *law, axis)},
-                     {"median", report::figures(quantile_of(law->mae_MPa, 0.5))},
-                     {"range", report::figures(quantile_of(law->mae_MPa, 0.05)) + " to " +
-                                   report::figures(quantile_of(law->mae_MPa, 0.95))}},
-                    {},
-                    {}});
-}
-
 std::string found_by_factor(const EffectTally& effect, const Tally& tally,
                             const std::vector<FactorLevels>& factors) {
-  std::string text;
+  std::vector<std::string> parts;
   for (const FactorLevels& factor : factors) {
     std::vector<std::size_t> found(factor.levels.size() + 1), all(found.size());
     for (const std::size_t campaign : tally.traced_campaigns)
@@ -121,37 +93,39 @@ std::string found_by_factor(const EffectTally& effect, const Tally& tally,
     for (const std::size_t campaign : effect.campaigns)
       ++found[factor.level_of[campaign]];
     for (std::size_t level = 0; level < factor.levels.size(); ++level)
-      text +=
-          fmt::format("<span class=\"parameter\">{} {}: {}</span>", svg::escape(factor.name),
-                      svg::escape(factor.levels[level]), of_campaigns(found[level], all[level]));
+      parts.push_back(fmt::format("{} {}: {}", factor.name, factor.levels[level],
+                                  of_campaigns(found[level], all[level])));
   }
-  return text;
+  return join(parts, ", ");
 }
 
 std::string forms_text(const EffectTally& effect) {
-  std::string text;
+  std::vector<std::string> parts;
   for (const auto& [form, count] : effect.forms)
-    text += (text.empty() ? "" : ", ") + svg::escape(form) + " " + thousands(count);
-  return text;
+    parts.push_back(form + " " + thousands(count));
+  return join(parts, ", ");
 }
 
-TemplateValues effect_row(const std::string& column, const EffectTally& effect, const Tally& tally,
-                          const std::vector<FactorLevels>& factors) {
+words::Row effect_row(const std::string& column, const EffectTally& effect, const Tally& tally,
+                      const std::vector<FactorLevels>& factors) {
   const std::size_t count = effect.campaigns.size(), of = tally.traced_campaigns.size();
   const calibrate::Interval share = stats::share_interval(count, of);
-  return {{{"name", svg::escape(column)},
-           {"count", of_campaigns(count, of)},
-           {"share", fmt::format("{} to {} %", report::fixed(100 * share.low, 0),
-                                 report::fixed(100 * share.high, 0))},
-           {"gain", report::figures(quantile_of(effect.gain_MPa, 0.5))},
-           {"forms", forms_text(effect)},
-           {"factors", found_by_factor(effect, tally, factors)}},
-          {},
-          {}};
+  return {{column, of_campaigns(count, of),
+           fmt::format("{} to {} %", words::fixed(100 * share.low, 0),
+                       words::fixed(100 * share.high, 0)),
+           words::figures(quantile_of(effect.gain_MPa, 0.5)), forms_text(effect),
+           found_by_factor(effect, tally, factors)}};
 }
 
-void add_effects(TemplateValues& page, const Tally& tally,
-                 const std::vector<FactorLevels>& factors) {
+words::Section effects_over_campaigns(const Tally& tally,
+                                      const std::vector<FactorLevels>& factors) {
+  words::Section section{"effects", "Effects", "Effects that the laws lack"};
+  const std::size_t traced = tally.traced_campaigns.size();
+  if (tally.effects.empty()) {
+    section.say(traced == 0 ? std::string("No campaign was traced.")
+                            : "None was found in " + thousands(traced) + " campaigns.");
+    return section;
+  }
   using Entry = std::pair<std::string, const EffectTally*>;
   std::vector<Entry> order;
   for (const auto& [column, effect] : tally.effects)
@@ -159,55 +133,120 @@ void add_effects(TemplateValues& page, const Tally& tally,
   std::stable_sort(order.begin(), order.end(), [](const Entry& a, const Entry& b) {
     return a.second->campaigns.size() > b.second->campaigns.size();
   });
+  section.say(fmt::format("{} campaigns were traced. Gain: of the mean absolute error on unseen "
+                          "tests.",
+                          thousands(traced)));
+  words::Table table{"Effects",
+                     {{"column"},
+                      {"found in", true},
+                      {"share, 95 %", true},
+                      {"median gain, MPa", true},
+                      {"forms"},
+                      {"by factor"}},
+                     {}};
   for (const auto& [column, effect] : order)
-    page.lists["effects"].push_back(effect_row(column, *effect, tally, factors));
-  page.flags["has_effects"] = !order.empty();
-  page.text["effects_text"] =
-      fmt::format("{} campaigns were traced. Gain: of the mean absolute error on unseen tests.",
-                  thousands(tally.traced_campaigns.size()));
-  page.text["no_effects"] =
-      tally.traced_campaigns.empty()
-          ? "No campaign was traced."
-          : "None was found in " + thousands(tally.traced_campaigns.size()) + " campaigns.";
+    table.rows.push_back(effect_row(column, *effect, tally, factors));
+  section.add(std::move(table));
+  return section;
 }
 
-constexpr std::size_t most_failures = 100;
-
-void add_failures(TemplateValues& page, const Plan& plan, const Tally& tally) {
-  std::vector<TemplateValues>& rows = page.lists["failures"];
+words::Section failures(const Plan& plan, const Tally& tally) {
+  constexpr std::size_t most = 100;
+  words::Section section{"failures", "Failures", "Failures and targets missed"};
+  words::Table table{"Failures", {{"campaign"}, {"what"}, {"message"}}, {}};
   const auto add = [&](std::size_t campaign, const char* what, const std::string& message) {
-    if (rows.size() < most_failures)
-      rows.push_back({{{"campaign", svg::escape(plan.study.campaigns[campaign].name)},
-                       {"what", what},
-                       {"message", svg::escape(message)}},
-                      {},
-                      {}});
+    if (table.rows.size() < most)
+      table.rows.push_back({{plan.study.campaigns[campaign].name, what, message}});
   };
   for (const FailedCampaign& one : tally.failed)
     add(one.campaign, "failed", one.message);
   for (const auto& [campaign, message] : tally.missed)
     add(campaign, "target missed", message);
-  page.flags["has_failures"] = !rows.empty();
-  const std::size_t more = tally.failed.size() + tally.missed.size() - rows.size();
-  page.lists["failure_notes"];
+  const std::size_t more = tally.failed.size() + tally.missed.size() - table.rows.size();
+  if (table.rows.empty())
+    section.say("None.");
+  else
+    section.add(std::move(table));
   if (more > 0)
-    page.lists["failure_notes"].push_back(
-        item(fmt::format("And {} more, in campaigns.csv.", thousands(more))));
+    section.say(fmt::format("And {} more, in campaigns.csv.", thousands(more)), "small");
+  return section;
+}
+
+words::Section files_of_study() {
+  words::Section section{"files", "Files", "Files"};
+  section.say(words::link("campaigns.csv", "./campaigns.csv") +
+              " has a row per campaign and law, with parameters and standard errors; " +
+              words::code("results/KEY/") + " what the stages wrote of each campaign.");
+  return section;
+}
+
+// The page's table, with a bar for the share of campaigns.
+words::Section laws_with_bars(const Tally& tally) {
+  words::Section section = laws_over_campaigns(tally);
+  words::Table& table = section.table();
+  constexpr std::size_t bar_column = 4;
+  const svg::Axis axis = svg::nice_axis(0, 100, 4, "%");
+  words::Column bars{"share", false, "", words::Shown::in_html, "bars"};
+  bars.picture = svg::bar_scale(axis, bar_width, bar_height);
+  table.columns.insert(table.columns.begin() + bar_column, std::move(bars));
+  std::size_t row = 0;
+  for (const auto& [name, law] : laws_by_success(tally)) {
+    words::Cell bar;
+    bar.picture = share_bar(name, *law, axis);
+    std::vector<words::Cell>& cells = table.rows[row++].cells;
+    cells.insert(cells.begin() + bar_column, std::move(bar));
+  }
+  return section;
 }
 
 } // namespace
 
+words::Section laws_over_campaigns(const Tally& tally) {
+  words::Section section{"laws", "Laws", "Which law, how often"};
+  section.say("Best: the smallest mean absolute error on tests not trained on. Indistinguishable "
+              "from it: the p-value of \"no law has a smaller error\" is at least 0.05 in that "
+              "campaign. Bars: share of campaigns where the law is best or as good, with "
+              "its 95 % interval (Wilson).",
+              "", words::Shown::on_pages);
+  words::Table table{"Which law, how often",
+                     {{"law"},
+                      {"campaigns", true},
+                      {"best in", true},
+                      {"best, or as good", true},
+                      {"median MAE, MPa", true},
+                      {"5 % to 95 % of campaigns", true}},
+                     {}};
+  for (const auto& [name, law] : laws_by_success(tally))
+    table.rows.push_back(
+        {{name, thousands(law->campaigns), thousands(law->best), thousands(law->may_be_best),
+          words::figures(quantile_of(law->mae_MPa, 0.5)),
+          words::figures(quantile_of(law->mae_MPa, 0.05)) + " to " +
+              words::figures(quantile_of(law->mae_MPa, 0.95))}});
+  section.add(std::move(table));
+  return section;
+}
+
 std::string study_html(const Plan& plan, const Tally& tally) {
-  TemplateValues page;
   std::vector<std::string> notes;
   const std::vector<FactorLevels> factors = factors_of(plan.study, notes);
-  add_head(page, plan, tally);
-  add_laws(page, tally);
-  add_parameters(page, plan, tally, factors, notes);
-  add_effects(page, tally, factors);
-  add_failures(page, plan, tally);
-  add_campaigns(page, plan, tally);
-  return render_template("report/study.html", page);
+  words::Section first{"verdict", "", "In short"};
+  first.say(verdict_text(plan, tally), "verdict");
+  first.say(size_sentence(plan, tally));
+  report::Page page{name_of(plan.study.file),
+                    "Study: many campaigns, one job",
+                    {},
+                    std::move(first),
+                    {laws_with_bars(tally), parameters_over_campaigns(tally, factors, notes),
+                     effects_over_campaigns(tally, factors), outlying_campaigns(plan, tally),
+                     failures(plan, tally), first_campaigns(plan, tally), files_of_study()}};
+  if (tally.synthetic > 0)
+    page.warnings.push_back(
+        words::strong("Synthetic data.") +
+        fmt::format(
+            " {} campaigns with results were not measured: their rows come from a simulated "
+            "tribometer.",
+            of_campaigns(tally.synthetic, tally.counts.done)));
+  return report::html_of(page);
 }
 
 } // namespace frictab::study

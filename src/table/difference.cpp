@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/column_width.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/text_table.h"
 #include "data/quantity.h"
 #include "io/json.h"
 #include "table/drift.h"
@@ -174,17 +174,13 @@ TableDifference difference(const Table& a, const Table& b, const FixedStates& he
 }
 
 std::string difference_text(const TableDifference& d, const std::array<std::string, 2>& names) {
-  std::string state, range;
-  std::vector<std::string> names_of_states;
-  for (const auto& one : d.ranges)
-    names_of_states.push_back(one.name);
-  const std::size_t width = column_width(names_of_states);
+  std::string state;
+  std::vector<std::vector<std::string>> range;
   for (std::size_t i = 0; i < d.ranges.size(); ++i) {
-    state += fmt::format("{}{}={}", i ? " " : "", d.ranges[i].name, shortest(d.worst[i]));
-    range += d.ranges[i].why == "held"
-                 ? fmt::format("  {:<{}}{:g}, held\n", d.ranges[i].name, width, d.ranges[i].low)
-                 : fmt::format("  {:<{}}{:g} .. {:g}\n", d.ranges[i].name, width, d.ranges[i].low,
-                               d.ranges[i].high);
+    const auto& one = d.ranges[i];
+    state += fmt::format("{}{}={}", i ? " " : "", one.name, shortest(d.worst[i]));
+    range.push_back({one.name, one.why == "held" ? fmt::format("{:g}, held", one.low)
+                                                 : fmt::format("{:g} .. {:g}", one.low, one.high)});
   }
   std::string text = fmt::format("Difference of tau_R at {} states of the common range, MPa:\n",
                                  thousands(d.states));
@@ -192,7 +188,7 @@ std::string difference_text(const TableDifference& d, const std::array<std::stri
                       d.tau_MPa[1], state.empty() ? "" : " at " + state);
   text += fmt::format("  p99   {:.4g}\n  rms   {:.4g}\n  mean  {:.4g}\n", d.drift.p99, d.drift.rms,
                       d.drift.mean_abs);
-  if (!range.empty()) text += "Common range:\n" + range;
+  if (!range.empty()) text += "Common range:\n" + text_table(range, {});
   for (std::size_t i = 0; i < 2; ++i)
     text += fmt::format("Only in {}: {:.2f} % of its range\n", names[i], 100 * d.outside[i]);
   return text;

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/column_width.h"
 #include "core/text.h"
+#include "core/text_table.h"
 #include "data/quantity.h"
 #include "io/json.h"
 #include "table/beyond_data.h"
@@ -47,34 +47,40 @@ std::string worst_state(const Table& table) {
   return text;
 }
 
+std::string axis_text(const Table& table, const TableAxis& axis) {
+  const data::Quantity* known = data::find_quantity(axis.name);
+  std::string text =
+      fmt::format("{:g} .. {:g}{}, {} nodes, {} in {}{}", axis.nodes.front(), axis.nodes.back(),
+                  axis.unit == "1" ? "" : " " + axis.unit, axis.nodes.size(), spacing_of(axis),
+                  axis.log ? "ln " : "", known ? known->symbol : axis.name);
+  for (std::size_t i = 0; i < axis.kinks.size(); ++i)
+    text += fmt::format("{} {:g}", i ? "," : "; kinks at", axis.kinks[i]);
+  if (axis.below != Outside::clamp || axis.above != Outside::clamp)
+    text += fmt::format("; outside: {} below, {} above", outside_name(axis.below),
+                        outside_name(axis.above));
+  if (const std::string beyond = beyond_data_text(axis); !beyond.empty()) text += "; " + beyond;
+  if (const auto held = table.record.input(axis.name).held_why) text += "; " + *held;
+  return text;
+}
+
+std::string input_text(const Table& table, const std::string& name) {
+  const auto range = table.range(name);
+  const InputRecord& input = table.record.input(name);
+  const std::string unit = input.unit.value_or(""), levels = input.levels.value_or("");
+  return fmt::format(
+      "no axis{}{}{}",
+      range ? fmt::format(", verified from {:g} to {:g}", range->first, range->second) : "",
+      unit.empty() || unit == "1" ? "" : " " + unit, levels.empty() ? "" : "; " + levels);
+}
+
 void add_axes(std::string& out, const Table& table) {
   out += table.axes.empty() ? "Axes: none, the value is a constant\n" : "Axes:\n";
-  const std::size_t width = column_width(table.inputs());
-  for (const TableAxis& axis : table.axes) {
-    const data::Quantity* known = data::find_quantity(axis.name);
-    out += fmt::format("  {:<{}}{:g} .. {:g}{}, {} nodes, {} in {}{}", axis.name, width,
-                       axis.nodes.front(), axis.nodes.back(),
-                       axis.unit == "1" ? "" : " " + axis.unit, axis.nodes.size(), spacing_of(axis),
-                       axis.log ? "ln " : "", known ? known->symbol : axis.name);
-    for (std::size_t i = 0; i < axis.kinks.size(); ++i)
-      out += fmt::format("{} {:g}", i ? "," : "; kinks at", axis.kinks[i]);
-    if (axis.below != Outside::clamp || axis.above != Outside::clamp)
-      out += fmt::format("; outside: {} below, {} above", outside_name(axis.below),
-                         outside_name(axis.above));
-    if (const std::string beyond = beyond_data_text(axis); !beyond.empty()) out += "; " + beyond;
-    if (const auto held = table.record.input(axis.name).held_why) out += "; " + *held;
-    out += "\n";
-  }
+  std::vector<std::vector<std::string>> rows;
+  for (const TableAxis& axis : table.axes)
+    rows.push_back({axis.name, axis_text(table, axis)});
   for (const std::string& name : table.inputs())
-    if (!find_axis(table, name)) {
-      const auto range = table.range(name);
-      const InputRecord& input = table.record.input(name);
-      const std::string unit = input.unit.value_or(""), levels = input.levels.value_or("");
-      out += fmt::format(
-          "  {:<{}}no axis{}{}{}\n", name, width,
-          range ? fmt::format(", verified from {:g} to {:g}", range->first, range->second) : "",
-          unit.empty() || unit == "1" ? "" : " " + unit, levels.empty() ? "" : "; " + levels);
-    }
+    if (!find_axis(table, name)) rows.push_back({name, input_text(table, name)});
+  out += text_table(rows, {});
 }
 
 void add_drift(std::string& out, const Table& table) {

@@ -11,9 +11,9 @@
 
 #include "codegen/compile.h"
 #include "codegen/exporter.h"
-#include "core/column_width.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/text_table.h"
 #include "table/direct.h"
 #include "table/drift.h"
 
@@ -152,29 +152,25 @@ std::string forms_in_short(const std::vector<FormComparison>& comparisons) {
 
 namespace {
 
-std::string figures(const FormFigures& f, bool measured) {
-  return fmt::format("{:>10}{:>10}{:>9}", human_bytes(static_cast<double>(f.bytes)),
-                     measured || f.drift_MPa > 0 ? fmt::format("{:.2g}", f.drift_MPa) : "-",
-                     measured ? fmt::format("{:.1f}", f.ns_per_query) : "-");
+void add_figures(std::vector<std::string>& row, const FormFigures& f, bool measured) {
+  row.push_back(human_bytes(static_cast<double>(f.bytes)));
+  row.push_back(measured || f.drift_MPa > 0 ? fmt::format("{:.2g}", f.drift_MPa) : "-");
+  row.push_back(measured ? fmt::format("{:.1f}", f.ns_per_query) : "-");
 }
 
 } // namespace
 
 std::string forms_text(const std::vector<FormComparison>& comparisons) {
-  std::vector<std::string> names;
-  for (const FormComparison& c : comparisons)
-    names.push_back(c.model);
-  const std::size_t width = column_width(names);
-  std::string out = fmt::format(
-      "Table or the law itself, as generated C on this machine (no file holds these times):\n"
-      "  {:<{}}{:>10}{:>10}{:>9}{:>13}{:>10}{:>9}\n",
-      "", width, "table", "MPa off", "ns", "law itself", "MPa off", "ns");
+  std::vector<std::vector<std::string>> rows = {
+      {"law", "table", "MPa off", "ns", "law itself", "MPa off", "ns", ""}};
   for (const FormComparison& c : comparisons) {
-    const bool measured = c.why_not.empty();
-    out += fmt::format("  {:<{}}{}   {}   {}\n", c.model, width, figures(c.table, measured),
-                       figures(c.direct, measured), form_verdict(c));
+    rows.push_back({c.model});
+    add_figures(rows.back(), c.table, c.why_not.empty());
+    add_figures(rows.back(), c.direct, c.why_not.empty());
+    rows.back().push_back(form_verdict(c));
   }
-  return out;
+  return "Table or the law itself, as generated C on this machine (no file holds these times):\n" +
+         text_table(rows, {false, true, true, true, true, true, true});
 }
 
 } // namespace frictab::verify

@@ -104,10 +104,6 @@ struct Verification {
     return static_cast<std::size_t>(
         std::count_if(records.begin(), records.end(), [](const DriftRecord& r) { return !r.ran; }));
   }
-  bool any_over_law_error() const {
-    return std::any_of(records.begin(), records.end(),
-                       [](const DriftRecord& r) { return r.ran && r.over_law_error; });
-  }
   // True if nothing failed; subjects counted by untested() do not fail.
   bool passed() const {
     for (const DriftRecord& record : records)

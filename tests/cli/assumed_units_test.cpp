@@ -75,7 +75,7 @@ TEST_F(AssumedUnits, AreAnErrorBesideTheFlowStressWhereAnotherOneFits) {
                       HasSubstr("allow_implausible = [\"flow_stress\"]")));
   }
   EXPECT_THAT(data().out, HasSubstr("unit not given: no unit is given for 'Load'"));
-  EXPECT_THAT(directory.read("out/data.html"), HasSubstr("Unit not given"));
+  EXPECT_THAT(directory.read("out/data.html"), HasSubstr("unit not given: "));
   const auto json =
       test::parse_json(run_frictab({"data", "job.toml", "--json"}, directory.path()).out);
   EXPECT_THAT(json.at("units_not_given").at(0).get<std::string>(), HasSubstr("in kN"));

@@ -64,8 +64,8 @@ TEST_F(CombineCommand, WritesAUserFileThatVerifyProvesUntilSomebodySwapsTheLaws)
 
   const CommandResult proof = run({"verify", "--combined", "user"});
   EXPECT_EQ(proof.exit_code, 0) << proof.err;
-  EXPECT_THAT(proof.out, testing::ContainsRegex("PUNCH: oil .*<= 0\\.2   ok\n"));
-  EXPECT_THAT(proof.out, testing::ContainsRegex("DIE: soap .*<= 0\\.2   ok\n"));
+  EXPECT_THAT(proof.out, testing::ContainsRegex("PUNCH: oil .*<= 0\\.2  ok\n"));
+  EXPECT_THAT(proof.out, testing::ContainsRegex("DIE: soap .*<= 0\\.2  ok\n"));
   EXPECT_EQ(run({"verify", "--combined", "user", "--max-drift-MPa", "0.1"}).exit_code, 1)
       << "with the table's own drift";
 

@@ -53,33 +53,36 @@ TEST_F(DataCommand, ShowsEachTestAndWhatWasDoneToIt) {
   const CommandResult result = run_frictab({"data", "job.toml"}, directory.path());
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "wrote data.html to out\n");
-  EXPECT_EQ(result.out,
-            "test  use       rows  mean mu  tau_R/k  time_s  sigma_n_MPa  v_rel_mm_s    s_mm  "
-            "tau_R_MPa\n"
-            "K1    train       41    0.100        -    0..4     100..140        31.4  0..126  "
-            "   10..14\n"
-            "K2    train       41    0.200        -    0..4     100..140        31.4  0..126  "
-            "   20..28\n"
-            "K3    validate    41    0.300        -    0..4     100..140        31.4  0..126  "
-            "   30..42\n"
-            "\n"
-            "read: F_N_N: kN as the file says, taken as N\n"
-            "read: tests.csv: batch, by test\n"
-            "read: joined by time_s: sigma_n_MPa\n"
-            "read: of data.join not taken, the rows have their own: F_N_N\n"
-            "read: v_rel_mm_s = rpm*2*pi*5/60\n"
-            "read: tau_R_MPa = F_R_N/F_N_N * sigma_n_MPa (eq. 1)\n"
-            "read: s_mm integrated from v_rel_mm_s and time_s\n"
-            "unit not given: no unit is given for 'p', taken as MPa: sigma_n_MPa is 121; in kPa "
-            "0.121, in kgf/mm2 1,190, in bar 12.1. Say which one where it is mapped: sigma_n_MPa = "
-            "{ column = \"p\", unit = \"MPa\", ... }\n"
-            "in none of the data: tests.csv: K4\n"
-            "\n"
-            "column  role   why\n"
-            "rpm     state  v_rel_mm_s is computed from it\n"
-            "batch   label  2 levels\n"
-            "\n"
-            "82 rows of 2 experiments to train, 41 rows of 1 experiment to validate\n");
+  EXPECT_EQ(result.out, "Tests:\n"
+                        "  test  use       rows  mean mu  mean tau_R/k  time_s  sigma_n_MPa  "
+                        "v_rel_mm_s      s_mm  tau_R_MPa\n"
+                        "  K1    train       41    0.100             -  0 to 4   100 to 140        "
+                        "31.4  0 to 126   10 to 14\n"
+                        "  K2    train       41    0.200             -  0 to 4   100 to 140        "
+                        "31.4  0 to 126   20 to 28\n"
+                        "  K3    validate    41    0.300             -  0 to 4   100 to 140        "
+                        "31.4  0 to 126   30 to 42\n"
+                        "\n"
+                        "Other columns:\n"
+                        "  column  role   why\n"
+                        "  rpm     state  v_rel_mm_s is computed from it\n"
+                        "  batch   label  2 levels\n"
+                        "\n"
+                        "Data:\n"
+                        "  82 rows of 2 experiments to train, 41 rows of 1 experiment to validate\n"
+                        "  files: rig/K1.csv and rig/K2.csv\n"
+                        "  files: rig/K3.csv\n"
+                        "  read: F_N_N: kN as the file says, taken as N\n"
+                        "  read: tests.csv: batch, by test\n"
+                        "  read: joined by time_s: sigma_n_MPa\n"
+                        "  read: of data.join not taken, the rows have their own: F_N_N\n"
+                        "  read: v_rel_mm_s = rpm*2*pi*5/60\n"
+                        "  read: tau_R_MPa = F_R_N/F_N_N * sigma_n_MPa (eq. 1)\n"
+                        "  read: s_mm integrated from v_rel_mm_s and time_s\n"
+                        "  unit not given: no unit is given for 'p', taken as MPa: sigma_n_MPa is "
+                        "121; in kPa 0.121, in kgf/mm2 1,190, in bar 12.1. Say which one where it "
+                        "is mapped: sigma_n_MPa = { column = \"p\", unit = \"MPa\", ... }\n"
+                        "  in none of the data: tests.csv: K4\n");
   const std::string page = directory.read("out/data.html");
   for (const char* text : {"test K1", "test K3", "F_N_N: kN as the file says", "tests.csv: K4"})
     EXPECT_THAT(page, HasSubstr(text));
@@ -106,11 +109,11 @@ TEST_F(DataCommand, WritesTheDataInCanonicalNamesThatReadBackTheSame) {
   const CommandResult again =
       run_frictab({"data", "job.toml", "--write", "hdf5", "-q"}, directory.path("out"));
   EXPECT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_THAT(again.out, HasSubstr("    0.100        -    0..4     100..140        31.4"));
+  EXPECT_THAT(again.out, HasSubstr("    0.100             -  0 to 4   100 to 140        31.4"));
   directory.write("out/job.toml", "[data]\ntraining = \"out/data.h5\"\n");
   const CommandResult hdf5 = run_frictab({"data", "job.toml", "-q"}, directory.path("out"));
   EXPECT_EQ(hdf5.exit_code, 0) << hdf5.err;
-  EXPECT_THAT(hdf5.out, HasSubstr("    0.100        -    0..4     100..140        31.4"));
+  EXPECT_THAT(hdf5.out, HasSubstr("    0.100             -  0 to 4   100 to 140        31.4"));
 }
 
 TEST_F(DataCommand, ShowsImplausibleDataAndFails) {
@@ -123,7 +126,8 @@ TEST_F(DataCommand, ShowsImplausibleDataAndFails) {
   EXPECT_THAT(
       result.out,
       HasSubstr("4 rows of 2 experiments, each experiment judged by laws fitted without it"));
-  EXPECT_THAT(directory.read("out/data.html"), HasSubstr("No rig measures this."));
+  EXPECT_THAT(directory.read("out/data.html"),
+              HasSubstr("<strong>No rig measures this:</strong> sigma_n_MPa is"));
 }
 
 } // namespace

@@ -157,7 +157,7 @@ F_N_N = "Normalkraft"                        # first values: 20, 20.1, 20.2; in 
   EXPECT_THAT(job, Not(HasSubstr("[[data.files]]"))) << "all are read alike";
   const Read found = read();
   EXPECT_EQ(found.tests, "versuch_1 30, versuch_2 30, versuch_3 30, versuch_4 30");
-  EXPECT_THAT(found.text, HasSubstr("1,300..1,445")) << found.text;
+  EXPECT_THAT(found.text, HasSubstr("1,300 to 1,445")) << found.text;
 }
 
 TEST_F(InitFrom, SkipsAPreambleThatHoldsANameOfAColumnItself) {

@@ -34,7 +34,7 @@ TEST_F(LawCommand, WritesRoutineTableAndModelOfALawWithKnownConstants) {
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr("out/c/frictab_tau_R.c\n"));
   EXPECT_THAT(made.out, HasSubstr("out/orowan.h5\nout/orowan.json\n"));
-  EXPECT_THAT(made.out, testing::ContainsRegex("orowan +0 +<1e-9 .* ok\n"));
+  EXPECT_THAT(made.out, testing::ContainsRegex("orowan +0 +< 1e-9 .* ok\n"));
   EXPECT_THAT(directory.read("out/c/recipe.json"), HasSubstr("none: constants given by hand"));
   const CommandResult sliced = run({"table", "slice", "out/orowan.h5", "--along", "sigma_n_MPa",
                                     "--at", "sigma_f_MPa=600", "--points", "2"});
@@ -129,15 +129,15 @@ TEST_F(LawCommand, VerifySaysWhereTheProofIsOverTheTolerance) {
   const std::string between = fmt::format("{}", found * (1 + 1e-6)); // the proof cannot follow
   const CommandResult plain = verify({"--max-drift-MPa", between});
   EXPECT_EQ(plain.exit_code, 0);
-  EXPECT_THAT(plain.out, HasSubstr("   ok as found, over tolerance by proof\n"));
+  EXPECT_THAT(plain.out, HasSubstr("  ok as found, over tolerance by proof\n"));
   const CommandResult strict =
       verify({"--max-drift-MPa", between, "--require-proof", "--junit", "proof.xml"});
   EXPECT_EQ(strict.exit_code, 1);
-  EXPECT_THAT(strict.out, HasSubstr("   OVER TOLERANCE BY PROOF\n"));
+  EXPECT_THAT(strict.out, HasSubstr("  OVER TOLERANCE BY PROOF\n"));
   EXPECT_THAT(directory.read("proof.xml"), HasSubstr("failures=\"1\""));
   EXPECT_THAT(directory.read("proof.xml"), HasSubstr(" MPa proven; allowed "));
   EXPECT_THAT(verify({"--max-drift-MPa", fmt::format("{}", 0.5 * found), "--require-proof"}).out,
-              HasSubstr("   OVER TOLERANCE\n"))
+              HasSubstr("  OVER TOLERANCE\n"))
       << "what is found is enough";
 }
 

@@ -122,9 +122,9 @@ from_name = '(?<steel>[^/_]+)_(?<radius_mm>\d+)mm'
   EXPECT_NEAR(span(test, "v_rel_mm_s")[0], 90 * 2 * M_PI / 60 * 10, 1e-9);
   EXPECT_THAT(span(test, "sigma_n_MPa"), ElementsAre(18.75, 18.75));
   EXPECT_THAT(span(test, "time_s"), ElementsAre(0, 149.5));
-  EXPECT_THAT(said,
-              HasSubstr("Speed [rpm]  state  v_rel_mm_s is computed from it\nradius_mm    state  "
-                        "v_rel_mm_s is computed from it\nsteel        label  2 levels\n"));
+  EXPECT_THAT(
+      said, HasSubstr("  Speed [rpm]  state  v_rel_mm_s is computed from it\n  radius_mm    state  "
+                      "v_rel_mm_s is computed from it\n  steel        label  2 levels\n"));
   calibrate();
 }
 
@@ -169,9 +169,9 @@ sigma_n_MPa = 40
   EXPECT_NEAR(test["mean_mu"].get<double>(), (0.94 * (1 - 0.06 * 321 / cycles)) / 8, 1e-3);
   EXPECT_THAT(
       said,
-      HasSubstr(
-          "Cycle         channel  varies within tests, measured along with friction\nadditive_pct  "
-          "setting  one value per test, 4 of them\nchip          label    3 levels\n"));
+      HasSubstr("  Cycle         channel  varies within tests, measured along with friction\n  "
+                "additive_pct "
+                " setting  one value per test, 4 of them\n  chip          label    3 levels\n"));
   calibrate();
 }
 

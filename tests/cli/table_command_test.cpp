@@ -75,10 +75,10 @@ protected:
 TEST_F(TableCommand, InfoDescribesATable) {
   EXPECT_EQ(out({"info", "a.h5"}), "a.h5: table of small\n"
                                    "Axes:\n"
-                                   "  psi           1 .. 4, 3 nodes, even in ln psi\n"
-                                   "  v_rel_mm_s    10 .. 20 mm/s, 2 nodes, even in v_rel\n"
-                                   "  sigma_n_MPa   no axis, verified from 500 to 2500\n"
-                                   "  sigma_f_MPa   no axis, verified from 200 to 800\n"
+                                   "  psi          1 .. 4, 3 nodes, even in ln psi\n"
+                                   "  v_rel_mm_s   10 .. 20 mm/s, 2 nodes, even in v_rel\n"
+                                   "  sigma_n_MPa  no axis, verified from 500 to 2500\n"
+                                   "  sigma_f_MPa  no axis, verified from 200 to 800\n"
                                    "Value: mu, linear\n"
                                    "tau_R_MPa = minimum(value*sigma_n_MPa, m*(0.5*sigma_f_MPa))\n"
                                    "  m = 0.8\n"
@@ -202,8 +202,8 @@ TEST_F(TableCommand, DiffFindsTheLargestDifferenceAndWhereItIs) {
   EXPECT_THAT(text, StartsWith("Difference of tau_R at 200,021 states of the common range, MPa:\n"
                                "  max   10 (100 and 110) at sigma_n_MPa=1000 psi=2 v_rel_mm_s=20 "
                                "sigma_f_MPa=400\n"));
-  EXPECT_THAT(text, HasSubstr("Common range:\n  sigma_n_MPa   1000, held\n  psi           1 .. 2\n"
-                              "  v_rel_mm_s    10 .. 20\n  sigma_f_MPa   400, held\n"
+  EXPECT_THAT(text, HasSubstr("Common range:\n  sigma_n_MPa  1000, held\n  psi          1 .. 2\n"
+                              "  v_rel_mm_s   10 .. 20\n  sigma_f_MPa  400, held\n"
                               "Only in a.h5: 50.00 % of its range\n"
                               "Only in b.h5: 0.00 % of its range\n"));
   arguments.insert(arguments.end(), {"--max-MPa", "9.9"});

@@ -83,7 +83,7 @@ TEST_F(TracedLawCommands, GoFromTheModelToRoutinesThatAreVerified) {
   EXPECT_THAT(directory.read("out/report.html"), HasSubstr("log_coulomb_traced"));
   const auto info =
       run_frictab({"table", "info", directory.path("out/tables/log_coulomb_traced.h5")});
-  EXPECT_THAT(info.out, HasSubstr("humidity_pct  no axis, verified from 30 to 60"));
+  EXPECT_THAT(info.out, HasSubstr("humidity_pct   no axis, verified from 30 to 60"));
 }
 
 TEST_F(TracedLawCommands, VerifyOneTableOnDataThatHaveItsColumns) {

@@ -151,7 +151,7 @@ TEST(Deliver, SaysWhatIsDeliveredAndWhatToExpectOfIt) {
   const calibrate::Metrics& m = c.fits.front().on_all->validation;
   const std::string said = fmt::format(
       "delivered are the laws fitted again to all 30 experiments; on new tests expect {:.2f} MPa "
-      "({:.2f} .. {:.2f}) of exp_coulomb, cross-validated by experiment in 10 folds; the errors "
+      "({:.2f} to {:.2f}) of exp_coulomb, cross-validated by experiment in 10 folds; the errors "
       "above are of the fits to the 24 experiments of the training alone",
       m.mae_MPa, m.mae_interval.low, m.mae_interval.high);
   EXPECT_EQ(delivery_sentence(c, 2), said);

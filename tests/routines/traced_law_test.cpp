@@ -82,8 +82,8 @@ TEST(TracedLaw, TableFileReadsBackToTheSameBits) {
   EXPECT_TRUE(again.record == table.record);
   const std::string info =
       table::info_text(table::read_description(directory.path("t.h5")), "t.h5");
-  EXPECT_THAT(info, HasSubstr("tool          no axis, verified from 0 to 2; 0 = A, 1 = B, 2 = C"));
-  EXPECT_THAT(info, HasSubstr("friction_work no axis, verified from 0 to "));
+  EXPECT_THAT(info, HasSubstr("tool           no axis, verified from 0 to 2; 0 = A, 1 = B, 2 = C"));
+  EXPECT_THAT(info, HasSubstr("friction_work  no axis, verified from 0 to "));
 }
 
 TEST(SlowTracedLaw, OthersRebuildTauFromTheAttributesAlone) {

@@ -4,9 +4,9 @@
 
 #include "calibrate/fit_law.h"
 #include "support/gain_campaign.h"
+#include "support/trace_text.h"
 #include "trace/columns/aliases.h"
 #include "trace/trace_file.h"
-#include "trace/trace_text.h"
 
 namespace frictab::aliases_test {
 
@@ -123,9 +123,9 @@ TEST(Aliases, StandBesideNothingWasFound) {
   trace::Trace t;
   t.model = "wzl";
   t.cannot_tell = trace::find_aliases(data, fit.model, {});
-  EXPECT_THAT(trace::trace_brief(t),
+  EXPECT_THAT(test::trace_text(t, words::Detail::brief),
               HasSubstr("\n  batch cannot be distinguished from sigma_n_MPa: A"));
-  EXPECT_THAT(trace::trace_in_short(t),
+  EXPECT_THAT(words::trace_in_short(t),
               HasSubstr("wzl: nothing was found; batch cannot be distinguished from sigma_n_MPa;"));
 }
 

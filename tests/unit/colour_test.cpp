@@ -19,7 +19,7 @@ TEST(Colour, IsForTerminalsThatCanAndUsersWhoDidNotForbidIt) {
 
 TEST(Colour, MarksHeadingsResultsAndTheNextStep) {
   EXPECT_EQ(coloured("Tables:\n  shaw  1 node:\n"), "\x1b[1mTables:\x1b[0m\n  shaw  1 node:\n");
-  EXPECT_EQ(coloured("  shaw  0.00 %   ok\n"), "  shaw  0.00 %\x1b[32m   ok\x1b[0m\n");
+  EXPECT_EQ(coloured("  shaw  0.00 %  ok\n"), "  shaw  0.00 %\x1b[32m  ok\x1b[0m\n");
   EXPECT_EQ(coloured("  shaw  OVER TOLERANCE\n"), "  shaw  \x1b[1;31mOVER TOLERANCE\x1b[0m\n");
   EXPECT_EQ(coloured("next: open a"), "\x1b[1mnext: open a\x1b[0m");
 }

@@ -9,15 +9,15 @@
 
 #include "calibrate/calibration.h"
 #include "core/random.h"
+#include "support/trace_text.h"
 #include "trace/advise/candidate_tests.h"
 #include "trace/trace.h"
-#include "trace/trace_text.h"
 
 namespace frictab::design_test {
 
 using data::Dataset;
+using test::trace_text;
 using trace::settings_of;
-using trace::trace_text;
 
 namespace {
 

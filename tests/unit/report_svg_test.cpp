@@ -7,14 +7,14 @@
 #include <pugixml.hpp>
 
 #include "report/law_plots.h"
-#include "report/numbers.h"
 #include "report/slice_plot.h"
 #include "report/svg.h"
+#include "words/numbers.h"
 
 namespace frictab::report_svg_test {
 
-using report::figures;
-using report::with_error;
+using words::figures;
+using words::with_error;
 namespace svg = report::svg;
 
 namespace {
@@ -279,10 +279,10 @@ TEST(Numbers, HaveSignificantDigitsSeparatorsAndMinus) {
   EXPECT_EQ(figures(1.234e-13), "1.23e-13");
   EXPECT_EQ(figures(0), "0");
   EXPECT_EQ(figures(std::nan("")), "\u2013");
-  EXPECT_EQ(report::fixed(-0.001, 2), "0.00");
-  EXPECT_EQ(report::fixed(-1234567.5, 1), "\u22121,234,567.5");
-  EXPECT_EQ(report::short_figures(2750), "2,750");
-  EXPECT_EQ(report::short_figures(0.5), "0.5");
+  EXPECT_EQ(words::fixed(-0.001, 2), "0.00");
+  EXPECT_EQ(words::fixed(-1234567.5, 1), "\u22121,234,567.5");
+  EXPECT_EQ(words::short_figures(2750), "2,750");
+  EXPECT_EQ(words::short_figures(0.5), "0.5");
 }
 
 TEST(Numbers, ValueHasTheDigitsItsErrorAllows) {

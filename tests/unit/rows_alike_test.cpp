@@ -53,8 +53,8 @@ protected:
           causes.push_back(cause);
         }
     EXPECT_EQ(causes.size(), columns.size());
-    return trace::fit_rival(search_.campaign(), search_.base(), effects, causes, search_.base().noise,
-                            trace::NoiseSearch::again);
+    return trace::fit_rival(search_.campaign(), search_.base(), effects, causes,
+                            search_.base().noise, trace::NoiseSearch::again);
   }
 
   std::vector<std::string> left(const FittedAlike& fitted) const {

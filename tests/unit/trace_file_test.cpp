@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "support/trace_text.h"
 #include "trace/trace_file.h"
-#include "trace/trace_text.h"
 
 namespace frictab::trace_file_test {
 
@@ -93,12 +93,12 @@ TEST(TraceFile, GainBesideTheCalibratedLawIsToldWhereWeightsMoveTheLaw) {
   const std::string json = trace_json({trace}, true);
   const Trace again = parse_traces(json, "trace.json").front();
   EXPECT_EQ(trace_json({again}, true), json);
-  EXPECT_THAT(trace_text(again),
+  EXPECT_THAT(test::trace_text(again),
               HasSubstr("\n  gained on unseen tests: 7.79 MPa (95 %: 2.91 to 12.7, paired by test)"
                         "\n  compared with the calibrated law: 0.212 MPa (95 %: -0.753 to 1.18, "
                         "paired by test)\n"));
   trace.before.validation.mae_MPa = 8.7;
-  EXPECT_THAT(trace_text(trace), testing::Not(HasSubstr("beside the law as it was")));
+  EXPECT_THAT(test::trace_text(trace), testing::Not(HasSubstr("beside the law as it was")));
 }
 
 TEST(TraceFile, AnEffectWithoutThePartsOfItsFormIsRefused) {
@@ -140,8 +140,8 @@ TEST(TraceFile, AParameterWithoutAnErrorSaysWhyInTextAndFile) {
   trace.effects[0].parameters = {{"a", 0.2, 0.01, "1", ""},
                                  {"x0", 60, none, "%", "at its bound"},
                                  {"w", 2, none, "%", ""}}; // a reference: nobody asks
-  EXPECT_THAT(trace::trace_text(trace, true),
-              HasSubstr(": a = 0.2 +- 0.01, x0 = 60 % (at its bound)\n"));
+  EXPECT_THAT(test::trace_text(trace, words::Detail::verbose),
+              HasSubstr(": a = 0.200 +- 0.010, x0 = 60.00 % (at its bound)\n"));
   const std::string text = trace_json({trace}, false);
   EXPECT_THAT(text, HasSubstr("\"no_error_because\": \"at its bound\""));
   EXPECT_EQ(trace_json(parse_traces(text, "trace.json"), false), text);
@@ -193,7 +193,7 @@ TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {
       EXPECT_TRUE(again.leads.at(0).between);
       EXPECT_TRUE(again.leads.at(0).significant);
       EXPECT_EQ(trace_json({again}, false), text);
-      EXPECT_EQ(trace::trace_text(again), trace::trace_text(trace));
+      EXPECT_EQ(test::trace_text(again), test::trace_text(trace));
     }
 }
 
@@ -212,12 +212,12 @@ TEST(TraceText, WhatIsNotConfirmedComesFirstWithWhatItWouldGain) {
   trace.leads = {lead};
   const std::string found =
       "not confirmed: v_rel_mm_s (p = 0.001, would take 15.0 to about 10.2 MPa)";
-  EXPECT_THAT(trace::trace_in_short(trace), testing::StartsWith("coulomb: " + found));
-  EXPECT_THAT(trace::trace_brief(trace), HasSubstr(lead.why));
+  EXPECT_THAT(words::trace_in_short(trace), testing::StartsWith("coulomb: " + found));
+  EXPECT_THAT(test::trace_text(trace, words::Detail::brief), HasSubstr(lead.why));
   trace.leads[0].with_MPa = 15.1; // fits under weights: no such promise
-  EXPECT_EQ(trace::not_confirmed(trace), "not confirmed: v_rel_mm_s (p = 0.001)");
+  EXPECT_EQ(words::not_confirmed(trace), "not confirmed: v_rel_mm_s (p = 0.001)");
   trace.leads[0].significant = false;
-  EXPECT_THAT(trace::trace_in_short(trace), testing::StartsWith("coulomb: nothing was found;"));
+  EXPECT_THAT(words::trace_in_short(trace), testing::StartsWith("coulomb: nothing was found;"));
 }
 
 } // namespace

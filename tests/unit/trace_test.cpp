@@ -11,11 +11,11 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "data/roles.h"
+#include "support/trace_text.h"
 #include "trace/advise/leads.h"
 #include "trace/search/search.h"
 #include "trace/trace.h"
 #include "trace/trace_file.h"
-#include "trace/trace_text.h"
 #include "twin/twin.h"
 
 namespace frictab::trace_test {
@@ -23,9 +23,9 @@ namespace frictab::trace_test {
 using data::Column;
 using data::Dataset;
 using effects::ActsOn;
+using test::trace_text;
 using trace::Trace;
 using trace::trace_json;
-using trace::trace_text;
 using trace::TraceOptions;
 using trace::Verdict;
 using twin::parse_design;

@@ -6,7 +6,7 @@
 
 #include "calibrate/calibration.h"
 
-namespace frictab::report {
+namespace frictab::words {
 
 // Writes `digits` significant digits: 12,345 or 0.00123 or 1.2e-15; a dash where not finite.
 std::string figures(double value, int digits = 3);
@@ -57,4 +57,4 @@ std::string count_of(std::size_t count, const std::string& noun);
 // Writes "a, b, c and 2 others"; needs at least one name.
 std::string list_of(const std::vector<std::string>& names);
 
-} // namespace frictab::report
+} // namespace frictab::words

@@ -1,5 +1,5 @@
 // Formats numbers for tables.
-#include "report/numbers.h"
+#include "words/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "calibrate/recommended.h"
 #include "core/text.h"
 
-namespace frictab::report {
+namespace frictab::words {
 
 namespace {
 
@@ -119,4 +119,4 @@ std::string list_of(const std::vector<std::string>& names) {
   return text;
 }
 
-} // namespace frictab::report
+} // namespace frictab::words

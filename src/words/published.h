@@ -7,7 +7,7 @@
 
 #include "calibrate/calibration.h"
 
-namespace frictab::report {
+namespace frictab::words {
 
 // Mean absolute errors of tau_R, MPa, on the paper's own measured data.
 struct PublishedFigure {
@@ -32,4 +32,4 @@ LawKind kind_of(const models::Law& law);
 std::optional<calibrate::Interval> mae_span(const calibrate::Calibration& calibration,
                                             LawKind kind);
 
-} // namespace frictab::report
+} // namespace frictab::words

@@ -7,13 +7,12 @@
 #include "calibrate/calibration.h"
 #include "data/dataset.h"
 
-namespace frictab::report {
+namespace frictab::words {
 
 struct JudgedWords {
   std::string ranking; // "Laws by mean absolute error on experiments not trained on"
-  std::string files;   // shown instead of validation files; empty: their names are shown
   std::string plotted; // rows in plots of measured against predicted
-  std::string dots;    // HTML; errors of single tests; empty: two colours
+  std::string dots;    // errors of single tests; empty: two colours
   std::string trace;   // follows "residual before"
 };
 
@@ -42,4 +41,4 @@ std::string uneven_text(calibrate::JudgedBy judged_by, const data::Dataset& trai
 // Describes the validation in a sentence without a full stop.
 std::string judged_text(const calibrate::Calibration& calibration);
 
-} // namespace frictab::report
+} // namespace frictab::words

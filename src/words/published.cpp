@@ -1,11 +1,11 @@
 // Figures of the paper, and the counterparts of a calibration.
-#include "report/published.h"
+#include "words/published.h"
 
 #include <array>
 
-#include "report/numbers.h"
+#include "words/numbers.h"
 
-namespace frictab::report {
+namespace frictab::words {
 
 // The paper's abstract; it does not name the constant to which 51.38 belongs.
 std::span<const PublishedFigure> published_figures() {
@@ -54,4 +54,4 @@ std::string counterpart(const calibrate::Calibration& calibration, std::size_t i
   return low == high ? low : low + " to " + high;
 }
 
-} // namespace frictab::report
+} // namespace frictab::words

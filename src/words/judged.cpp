@@ -1,14 +1,14 @@
 // Wordings for the four ways of validation.
-#include "report/judged.h"
+#include "words/judged.h"
 
 #include <fmt/format.h>
 
 #include "core/text.h"
 #include "data/phases.h"
 #include "data/recordings.h"
-#include "report/numbers.h"
+#include "words/numbers.h"
 
-namespace frictab::report {
+namespace frictab::words {
 
 using calibrate::JudgedBy;
 
@@ -16,20 +16,20 @@ JudgedWords judged_words(JudgedBy judged_by) {
   const std::string unseen = "Laws by mean absolute error on experiments not trained on";
   switch (judged_by) {
   case JudgedBy::leave_one_out:
-    return {unseen, "the same, each left out in turn",
+    return {unseen,
             "All rows, by the laws as they are delivered, fitted to these rows as well; the errors "
             "above are of tests left out",
             "Each test is predicted by the law fitted to all others.", "all experiments"};
   case JudgedBy::fit:
     return {"Laws by mean absolute error on the ONE experiment they are fitted to; no other was "
             "seen",
-            "none: there is one experiment", "All rows: those that the laws are fitted to",
+            "All rows: those that the laws are fitted to",
             "The one test that the law is fitted to.", "the one experiment"};
   case JudgedBy::held_out:
   case JudgedBy::validation_files:
     break;
   }
-  return {unseen, "", "Validation rows", "", "unseen experiments"};
+  return {unseen, "Validation rows", "", "unseen experiments"};
 }
 
 std::string size_text(JudgedBy judged_by, const data::Dataset& training,
@@ -123,4 +123,4 @@ std::string judged_text(const calibrate::Calibration& c) {
   return "validated on " + on;
 }
 
-} // namespace frictab::report
+} // namespace frictab::words

@@ -1,0 +1,370 @@
+// Sentences and tables of a trace.
+#include "words/trace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "data/derived.h"
+#include "effects/change_text.h"
+#include "trace/columns/candidates.h"
+#include "trace/tuning.h"
+#include "words/numbers.h"
+
+namespace frictab::words {
+
+using trace::Lead;
+using trace::Trace;
+using trace::TracedEffect;
+using trace::Verdict;
+
+namespace {
+
+// Three significant digits, or all digits before the point of a larger number: rigs measure 0.1 MPa
+// as well as 900.
+std::string digits(double value) {
+  return std::abs(value) >= 100 ? fixed(value, 0) : figures(value, 3);
+}
+
+std::string interval(const calibrate::Interval& i) {
+  return std::isfinite(i.low) && std::isfinite(i.high) ? digits(i.low) + " to " + digits(i.high)
+                                                       : "\u2013";
+}
+
+std::string gain_text(const calibrate::Difference& gain) {
+  return fmt::format("{} MPa (95 %: {}, paired by test)", digits(gain.value_MPa),
+                     interval(gain.interval));
+}
+
+Row error_row(const char* what, const trace::TraceErrors& e) {
+  const calibrate::Metrics& m = e.validation;
+  return {{what, digits(m.mae_MPa), interval(m.mae_interval), digits(m.rmse_MPa),
+           digits(m.bias_MPa), digits(e.training.mae_MPa)}};
+}
+
+// Whether the weights of the noise model alone move the law. The calibration stage's own fit is
+// then shown too: otherwise the effects would be credited with the cost of the weights.
+bool weights_matter(const Trace& t) {
+  const double own = t.as_calibrated.validation.mae_MPa, before = t.before.validation.mae_MPa;
+  return t.unseen == "validation" && std::abs(before - own) > 0.02 * own;
+}
+
+Table error_table(const Trace& t) {
+  Table table{"What " + t.model + " lacks, errors before and after",
+              {{"tau_R, MPa"},
+               {"MAE", true},
+               {"95 % interval", true},
+               {"RMSE", true},
+               {"bias", true},
+               {"train MAE", true}},
+              {},
+              "errors"};
+  if (weights_matter(t)) table.rows.push_back(error_row("as calibrated", t.as_calibrated));
+  table.rows.push_back(error_row("before", t.before));
+  if (!t.extended_model.empty()) table.rows.push_back(error_row("after", t.after));
+  return table;
+}
+
+std::string parameters_of(const TracedEffect& effect) {
+  std::vector<std::string> parts;
+  for (const trace::TracedParameter& p : effect.parameters) {
+    const bool known = std::isfinite(p.std_error);
+    if (!known && p.why_none.empty()) continue; // a constant that was set
+    const ValueText v = with_error(p.value, p.std_error);
+    parts.push_back(p.name + " = " + v.value +
+                    (v.std_error.empty() ? "" : " \u00B1 " + v.std_error) +
+                    (p.unit == "1" || p.unit.empty() ? "" : " " + p.unit) +
+                    (known ? "" : " (" + p.why_none + ")"));
+  }
+  return join(parts, ", ");
+}
+
+// "p = 0.023", "p < 0.001".
+std::string p_clause(double p_value) {
+  const std::string text = p_text(p_value);
+  return text.starts_with('<') ? "p " + text : "p = " + text;
+}
+
+bool belongs_to_the_experiment(const TracedEffect& effect) {
+  const data::DerivedQuantity* derived =
+      effect.derived.empty() ? nullptr : data::find_derived(effect.placed.inputs[0].column);
+  return derived && derived->continuation.rule == data::Continuation::none;
+}
+
+// Result and probability of the proposed tests, without the tests themselves.
+std::string design_sentence(const trace::Design& d) {
+  const bool one = d.settles.size() == 1;
+  std::string text = fmt::format("{} with a probability of {:.0f} %, if it is as large as it "
+                                 "looks: {} tests like {} except for",
+                                 one ? "would show it" : "would distinguish them",
+                                 100 * d.probability, d.tests.size(), d.like);
+  if (d.tests_needed > static_cast<double>(d.tests.size()))
+    text += fmt::format(" (80 % take about {:.0f} such tests)", d.tests_needed);
+  return text;
+}
+
+// The proposed tests: the number of equal ones, then what they vary.
+void add_design(Section& section, const trace::Design& d) {
+  if (d.tests.empty()) return;
+  section.say(design_sentence(d) + ":");
+  Table table{"Tests that settle it", {{"tests", true}}, {}};
+  for (const std::string& column : d.columns)
+    table.columns.push_back({column, true});
+  for (std::size_t t = 0; t < d.tests.size();) {
+    std::size_t alike = t + 1;
+    while (alike < d.tests.size() && d.tests[alike] == d.tests[t])
+      ++alike;
+    Row row{{std::to_string(alike - t)}};
+    row.cells.insert(row.cells.end(), d.tests[t].begin(), d.tests[t].end());
+    table.rows.push_back(std::move(row));
+    t = alike;
+  }
+  section.add(std::move(table));
+}
+
+Section effect_section(const TracedEffect& e, Detail detail) {
+  Section section{"", "",
+                  fmt::format("+ {}: {}, {}, {}, gains {} MPa on unseen tests", cause_text(e),
+                              e.placed.form->name, site_text(e.placed.acts_on), p_clause(e.p_value),
+                              digits(e.gain_MPa))};
+  section.say(effects::change_text(e.placed));
+  const Text formula = emphasis(effects::formula_text(e.placed)) + ": " + parameters_of(e);
+  section.say(formula, "", detail == Detail::verbose ? Shown::everywhere : Shown::on_pages);
+  std::vector<std::string> same, less;
+  for (const trace::Alternative& a : e.alternatives)
+    (a.in_set ? same : less).push_back(a.name);
+  if (!same.empty())
+    section.say("these experiments cannot distinguish it from: " + join(same, ", "));
+  if (!less.empty())
+    section.say("explain less: " + join(less, ", "), "",
+                detail == Detail::verbose ? Shown::everywhere : Shown::on_pages);
+  if (e.order_confounded)
+    section.say("may stand for time: a drift over the tests would look the same; name their order "
+                "([trace] order), or run tests at both ends of it in turn");
+  if (belongs_to_the_experiment(e))
+    section.say(fmt::format("no simulation has {}: it is a property or constant of routines; "
+                            "[trace] ignore leaves it out",
+                            e.derived));
+  add_design(section, e.design);
+  return section;
+}
+
+// Explanation of "unseen" in this trace.
+std::string unseen_text(const Trace& t) {
+  const std::size_t tests = t.after.validation.n_experiments;
+  if (t.unseen == "validation")
+    return fmt::format("unseen: the {} validation tests; before is the law without the effects, "
+                       "fitted with the same weights",
+                       tests);
+  if (t.unseen == "nothing") return "unseen: nothing, there is one test";
+  if (t.unseen == "leave_one_out")
+    return fmt::format("unseen: each of the {} tests predicted by the law calibrated without it",
+                       tests);
+  return fmt::format("unseen: each of the {} tests predicted by a search without it ({} folds){}; "
+                     "before is the law without the effects, fitted with the same weights",
+                     tests, t.nested.folds,
+                     t.validation_searched ? ", those to validate among them, which are few" : "");
+}
+
+// Columns that are recorded but were not searched; the first few of a possibly long list.
+void add_not_searched(List& list, const std::vector<std::string>& notes) {
+  constexpr std::size_t shown = 5;
+  std::size_t count = 0;
+  for (const std::string& note : notes)
+    if (note.ends_with(trace::not_searched) && ++count <= shown) list.items.emplace_back(note);
+  if (count > shown)
+    list.items.push_back(fmt::format("({} more of these in trace.json)", thousands(count - shown)));
+}
+
+// Remark that the validation tests were needed because left-out training tests were inconclusive;
+// empty: they were conclusive.
+std::string shown_by_validation(const Trace& t) {
+  if (t.effects.size() <= t.nested.paying) return "";
+  const std::string left_out =
+      t.nested.paying == 0
+          ? fmt::format("leave it open: error {:+.2g} +- {:.2g} % of the stress",
+                        -100 * t.nested.gain, 100 * t.nested.std_error)
+          : fmt::format("show {} of the {} effects", t.nested.paying, t.effects.size());
+  return fmt::format("shown by the validation tests; training tests, left out in turn, {} ({} "
+                     "folds)",
+                     left_out, t.nested.folds);
+}
+
+// "v_rel_mm_s (p = 0.001, would take 15.0 to about 10.2 MPa)"
+std::string unconfirmed_text(const Lead& lead) {
+  std::string text = fmt::format("{} (p = {:.2g}", lead_name(lead), lead.p_value);
+  if (lead.with_MPa < lead.without_MPa)
+    text += fmt::format(", would take {} to about {} MPa", digits(lead.without_MPa),
+                        digits(lead.with_MPa));
+  return text + ")";
+}
+
+// Findings that are not confirmed, or that nothing was found; with the remaining structure.
+std::string nothing_text(const Trace& t) {
+  if (t.least_p_value > t.alpha) return "nothing that so few tests can prove";
+  std::string text = not_confirmed(t);
+  if (text.empty()) text = "nothing was found";
+  if (!t.repeatability && t.noise_floor.n_experiments > 1)
+    text +=
+        fmt::format("; tests differ by {:.2g} % that nothing explains", 100 * t.scatter_between);
+  return text;
+}
+
+std::string headline(const Trace& t) {
+  switch (t.verdict) {
+  case Verdict::effect_added:
+    return "effect added";
+  case Verdict::nothing_missing:
+    return "nothing is missing: the remaining scatter is within the rig's repeatability";
+  case Verdict::nothing_found:
+    return nothing_text(t);
+  case Verdict::unexplained_structure:
+    break;
+  }
+  return "unexplained structure";
+}
+
+const char* result_of(Verdict verdict) {
+  return verdict == Verdict::effect_added || verdict == Verdict::nothing_missing ? "pass" : "none";
+}
+
+Section lead_section(const Lead& lead) {
+  const std::string size = lead.share != 0
+                               ? fmt::format("{}, {:.2g} %", lead.form, 100 * std::abs(lead.share))
+                               : lead.form;
+  Section section{"", "", fmt::format("lead: {} ({}): {}", lead_name(lead), size, lead.why)};
+  add_design(section, lead.design);
+  return section;
+}
+
+// Leads that the search found, each by itself, and the names of the others.
+void add_leads_in_short(Section& section, const Trace& t) {
+  std::vector<std::string> names;
+  for (const Lead& lead : t.leads)
+    if (lead.significant)
+      section.add(lead_section(lead));
+    else
+      names.push_back(lead_name(lead));
+  if (!names.empty()) section.say("leads, which prove nothing: " + join(names, ", "));
+}
+
+void add_errors(Section& section, const Trace& t) {
+  if (t.extended_model.empty()) return;
+  if (t.effects.empty())
+    section.say("calibrated again without what follows the order of tests: " + t.extended_model);
+  section.add(error_table(t));
+  section.say("gained on unseen tests: " + gain_text(t.improvement));
+  if (weights_matter(t) && t.over_calibrated)
+    section.say("compared with the calibrated law: " + gain_text(*t.over_calibrated));
+  section.say(unseen_text(t));
+  section.say(shown_by_validation(t));
+}
+
+} // namespace
+
+Section trace(const Trace& t, Detail detail) {
+  Section section{"", "",
+                  fmt::format("What {} lacks, by its residual: ", t.model) +
+                      badge(headline(t), result_of(t.verdict))};
+  for (const trace::Alias& alias : t.cannot_tell)
+    section.say(alias.text);
+  for (const TracedEffect& effect : t.effects)
+    section.add(effect_section(effect, detail));
+  add_errors(section, t);
+  List list;
+  if (detail == Detail::brief) {
+    add_leads_in_short(section, t);
+  } else {
+    section.say(fmt::format("scatter by the noise model: {} MPa, if nothing else is missing",
+                            digits(t.noise_floor.mae_MPa)));
+    section.say("left: " + t.remaining.note);
+    for (const Lead& lead : t.leads)
+      section.add(lead_section(lead));
+    for (const std::string& rejected : t.rejected)
+      list.items.push_back("not added: " + rejected);
+    list.items.push_back(fmt::format("tried: {} quantities in {} directions; a false alarm has a "
+                                     "probability of {:g}, over all of them",
+                                     t.n_columns, thousands(t.n_candidates), t.alpha));
+  }
+  add_not_searched(list, t.notes);
+  section.add(std::move(list));
+  return section;
+}
+
+const char* site_text(effects::ActsOn acts_on) {
+  switch (acts_on) {
+  case effects::ActsOn::mu:
+    return "on mu";
+  case effects::ActsOn::m:
+    return "on the limit";
+  case effects::ActsOn::mu_m:
+    return "on mu and the limit";
+  case effects::ActsOn::tau:
+    break;
+  }
+  return "added to tau_R";
+}
+
+std::string cause_text(const TracedEffect& effect) {
+  std::string text = effects::columns_text(effect.placed);
+  if (!effect.derived.empty()) text += " (from " + join(effect.columns, ", ") + ")";
+  return text;
+}
+
+std::string lead_name(const Lead& lead) {
+  return lead.derived.empty() ? lead.name : lead.name + " (from " + join(lead.columns, ", ") + ")";
+}
+
+std::string not_confirmed(const Trace& t) {
+  std::vector<std::string> names;
+  for (const Lead& lead : t.leads)
+    if (lead.significant) names.push_back(unconfirmed_text(lead));
+  return names.empty() ? "" : "not confirmed: " + join(names, ", ");
+}
+
+std::string trace_in_short(const Trace& t) {
+  std::string aliases;
+  for (const trace::Alias& alias : t.cannot_tell)
+    aliases += fmt::format("; {} cannot be distinguished from {}", alias.column, alias.state);
+  std::vector<std::string> causes;
+  for (const TracedEffect& effect : t.effects)
+    causes.push_back(cause_text(effect));
+  const std::string scatter =
+      fmt::format("scatter by the noise model {} MPa", digits(t.noise_floor.mae_MPa));
+  if (causes.empty()) return fmt::format("{}: {}{}; {}", t.model, headline(t), aliases, scatter);
+  return fmt::format("{} in {}: {} -> {} MPa on unseen tests, {}{}", join(causes, ", "), t.model,
+                     digits(t.before.validation.mae_MPa), digits(t.after.validation.mae_MPa),
+                     scatter, aliases);
+}
+
+Section detectable_effects(const Trace& t) {
+  Section section{"", "",
+                  fmt::format("Smallest effect on mu that this campaign would have shown, and how "
+                              "many experiments like these it takes to see {:g} %",
+                              100 * trace::tuning::wanted_share_of_tau)};
+  if (t.detectable.empty()) return section;
+  const auto experiments = static_cast<double>(t.noise_floor.n_experiments);
+  Table table{"Smallest effects of " + t.model,
+              {{"column"}, {"MPa", true}, {"of tau_R", true}, {"experiments", true}, {"remark"}},
+              {}};
+  for (const trace::Detectable& d : t.detectable)
+    if (d.identifiable)
+      table.rows.push_back(
+          {{d.column, figures(d.size_MPa), figures(100 * d.share) + " %",
+            fixed(
+                std::ceil(experiments * std::pow(d.share / trace::tuning::wanted_share_of_tau, 2)),
+                0)}});
+    else
+      table.rows.push_back({{d.column, "\u2013", "\u2013", "\u2013",
+                             "cannot be seen: the law's own parameters imitate it"}});
+  section.add(std::move(table));
+  section.say("Found in 80 % of such campaigns: a straight line over the column's range; root mean "
+              "square of tau_R. Fewer experiments do where a column is spread wider (twice the "
+              "spread shows effects per unit half as large), or changes within tests, where their "
+              "scatter does not hide it.");
+  return section;
+}
+
+} // namespace frictab::words

@@ -1,0 +1,36 @@
+// A trace in words and tables.
+#pragma once
+
+#include <string>
+
+#include "trace/trace.h"
+#include "words/document.h"
+#include "words/drift.h"
+
+namespace frictab::words {
+
+// Verdict, effects, errors before and after. full: also the remaining structure, each lead and the
+// extent of the search; verbose: also the coefficients of effects. An effect is a section of its
+// own, in the order of trace.effects.
+Section trace(const trace::Trace& trace, Detail detail);
+
+// The smallest effects that this campaign would have shown, and how to see smaller ones; without
+// blocks where that is not known.
+Section detectable_effects(const trace::Trace& trace);
+
+// The missing effects and the gain of adding them, in one line.
+std::string trace_in_short(const trace::Trace& trace);
+
+// Findings that are not delivered: "not confirmed: v_rel_mm_s (p = 0.001, would take 15.0 to about
+// 10.2 MPa)"; empty: none.
+std::string not_confirmed(const trace::Trace& trace);
+
+// "humidity_pct", "friction_work (from s_mm)".
+std::string lead_name(const trace::Lead& lead);
+// "friction_work (from s_mm)", "humidity_pct", "psi x s_mm".
+std::string cause_text(const trace::TracedEffect& effect);
+
+// "on mu", "on the limit", "added to tau_R".
+const char* site_text(effects::ActsOn acts_on);
+
+} // namespace frictab::words
