@@ -1,5 +1,5 @@
-// Restricted maximum likelihood (REML: Patterson and Thompson 1971): the one likelihood by which
-// all variances are estimated.
+// Restricted maximum likelihood (REML: Patterson and Thompson 1971), by which variances are
+// estimated.
 //
 // y = A b + e, with e normal of covariance V. Maximum likelihood would underestimate V by what the
 // coefficients b have explained; the likelihood of the data after projection orthogonal to A does
@@ -15,8 +15,9 @@
 // noise fit of tracing runs for hundreds of laws and evaluates the criterion hundreds of times for
 // each; it uses that slow and white noise of a given length are independent in directions known
 // beforehand, so that it neither forms V nor factorises it (noise_fit.h). A test holds both to the
-// same values. The third estimate by this likelihood, that of random_effects.h, is of one variance
-// that is often 0, which has no logarithm: it is found by scoring, from three sums.
+// same values. Two estimates by this likelihood stand elsewhere: that of random_effects.h is of one
+// variance that is often 0, which has no logarithm, and is found by scoring from three sums; the
+// search for terms (trace/search/joint_model.h) has tests as modes, whose V is diagonal.
 #pragma once
 
 #include <functional>

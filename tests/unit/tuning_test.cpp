@@ -58,9 +58,9 @@ std::vector<std::string> unnamed_numbers(const fs::path& file) {
 }
 
 TEST(Tuning, NumbersOfTraceHaveNames) {
-  // Defaults of keys; the solver's damping; what a text calls different.
+  // Defaults of keys; the solver's damping.
   const std::set<std::string> others = {"options.h", "law_on_blocks.h", "law_on_blocks.cpp",
-                                        "trace_text.cpp", "tuning.h"};
+                                        "tuning.h"};
   const fs::path trace = fs::path(FRICTAB_SOURCE_DIR) / "src" / "trace";
   EXPECT_GT(unnamed_numbers(trace / "tuning.h").size(), 50u); // the pattern finds them
   for (const auto& entry : fs::recursive_directory_iterator(trace))
