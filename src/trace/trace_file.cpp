@@ -92,6 +92,7 @@ void describe_scatter(Fields& f, Trace& t) {
   f.within(old ? "noise_floor" : "scatter_by_noise_model", [&](Fields& floor) {
     floor("mae_MPa", t.noise_floor.mae_MPa);
     floor("rmse_MPa", t.noise_floor.rmse_MPa);
+    if (!old) floor("n_experiments", t.noise_floor.n_experiments);
     floor("method", t.noise_floor.method);
   });
   f.within("scatter_between_experiments", [&](Fields& between) {
