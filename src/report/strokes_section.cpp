@@ -1,8 +1,5 @@
 // Draws each test over its course, measured and predicted by the best law.
 #include <algorithm>
-#include <cmath>
-
-#include <fmt/format.h>
 
 #include "calibrate/input_columns.h"
 #include "calibrate/recommended.h"

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "report/page.h"
 #include "report/svg.h"
+#include "stats/resampling.h"
 #include "study/law_order.h"
 #include "study/page_sections.h"
 #include "study/report_study.h"
@@ -28,12 +29,7 @@ std::string of_campaigns(std::size_t count, std::size_t all) {
 
 // p in [0, 1]; the values may be in any order.
 double quantile_of(std::vector<double> values, double p) {
-  if (values.empty()) return no_value;
-  std::sort(values.begin(), values.end());
-  const double at = p * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(at);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
+  return values.empty() ? no_value : stats::quantile_of(values, p);
 }
 
 words::Text verdict_text(const Plan& plan, const Tally& tally) {

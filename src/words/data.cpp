@@ -2,7 +2,6 @@
 #include "words/data.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -77,7 +76,7 @@ std::vector<std::string> files_of(const Dataset& data) {
   return files.empty() ? files : std::vector<std::string>{list_of(files)};
 }
 
-// Named "test" in both parts, so that a test's use is a column.
+// Use of the tests of each part.
 constexpr const char* uses[] = {"train", "validate"};
 
 // Quantities that distinguish tests: states, time, the measured stress.

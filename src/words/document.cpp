@@ -54,6 +54,14 @@ Text sentence(std::string clause) {
   return clause.empty() ? Text() : Text(std::move(clause) + ".");
 }
 
+Column number_column(std::string title, std::string group, std::string kind) {
+  return {std::move(title), true, std::move(group), Shown::everywhere, std::move(kind)};
+}
+
+std::string full_title(const Column& column) {
+  return column.group.empty() ? column.title : column.group + " " + column.title;
+}
+
 void Section::add(Block block) {
   blocks.push_back(std::move(block));
 }

@@ -71,6 +71,10 @@ struct Column {
   std::string picture = {}; // HTML: SVG in place of the title
 };
 
+Column number_column(std::string title, std::string group = "", std::string kind = "");
+// The title after that of its group, for media without headings over headings.
+std::string full_title(const Column& column);
+
 struct Cell {
   Text text;
   std::string note = {};    // an interval, or what kind of law: in brackets, or small below

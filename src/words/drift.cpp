@@ -116,10 +116,6 @@ Row law_row(const std::string& model, const LawDrift& law) {
        law.share_outside ? fmt::format("{:.2f} %", *law.share_outside) : "\u2013", result_of(law)}};
 }
 
-Column number(const char* title, const char* group = "", const char* kind = "") {
-  return {title, true, group, Shown::everywhere, kind};
-}
-
 // The first subject of a law that ran: what lies outside the range is the same for all.
 const DriftRecord* first_run(const Verification& verification, const std::string& model) {
   for (const DriftRecord& r : verification.records)
@@ -164,7 +160,7 @@ Section below_the_range(const Verification& verification) {
 Section single_precision(const Verification& verification) {
   Section section{"", "", "Routines in single precision, largest found, MPa"};
   Table table{"Single precision",
-              {{"law"}, number("off the law"), {"off the same table in double precision"}},
+              {{"law"}, number_column("off the law"), {"off the same table in double precision"}},
               {}};
   for (const std::string& model : models_of(verification)) {
     std::vector<const DriftRecord*> single;
@@ -206,9 +202,10 @@ Section fixed_states(const Verification& verification) {
     one->worst_MPa = std::max(one->worst_MPa, r.worst_case_MPa);
   }
   Section section{"", "", "States that a solver's own table or a constant of the job fixes"};
-  Table table{"Fixed states",
-              {{"law"}, number("off the law there"), {"what fixes which states, and its cost"}},
-              {}};
+  Table table{
+      "Fixed states",
+      {{"law"}, number_column("off the law there"), {"what fixes which states, and its cost"}},
+      {}};
   for (const Fixed& one : all)
     table.rows.push_back({{one.model, figures(one.worst_MPa),
                            fmt::format("{} {} {}", list_of(one.targets),
@@ -231,11 +228,11 @@ Section drift(const Verification& verification, Detail detail) {
                   verify::allowed_text(verification)));
   Table table{"Drift of each law",
               {{"law"},
-               number("table"),
-               number("proven"),
-               number("routines"),
-               number("on rows"),
-               number("rows outside"),
+               number_column("table"),
+               number_column("proven"),
+               number_column("routines"),
+               number_column("on rows"),
+               number_column("rows outside"),
                {"result"}},
               {}};
   List notes;
@@ -356,15 +353,15 @@ Table drift_of_each(const Verification& verification) {
   Table out{"Drift of each table and routine",
             {{"law"},
              {"subject"},
-             number("largest", range, "strong"),
-             number("proven", range),
+             number_column("largest", range, "strong"),
+             number_column("proven", range),
              {"found at", false, range, Shown::everywhere, "state"},
-             number("max", rows),
-             number("mean", rows),
-             number("RMS", rows),
-             number("p99", rows),
-             number("rows outside the range", "", "outside"),
-             number("off from the table by"),
+             number_column("max", rows),
+             number_column("mean", rows),
+             number_column("RMS", rows),
+             number_column("p99", rows),
+             number_column("rows outside the range", "", "outside"),
+             number_column("off from the table by"),
              {"result"}},
             {},
             "drift"};

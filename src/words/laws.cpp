@@ -26,10 +26,6 @@ using calibrate::ModelFit;
 
 namespace {
 
-Column number(std::string title, std::string group = "", std::string kind = "") {
-  return {std::move(title), true, std::move(group), Shown::everywhere, std::move(kind)};
-}
-
 Cell with_interval(double value, const calibrate::Interval& interval, int decimals) {
   return {fixed(value, decimals), interval_text(interval, decimals)};
 }
@@ -113,13 +109,13 @@ Row floor_row(const calibrate::NoiseFloor& f, int decimals) {
 Table ranking_table(const Calibration& calibration) {
   const int decimals = error_decimals(calibration);
   Table table{"Ranking",
-              {number("#"),
+              {number_column("#"),
                {"law"},
-               number("MAE", "", "strong"),
-               number("95 % interval"),
-               number("RMSE"),
-               number("bias"),
-               number("train MAE"),
+               number_column("MAE", "", "strong"),
+               number_column("95 % interval"),
+               number_column("RMSE"),
+               number_column("bias"),
+               number_column("train MAE"),
                {"parameters \u00B1 standard error", false, "", Shown::everywhere, "parameters"}},
               {},
               "ranking",
@@ -167,9 +163,7 @@ Text parameters_text(const ModelFit& fit) {
     const ValueText v = fixed_law ? ValueText{short_figures(fit.model.parameters[i]), ""}
                                   : with_error(fit.model.parameters[i], error);
     const models::Parameter& p = law.parameters[i];
-    parts.push_back(p.name + " = " + v.value +
-                    (v.std_error.empty() ? "" : " \u00B1 " + v.std_error) +
-                    (p.unit.empty() || p.unit == "1" ? "" : " " + p.unit));
+    parts.push_back(parameter_text(p.name, v, p.unit));
   }
   return join(parts, ", ");
 }
@@ -220,10 +214,10 @@ Section delivered_laws(const Calibration& c) {
   const int decimals = error_decimals(c);
   Table table{"Delivered laws",
               {{"delivered law"},
-               number("cross-validated MAE"),
-               number("95 % interval"),
-               number("RMSE"),
-               number("bias"),
+               number_column("cross-validated MAE"),
+               number_column("95 % interval"),
+               number_column("RMSE"),
+               number_column("bias"),
                {"parameters \u00B1 standard error", false, "", Shown::everywhere, "parameters"}},
               {}};
   List remarks;
@@ -270,10 +264,10 @@ Cell pair_cell(const calibrate::Comparison& pair, int decimals) {
 Table worse_than_best(const calibrate::Comparisons& c, int decimals) {
   Table table{"Laws compared with the best",
               {{"law"},
-               number("MAE above the best"),
-               number("p"),
-               number("RMSE above it"),
-               number("p"),
+               number_column("MAE above the best"),
+               number_column("p"),
+               number_column("RMSE above it"),
+               number_column("p"),
                {"verdict"},
                {"may be the best"}},
               {}};
@@ -301,7 +295,7 @@ Table worse_than_best(const calibrate::Comparisons& c, int decimals) {
 Table all_pairs(const calibrate::Comparisons& c, int decimals) {
   Table table{"Pairs of laws", {{"law"}}, {}, "matrix"};
   for (std::size_t i = 1; i < c.laws.size(); ++i)
-    table.columns.push_back(number(std::to_string(i)));
+    table.columns.push_back(number_column(std::to_string(i)));
   for (std::size_t j = 0; j < c.laws.size(); ++j) {
     Row row{{fmt::format("{} {}", j + 1, c.laws[j])}};
     for (const calibrate::Comparison& pair : c.pairs)
@@ -348,10 +342,14 @@ std::string meaning_of(const calibrate::NoiseFloor& floor) {
 }
 
 Table floors_table(const Calibration& calibration, int decimals) {
-  Table table{
-      "Noise floor",
-      {{"noise floor from"}, {"part"}, number("MAE"), number("RMSE"), {"data"}, {"meaning"}},
-      {}};
+  Table table{"Noise floor",
+              {{"noise floor from"},
+               {"part"},
+               number_column("MAE"),
+               number_column("RMSE"),
+               {"data"},
+               {"meaning"}},
+              {}};
   for (const calibrate::NoiseFloor& f : calibration.noise_floors)
     table.rows.push_back(
         {{calibrate::noise_floor_name(f), f.part,
@@ -382,7 +380,7 @@ Section all_errors(const Calibration& c) {
     Table table{"All errors", {{"law"}}, {}, "errors"};
     for (const char* part : {"validation", "training"})
       for (const char* error : {"MAE", "RMSE", "bias"})
-        table.columns.push_back(number(error, part));
+        table.columns.push_back(number_column(error, part));
     for (const ModelFit& fit : c.fits)
       table.rows.push_back(errors_row(fit, decimals));
     section.add(std::move(table));
@@ -401,10 +399,12 @@ Section experiment_band(const Calibration& c) {
   Section section{"band", "Band", "The band of experiments"};
   if (c.fits.empty()) return section;
   section.say(band_sentence);
-  Table table{
-      "Band of experiments",
-      {{"law"}, number("5 % below"), number("95 % below"), number("validation experiments inside")},
-      {}};
+  Table table{"Band of experiments",
+              {{"law"},
+               number_column("5 % below"),
+               number_column("95 % below"),
+               number_column("validation experiments inside")},
+              {}};
   for (const ModelFit& fit : c.fits)
     table.rows.push_back({{fit.model.law->name, factor_text(fit.band.low),
                            factor_text(fit.band.high), inside_text(fit.band)}});
@@ -428,7 +428,9 @@ Section polynomial_terms(const Calibration& c) {
       "by experiment, the ridge held. The {} largest of {} terms{}.",
       shown, record.terms.size(),
       shown < record.terms.size() ? "; all are in calibration.json" : ""));
-  Table table{"Terms of the polynomial", {{"term"}, number("b"), number("standard error")}, {}};
+  Table table{"Terms of the polynomial",
+              {{"term"}, number_column("b"), number_column("standard error")},
+              {}};
   for (std::size_t t = 0; t < shown; ++t) {
     const calibrate::PolynomialTerm& term = record.terms[t];
     const ValueText v = with_error(term.coefficient, term.std_error);
@@ -447,8 +449,8 @@ Section published_comparison(const Calibration& calibration) {
   section.say(published_warning);
   Table table{"Published figures",
               {{"mean absolute error of tau_R"},
-               number("published, MPa", "", "published"),
-               number("here, MPa")},
+               number_column("published, MPa", "", "published"),
+               number_column("here, MPa")},
               {}};
   const auto all = published_figures();
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -479,12 +481,12 @@ Section conditional_use(const Calibration& calibration) {
       "aside");
   Table table{"Conditional use",
               {{"law"},
-               number("MAE without gain"),
-               number("MAE with gain"),
-               number("RMSE with gain"),
-               number("bias with gain"),
-               number("gained"),
-               number("share of the deviation used")},
+               number_column("MAE without gain"),
+               number_column("MAE with gain"),
+               number_column("RMSE with gain"),
+               number_column("bias with gain"),
+               number_column("gained"),
+               number_column("share of the deviation used")},
               {},
               "errors"};
   for (const calibrate::ConditionalFit& fit : c.laws)

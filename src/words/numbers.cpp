@@ -106,6 +106,13 @@ ValueText with_error(double value, double std_error) {
   return {fixed(value, 1 - exponent), fixed(std_error, 1 - exponent)};
 }
 
+std::string parameter_text(const std::string& name, const ValueText& value,
+                           const std::string& unit) {
+  return name + " = " + value.value +
+         (value.std_error.empty() ? "" : " \u00B1 " + value.std_error) +
+         (unit.empty() || unit == "1" ? "" : " " + unit);
+}
+
 std::string count_of(std::size_t count, const std::string& noun) {
   return thousands(count) + " " + noun + (count == 1 ? "" : "s");
 }

@@ -51,6 +51,9 @@ struct ValueText {
   std::string std_error; // empty without an error
 };
 ValueText with_error(double value, double std_error);
+// "mu = 0.0792 \u00B1 0.0020", with the unit unless it is 1.
+std::string parameter_text(const std::string& name, const ValueText& value,
+                           const std::string& unit);
 
 // Writes "1 row", "16,500 rows".
 std::string count_of(std::size_t count, const std::string& noun);

@@ -111,7 +111,7 @@ public:
                                                     : fmt::format("<h{0}>{1}</h{0}>", level,
                                                                   words::html_of(section.title));
     // The anchor is inside what is folded, so that a browser unfolds it for a link.
-    const char* tag = section.id.empty() ? "div" : section.foldable ? "div" : "section";
+    const char* tag = section.id.empty() || section.foldable ? "div" : "section";
     if (section.foldable)
       out_ += fmt::format("<details{}>\n<summary>{}</summary>\n",
                           section.open ? " open=\"open\"" : "", title);

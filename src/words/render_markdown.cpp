@@ -1,6 +1,4 @@
 // Markdown.
-#include <algorithm>
-
 #include "words/render.h"
 
 namespace frictab::words {
@@ -78,9 +76,7 @@ public:
     std::string names = "|", rule = "|";
     for (const Column& column : table.columns)
       if (in_markdown(column)) {
-        names += " " +
-                 escaped(column.group.empty() ? column.title : column.group + " " + column.title) +
-                 " |";
+        names += " " + escaped(full_title(column)) + " |";
         rule += column.number ? "--:|" : "---|";
       }
     out_ += names + "\n" + rule + "\n";

@@ -35,15 +35,11 @@ bool on_terminal(const Column& column) {
   return column.shown == Shown::everywhere;
 }
 
-std::string heading_of(const Column& column) {
-  return column.group.empty() ? column.title : column.group + " " + column.title;
-}
-
 // The rows of a table, its headings first, without columns that are for pages.
 std::vector<std::vector<std::string>> rows_of(const Table& table) {
   std::vector<std::vector<std::string>> rows(1);
   for (const Column& column : table.columns)
-    if (on_terminal(column)) rows.front().push_back(ascii(heading_of(column)));
+    if (on_terminal(column)) rows.front().push_back(ascii(full_title(column)));
   for (const Row& row : table.rows) {
     rows.emplace_back();
     for (std::size_t c = 0; c < row.cells.size(); ++c)

@@ -1,7 +1,6 @@
 // Sentences and tables of a trace.
 #include "words/trace.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -72,10 +71,7 @@ std::string parameters_of(const TracedEffect& effect) {
   for (const trace::TracedParameter& p : effect.parameters) {
     const bool known = std::isfinite(p.std_error);
     if (!known && p.why_none.empty()) continue; // a constant that was set
-    const ValueText v = with_error(p.value, p.std_error);
-    parts.push_back(p.name + " = " + v.value +
-                    (v.std_error.empty() ? "" : " \u00B1 " + v.std_error) +
-                    (p.unit == "1" || p.unit.empty() ? "" : " " + p.unit) +
+    parts.push_back(parameter_text(p.name, with_error(p.value, p.std_error), p.unit) +
                     (known ? "" : " (" + p.why_none + ")"));
   }
   return join(parts, ", ");

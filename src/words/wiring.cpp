@@ -1,7 +1,6 @@
 // Reads recipes and describes them.
 #include "words/wiring.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/text.h"
