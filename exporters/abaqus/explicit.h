@@ -62,6 +62,7 @@ private:
                   const Inputs& inputs) const final;
   std::vector<codegen::BuildVariant> builds(const codegen::ExportRequest& request) const final;
   codegen::Driver driver(const codegen::ExportRequest& request, const Inputs& inputs) const final;
+  void follow(codegen::DrivenPath& path) const final;
   void check(const codegen::ExportRequest& request, const Inputs& inputs) const final;
   TemplateValues driver_values(const codegen::ExportRequest& request,
                                const Inputs& inputs) const final;

@@ -49,6 +49,9 @@ public:
              std::span<double> tau) const {
     exporter_.drive({handle(), directory_.path(), variant_}, request_, rows, columns, tau);
   }
+  std::optional<PathResult> drive_path(const PathOptions& options) const {
+    return exporter_.drive_path({handle(), directory_.path(), variant_}, request_, options);
+  }
   void* handle() const { return library_ ? library_->handle() : nullptr; }
 
 private:

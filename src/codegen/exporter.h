@@ -6,12 +6,14 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "codegen/path_result.h"
 #include "core/registry.h"
 #include "table/states.h"
 #include "table/table.h"
@@ -105,6 +107,14 @@ public:
   // represent are left unchanged.
   virtual void drive(const Built& built, const ExportRequest& request, std::size_t rows,
                      std::span<const double* const> columns, std::span<double> tau) const = 0;
+
+  // Drives a routine over increments and compares all that it returns and remembers with an account
+  // that is written from the definition of its state variables; nullopt if the target keeps
+  // nothing from one increment to the next.
+  virtual std::optional<PathResult> drive_path(const Built&, const ExportRequest&,
+                                               const PathOptions&) const {
+    return std::nullopt;
+  }
 
   // True for a routine that computes the law. Otherwise the target is a solver's own table, which
   // has fewer axes than the law: own_table() returns the table that the solver makes of these

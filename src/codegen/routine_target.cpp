@@ -66,6 +66,16 @@ void RoutineTarget::drive(const Built& built, const ExportRequest& request, std:
   });
 }
 
+std::optional<PathResult> RoutineTarget::drive_path(const Built& built,
+                                                    const ExportRequest& request,
+                                                    const PathOptions& how) const {
+  const CurvedRequest curved(request, gives(request));
+  const Inputs inputs = checked_inputs(curved.get());
+  DrivenPath path(built, curved.get(), inputs, how);
+  follow(path);
+  return path.result();
+}
+
 table::FixedStates RoutineTarget::fixed_states(const ExportRequest& request) const {
   const CurvedRequest curved(request, gives(request));
   return declared_constants(curved.get(), checked_inputs(curved.get()));

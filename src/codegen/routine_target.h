@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "codegen/combine.h"
+#include "codegen/driven_path.h"
 #include "codegen/driver.h"
 #include "codegen/exporter.h"
 #include "codegen/solver_inputs.h"
@@ -21,6 +22,8 @@ public:
   std::vector<BuildVariant> variants(const ExportRequest& request) const final;
   void drive(const Built& built, const ExportRequest& request, std::size_t rows,
              std::span<const double* const> columns, std::span<double> tau) const final;
+  std::optional<PathResult> drive_path(const Built& built, const ExportRequest& request,
+                                       const PathOptions& options) const final;
   table::FixedStates fixed_states(const ExportRequest& request) const final;
   bool gives_mu(const ExportRequest& request) const final;
   bool combines() const final { return !selector_.argument.empty(); }
@@ -44,6 +47,8 @@ private:
   // Build variants without the driver.
   virtual std::vector<BuildVariant> builds(const ExportRequest& request) const = 0;
   virtual Driver driver(const ExportRequest& request, const Inputs& inputs) const = 0;
+  // Drives the routine over the increments of the path, with the target's own account.
+  virtual void follow(DrivenPath& path) const = 0;
   // Throws InputError for inputs that the routine cannot take.
   virtual void check(const ExportRequest&, const Inputs&) const {}
   // Values for the driver's template.

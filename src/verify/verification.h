@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibrate/calibration.h"
+#include "codegen/path_result.h"
 #include "table/table.h"
 
 namespace frictab::verify {
@@ -72,6 +73,9 @@ struct DriftRecord {
   // is the difference from the law at the rows' own states:
   std::optional<std::map<std::string, double>> fixed_states = {};
   double cost_mean_abs_MPa = 0, cost_max_abs_MPa = 0; // over the rows inside the range
+  // Routines: driven over increments, all that they return and remember against an account of its
+  // own; empty for what remembers nothing and for solvers' own tables.
+  std::optional<codegen::PathResult> path = {};
 };
 
 // True for a routine in single precision; its difference from the table is then a rounding error
@@ -87,6 +91,10 @@ inline double largest_drift_MPa(const DriftRecord& r) {
   const double below = r.below && r.below->outside == "law" ? r.below->max_abs_MPa : 0;
   return std::max({r.worst_case_MPa, r.rows.max_abs, below});
 }
+
+// Returns what a driven routine returned or remembered wrongly: "over 240 increments STATEV(1) slip
+// differs by 0.5 mm"; empty if nothing.
+std::string path_fault(const DriftRecord& record);
 
 struct Verification {
   double max_drift_MPa = 0; // largest limit of any record

@@ -380,6 +380,12 @@ DriftRecord compare_reduced(const VerifyInput& input, const Subjects& s, const S
   return record;
 }
 
+// A routine whose answers do not drift may still remember or return the wrong things.
+void add_path(DriftRecord& record, std::optional<codegen::PathResult> path) {
+  record.path = std::move(path);
+  if (record.path && !record.path->passed()) record.passed = false;
+}
+
 DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
                            const GeneratedSource& source, const codegen::BuildVariant& variant) {
   const codegen::Exporter& exporter = *source.exporter;
@@ -396,19 +402,28 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
     return record;
   }
   const codegen::CompiledTarget target(exporter, source.request, source.bundle, variant);
+  // First, because later calls may set the routine's constants.
+  std::optional<codegen::PathResult> path = target.drive_path({});
   const Answer answer = [&](const Probe& reference, std::vector<double>& tau) {
     target.drive(reference.law.size(), columns_for(source.request.table, s, reference), tau);
   };
   const bool gives_mu = exporter.gives_mu(source.request);
   const auto given = [&](const Subjects& all) { return gives_mu ? with_largest_mu(all) : all; };
   const table::FixedStates held = exporter.fixed_states(source.request);
-  if (exporter.is_routine() && held.empty()) return compare(input, given(s), subject, answer);
+  if (exporter.is_routine() && held.empty()) {
+    DriftRecord record = compare(input, given(s), subject, answer);
+    add_path(record, std::move(path));
+    return record;
+  }
   const Reference reference(input, s.names);
   Subjects reduced = at_held(input.table, s, reference, held, !exporter.is_routine());
   if (!exporter.is_routine())
     add_furthest(reduced, input, reference, exporter.own_table(source.request, source.bundle), held,
                  gives_mu);
-  return compare_reduced(input, s, given(reduced), held, !exporter.is_routine(), subject, answer);
+  DriftRecord record =
+      compare_reduced(input, s, given(reduced), held, !exporter.is_routine(), subject, answer);
+  add_path(record, std::move(path));
+  return record;
 }
 
 } // namespace
@@ -427,6 +442,21 @@ std::vector<DriftRecord> verify(const VerifyInput& input,
     progress.tick();
   }
   return records;
+}
+
+std::string path_fault(const DriftRecord& record) {
+  if (!record.path) return "";
+  std::vector<std::string> faults;
+  for (const codegen::PathFigure& figure : record.path->figures)
+    if (figure.of_allowed > 1)
+      faults.push_back(fmt::format("{} by up to {:.3g}{}{}", figure.quantity, figure.largest_error,
+                                   figure.unit.empty() ? "" : " ", figure.unit));
+  if (faults.empty()) return "";
+  const std::size_t named = std::min<std::size_t>(faults.size(), 3), more = faults.size() - named;
+  faults.resize(named);
+  return fmt::format("over {} increments differs from its definition: {}{}",
+                     record.path->increments, join(faults, ", "),
+                     more == 0 ? "" : fmt::format(" and {} more", more));
 }
 
 std::string allowed_text(const Verification& verification) {

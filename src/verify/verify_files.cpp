@@ -32,6 +32,7 @@ std::string failure_text(const DriftRecord& record) {
           : "";
   const std::string on_rows =
       record.n_rows == 0 ? "" : fmt::format("; {:.6g} MPa on the rows", record.rows.max_abs);
+  if (const std::string fault = path_fault(record); !fault.empty()) return fault;
   return fmt::format("worst case {:.6g} MPa over the range at {}{}{}; allowed {:.6g} MPa{}",
                      record.worst_case_MPa, state, on_rows, below, record.allowed_MPa, answered);
 }
@@ -74,6 +75,19 @@ static void describe(Fields& f, BelowRange& below) {
   f.known("max_abs_MPa", below.max_abs_MPa);
 }
 
+static void describe_path(Fields& f, codegen::PathResult& path) {
+  f("increments", path.increments);
+  f("points", path.points);
+  f.only_written("passed", path.passed());
+  f.list("figures", path.figures, [](Fields& one, codegen::PathFigure& figure) {
+    one("quantity", figure.quantity);
+    one("unit", figure.unit);
+    one.known("max_abs_error", figure.largest_error);
+    one.known("of_allowed", figure.of_allowed);
+    one("compared", figure.compared);
+  });
+}
+
 static void describe(Fields& f, DriftRecord& r) {
   f("model", r.model);
   f("subject", r.subject);
@@ -112,9 +126,13 @@ static void describe(Fields& f, DriftRecord& r) {
   f.unless_default("out_of_boxes", r.out_of_boxes);
   f.if_there("below", r.below);
   f.if_known("held", r.fixed_states);
-  if (!r.fixed_states) return;
-  f.known("cost_mean_abs_MPa", r.cost_mean_abs_MPa);
-  f.known("cost_max_abs_MPa", r.cost_max_abs_MPa);
+  if (r.fixed_states) {
+    f.known("cost_mean_abs_MPa", r.cost_mean_abs_MPa);
+    f.known("cost_max_abs_MPa", r.cost_max_abs_MPa);
+  }
+  if (!f.has("path", r.path.has_value())) return;
+  if (f.reads()) r.path.emplace();
+  f.within("path", [&](Fields& inner) { describe_path(inner, *r.path); });
 }
 
 static void describe(Fields& f, Verification& v) {
@@ -162,6 +180,10 @@ void add_figures(pugi::xml_node test, const DriftRecord& record) {
   pugi::xml_node properties = test.append_child("properties");
   for (const auto& [name, value] : figures.items())
     if (value.is_number()) add_property(properties, name, value.dump());
+  if (record.path)
+    for (const codegen::PathFigure& figure : record.path->figures)
+      add_property(properties, "path: " + figure.quantity,
+                   Fields::Json(figure.largest_error).dump());
 }
 
 } // namespace

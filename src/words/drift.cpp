@@ -35,14 +35,17 @@ struct LawDrift {
   std::optional<double> proven_MPa;
   double routines = 0; // largest drift of any routine
   std::size_t count = 0, untested = 0;
-  bool passed = true, found_passed = true, over_by_proof = false, over_law_error = false;
+  bool passed = true, found_passed = true, path_passed = true, over_by_proof = false,
+       over_law_error = false;
   std::vector<std::string> notes; // subjects that did not run, or are over the tolerance
 };
 
 void add_notes(LawDrift& law, const DriftRecord& r) {
   const std::string subject = r.model + " " + r.subject;
   const auto note = [&](const std::string& text) { law.notes.push_back(subject + " " + text); };
-  if (!r.passed)
+  if (const std::string fault = verify::path_fault(r); !fault.empty())
+    note(fault);
+  else if (!r.passed)
     note(fmt::format("drifts by up to {:.3g} MPa", verify::largest_drift_MPa(r)));
   else if (r.over_law_error)
     note(fmt::format("drifts by up to {:.3g} MPa, and the law errs by {:.3g} MPa: "
@@ -65,6 +68,7 @@ void add_record(LawDrift& law, const Verification& verification, const DriftReco
   }
   law.passed = law.passed && !verification.failed(r);
   law.found_passed = law.found_passed && r.passed;
+  law.path_passed = law.path_passed && verify::path_fault(r).empty();
   law.over_by_proof = law.over_by_proof || r.over_by_proof;
   law.over_law_error = law.over_law_error || r.over_law_error;
   add_notes(law, r);
@@ -83,6 +87,7 @@ void add_record(LawDrift& law, const Verification& verification, const DriftReco
 }
 
 Text result_of(const LawDrift& law) {
+  if (!law.path_passed) return badge("WRONG OVER INCREMENTS", "fail");
   if (!law.found_passed) return badge("OVER TOLERANCE", "fail");
   if (law.over_law_error) return badge("DRIFTS MORE THAN THE LAW ERRS", "fail");
   if (law.untested > 0 && law.passed)
@@ -214,6 +219,32 @@ Section fixed_states(const Verification& verification) {
   return section;
 }
 
+// One row per routine: what it returned and remembered over increments, against an account of its
+// own.
+Section over_increments(const Verification& verification) {
+  Section section{"", "", "Routines over increments, against the definition of what they remember"};
+  Table table{"Over increments",
+              {{"law"},
+               {"routine"},
+               number_column("increments"),
+               number_column("numbers compared"),
+               {"furthest off, as a share of what rounding allows"}},
+              {}};
+  for (const DriftRecord& r : verification.records) {
+    if (!r.path || r.path->figures.empty()) continue;
+    std::size_t compared = 0;
+    for (const codegen::PathFigure& figure : r.path->figures)
+      compared += figure.compared;
+    const auto worst =
+        std::max_element(r.path->figures.begin(), r.path->figures.end(),
+                         [](const auto& a, const auto& b) { return a.of_allowed < b.of_allowed; });
+    table.rows.push_back({{r.model, r.subject, thousands(r.path->increments), thousands(compared),
+                           fmt::format("{:.2g}, {}", worst->of_allowed, worst->quantity)}});
+  }
+  if (!table.rows.empty()) section.add(std::move(table));
+  return section;
+}
+
 } // namespace
 
 Section drift(const Verification& verification, Detail detail) {
@@ -250,6 +281,7 @@ Section drift(const Verification& verification, Detail detail) {
   if (detail != Detail::brief) {
     more.push_back(below_the_range(verification));
     more.push_back(single_precision(verification));
+    more.push_back(over_increments(verification));
   }
   more.push_back(fixed_states(verification));
   for (Section& one : more)

@@ -124,6 +124,8 @@ private:
     return {.gives = fric::gives(request), .most_points = 136};
   }
 
+  void follow(DrivenPath& path) const override { fric::follow(path); }
+
   std::string quit() const override { return abaqus::quit(abaqus::Solver::standard); }
 };
 

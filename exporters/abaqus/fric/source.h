@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "codegen/driven_path.h"
 #include "codegen/solver_inputs.h"
 
 namespace frictab::abaqus::fric {
@@ -19,6 +20,9 @@ std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 // The property after those of the states.
 codegen::FurtherProperties critical_slip(const codegen::ExportRequest& request,
                                          const std::vector<codegen::SolverInput>& inputs);
+
+// Drives the routine with its account.
+void follow(codegen::DrivenPath& path);
 
 std::string fric_source(const codegen::ExportRequest& request,
                         const std::vector<codegen::SolverInput>& inputs);

@@ -138,6 +138,8 @@ private:
     return fric_coef::arguments(request);
   }
 
+  void follow(DrivenPath& path) const override { fric_coef::follow(path); }
+
   std::string quit() const override { return abaqus::quit(abaqus::Solver::standard); }
 };
 

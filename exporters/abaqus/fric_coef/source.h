@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "codegen/driven_path.h"
 #include "codegen/solver_inputs.h"
 
 namespace frictab::abaqus::fric_coef {
@@ -25,5 +26,8 @@ std::string arguments(const codegen::ExportRequest& request);
 // Throws InputError if the coefficient has to be kept and the argument list has no state variables.
 std::string coef_source(const codegen::ExportRequest& request,
                         const std::vector<codegen::SolverInput>& inputs);
+
+// Drives the routine with its account.
+void follow(codegen::DrivenPath& path);
 
 } // namespace frictab::abaqus::fric_coef

@@ -1,6 +1,7 @@
 // Target `abaqus_vfric_coef`: Abaqus/Explicit, general contact, the coefficient alone: the solver
 // decides between stick and slip.
 #include "codegen/exporter.h"
+#include "codegen/coefficient_path.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -160,6 +161,15 @@ private:
 
   Driver driver(const ExportRequest& request, const Inputs&) const override {
     return abaqus::explicit_driver(vfric_coef::gives(request), fortran::Coefficient::coulomb);
+  }
+
+  void follow(DrivenPath& path) const override {
+    const FurtherProperties scale = speed_scale(path.request, path.inputs);
+    follow_coefficient(path, {.name = "fCoef",
+                              .points = 5,
+                              .nan_speed_is_nan = true,
+                              .may_lack_temperature = true,
+                              .factor_property = scale.empty() ? 0 : scale.front().number});
   }
 
   std::string quit() const override { return abaqus::quit(abaqus::Solver::explicit_); }

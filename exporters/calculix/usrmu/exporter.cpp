@@ -1,6 +1,7 @@
 // Target `calculix_usrmu`: CalculiX CrunchiX. Its friction is a single number; a script replaces it
 // by calls of this routine in CalculiX's open source.
 #include "codegen/exporter.h"
+#include "codegen/coefficient_path.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -143,6 +144,12 @@ private:
     return {.gives = usrmu::gives(request),
             .result = Coefficient::coulomb,
             .zero_is_no_temperature = true};
+  }
+
+  void follow(DrivenPath& path) const override {
+    follow_coefficient(
+        path,
+        {.name = "UM", .zero_is_no_temperature = true, .keeps_result_without_pressure = true});
   }
 };
 

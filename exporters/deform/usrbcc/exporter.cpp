@@ -176,6 +176,12 @@ private:
     check_fields(request, inputs);
   }
 
+  TemplateValues driver_values(const ExportRequest&, const Inputs& inputs) const override {
+    return {.text = {}, .flags = {{"updates", takes_history(inputs)}}, .lists = {}};
+  }
+
+  void follow(DrivenPath& path) const override { usrbcc::follow(path); }
+
   std::string quit() const override { return usrbcc::quit(); }
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "codegen/coefficient.h"
+#include "codegen/driven_path.h"
 #include "codegen/solver_inputs.h"
 
 namespace frictab::deform::usrbcc {
@@ -26,6 +27,9 @@ void check_fields(const codegen::ExportRequest&, const std::vector<codegen::Solv
 
 // Returns ftquit of fortran::Core.
 std::string quit();
+
+// Drives both routines with their account.
+void follow(codegen::DrivenPath& path);
 
 std::string usrbcc_source(const codegen::ExportRequest& request,
                           const std::vector<codegen::SolverInput>& inputs);

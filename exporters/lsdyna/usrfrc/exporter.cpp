@@ -171,6 +171,8 @@ private:
     return area_of_driver(request, inputs);
   }
 
+  void follow(DrivenPath& path) const override { usrfrc::follow(path); }
+
   std::string quit() const override { return usrfrc::quit(); }
 };
 

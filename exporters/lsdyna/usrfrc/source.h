@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "codegen/driven_path.h"
 #include "codegen/solver_inputs.h"
 
 namespace frictab::lsdyna::usrfrc {
@@ -18,6 +19,9 @@ std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 
 // Returns ftquit of fortran::Core.
 std::string quit();
+
+// Drives the routine with its account.
+void follow(codegen::DrivenPath& path);
 
 std::string usrfrc_source(const codegen::ExportRequest& request,
                           const std::vector<codegen::SolverInput>& inputs);

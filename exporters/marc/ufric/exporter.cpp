@@ -1,6 +1,7 @@
 // Target `marc_ufric`: Marc and Simufact Forming. Its names, compilation and reference in a model;
 // the source text is filled in source.cpp.
 #include "codegen/exporter.h"
+#include "codegen/coefficient_path.h"
 
 #include <nlohmann/json.hpp>
 
@@ -132,6 +133,17 @@ private:
 
   Driver driver(const ExportRequest& request, const Inputs&) const override {
     return {.gives = ufric::gives(request), .result = choices(request).coefficient};
+  }
+
+  TemplateValues driver_values(const ExportRequest& request, const Inputs&) const override {
+    return {
+        .text = {}, .flags = {{"in_space", choices(request).slip_components == 2}}, .lists = {}};
+  }
+
+  void follow(DrivenPath& path) const override {
+    follow_coefficient(
+        path,
+        {.result = choices(path.request).coefficient, .name = "FRIC", .signed_pressure = true});
   }
 
   std::string arguments(const ExportRequest& request) const override {

@@ -71,3 +71,79 @@ C       direction
         if (nfdir .eq. 2) tau(k) = hypot(t(1), t(2))
       end do
       end
+C
+C     One call of FRIC for each point (ftincr in
+C     src/codegen/driven_path.h). par: time increment, step, increment.
+C     v: pressure, motion (2), stress before (2), temperatures (2),
+C     LM, directions, rotation of the axes (4), CHRLNGTH.
+C     out: LM, TAU (2), DDTDDG (4), DDTDDP (2), DDTDDT (4), DSLIP (2),
+C     SED, SFD, PNEWDT.
+      subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
+     &  field, nout, out)
+      include 'aba_param.inc'
+      integer*4 n, npar, nv, ns, np, nf, nout
+      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
+      real*8 out(nout,n)
+      character*80 cin, csl, cms
+      dimension t(2), ddg(2,2), ddp(2), ds(2), ddt(2,2), dg(2), tlm(2)
+      dimension tot(2), time(2), co(3), rco(3), drot(2,2), temp(2)
+      dimension pre(2,nf), g1(1,1), d1(1,2)
+      cin = '@{contact}'
+      csl = 'SEC'
+      cms = 'MAIN'
+      time(1) = 3*par(1)
+      time(2) = 5*par(1)
+C     What the routine has no use for
+      co = huge(co)
+      rco = huge(rco)
+      tlm = huge(tlm)
+      tot = huge(tot)
+      do k = 1, n
+        lm = nint(v(8,k))
+        nfdir = nint(v(9,k))
+        dg = v(2:3,k)
+        t = v(4:5,k)
+        temp = v(6:7,k)
+        drot(1,1) = v(10,k)
+        drot(2,1) = v(11,k)
+        drot(1,2) = v(12,k)
+        drot(2,2) = v(13,k)
+        pre(1,:) = field(1:nf,k)
+        pre(2,:) = field(nf+1:2*nf,k)
+        ddg = 77
+        ddp = 77
+        ds = 77
+        ddt = 77
+        g1 = 77
+        d1 = 77
+        sed = 77
+        sfd = 77
+        pnewdt = 0.875D0
+        if (nfdir .eq. 2) then
+          call fric(lm, t, ddg, ddp, ds, sed, sfd, ddt, pnewdt, st(1,k),
+     &      dg, tlm, v(1,k), 0.25D0*v(1,k), 1.0D30, tot, nint(par(2)),
+     &      nint(par(3)), time, par(1), 21, cin, csl, cms, 17, 7, 13,
+     &      co, rco, drot, temp, pre, nfdir, 3, int(nf), int(ns),
+     &      v(14,k), prop, int(np))
+        else
+          call fric(lm, t, g1, ddp, ds, sed, sfd, d1, pnewdt, st(1,k),
+     &      dg, tlm, v(1,k), 0.25D0*v(1,k), 1.0D30, tot, nint(par(2)),
+     &      nint(par(3)), time, par(1), 21, cin, csl, cms, 17, 7, 13,
+     &      co, rco, drot, temp, pre, nfdir, 2, int(nf), int(ns),
+     &      v(14,k), prop, int(np))
+          ddg(1,1) = g1(1,1)
+          ddt(1,:) = d1(1,:)
+        end if
+        out(1,k) = lm
+        out(2:3,k) = t
+        out(4:5,k) = ddg(:,1)
+        out(6:7,k) = ddg(:,2)
+        out(8:9,k) = ddp
+        out(10:11,k) = ddt(:,1)
+        out(12:13,k) = ddt(:,2)
+        out(14:15,k) = ds
+        out(16,k) = sed
+        out(17,k) = sfd
+        out(18,k) = pnewdt
+      end do
+      end

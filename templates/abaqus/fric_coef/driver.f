@@ -58,3 +58,74 @@ C     iData: step, increment, element, point, state variables, kind
       tau = coef
 @end
       end
+C
+C     One call of FRIC_COEF (ftincr in src/codegen/driven_path.h).
+C     par: time increment, step, increment, whether there are
+C     temperatures, state variables. v: pressure, slip rate, slip,
+C     temperature. st: of the first point. out: coefficient, derivatives
+C     by slip rate, pressure, temperature and slip, sum of the others.
+      subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
+     &  field, nout, out)
+      include 'aba_param.inc'
+      integer*4 n, npar, nv, ns, np, nf, nout
+      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
+      real*8 out(nout,n)
+      character*80 cin, csl, cms
+      dimension press(n), temp(n), fav(n,nf)
+@if new
+      dimension coef(n,2), deriv(n,20,2), slip(n,6), rdata(7+ns)
+      dimension idata(6)
+@else
+      dimension coef(n), deriv(n,3), slip(n), rdata(3), idata(2)
+@end
+      cin = '@{contact}'
+      csl = 'SEC'
+      cms = 'MAIN'
+      rdata = 0.5D0
+      rdata(1) = 3*par(1)
+      rdata(2) = 5*par(1)
+      rdata(3) = par(1)
+      idata(1) = nint(par(2))
+      idata(2) = nint(par(3))
+      press = v(1,:)
+      temp = v(4,:)
+      fav = transpose(field(1:nf,:))
+      coef = 77
+      deriv = 77
+@if new
+      idata(3) = 5
+      idata(4) = 7
+      idata(5) = nint(par(5))
+      idata(6) = 2
+      slip = 1.0D30
+      slip(:,1) = v(2,:)
+      slip(:,4) = v(3,:)
+      do i = 1, ns
+        rdata(7+i) = st(i,1)
+      end do
+@else
+      slip = v(2,:)
+@end
+      call fric_coef(coef, deriv, int(n), int(np), nint(par(4)),
+     &  int(nf), idata, rdata, cin, csl, cms, prop, slip, press, temp,
+     &  fav)
+@if new
+      do i = 1, ns
+        st(i,1) = rdata(7+i)
+      end do
+      out(1,:) = coef(:,1)
+      out(2,:) = deriv(:,1,1)
+      out(3,:) = deriv(:,2,1)
+      out(4,:) = deriv(:,3,1)
+      out(5,:) = deriv(:,6,1)
+      do k = 1, n
+        out(6,k) = sum(abs(deriv(k,4:5,1))) + sum(abs(deriv(k,7:20,1)))
+      end do
+@else
+      out(1,:) = coef
+      out(2,:) = deriv(:,1)
+      out(3,:) = deriv(:,2)
+      out(4,:) = deriv(:,3)
+      out(5:6,:) = 0
+@end
+      end

@@ -79,3 +79,91 @@ C     Sets a state variable, and another one to what is rounded off it.
       st(i) = real(value, kind(st))
       if (j .gt. 0) st(j) = real(value - st(i), kind(st))
       end
+C
+C     One increment of VFRIC (ftincr in src/codegen/driven_path.h).
+C     par: time increment, whether there are temperatures, values of
+C     the main surface (0, 1 or n), step, increment, directions of
+C     friction, directions, surface nodes. v: normal force, area, stick
+C     force, motion (3), force before (3), temperatures (2), node. out:
+C     force (2), values of other nodes that were changed.
+      subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
+     &  field, nout, out)
+      include 'vaba_param.inc'
+      integer*4 n, npar, nv, ns, np, nf, nout
+      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
+      real*8 out(nout,n)
+      character*80 cin, csec, cmain
+      dimension ftan(nint(par(6)),n), state(ns,nint(par(8)))
+      dimension slip(nint(par(7)),n), prev(nint(par(7)),n), stick(n)
+      dimension fnorm(n), shape(4,n), area(nint(par(8))), props(np)
+      dimension xsec(nint(par(7)),nint(par(8))), xmain(nint(par(7)),4)
+      dimension dsl(nint(par(7)),n), dn(nint(par(7)),n)
+      dimension tsec(n), psec(n,nf), tmain(n), pmain(n*nf+1)
+      dimension jsec(nint(par(8))), jmain(4), jcs(n), jcm(4,n)
+      nfric = nint(par(6))
+      ndir = nint(par(7))
+      nodes = nint(par(8))
+      mains = nint(par(3))
+      cin = '@{contact}'
+      csec = 'SEC'
+      cmain = 'MAIN'
+      dtime = real(par(1), kind(dtime))
+C     What no law asks for, and state variables of other nodes
+      shape = huge(shape)
+      xsec = huge(xsec)
+      xmain = huge(xmain)
+      dsl = huge(dsl)
+      dn = huge(dn)
+      jcm = 1
+      state = -5.25
+      area = 3.5
+      ftan = 77
+      do i = 1, nodes
+        jsec(i) = 1000 + 7*i
+      end do
+      jmain = 8
+      do i = 1, np
+        props(i) = real(prop(i), kind(props))
+      end do
+      do k = 1, n
+        node = nint(v(12,k))
+        jcs(k) = node
+        fnorm(k) = real(v(1,k), kind(fnorm))
+        area(node) = real(v(2,k), kind(area))
+        stick(k) = real(v(3,k), kind(stick))
+        do i = 1, ndir
+          slip(i,k) = real(v(3+i,k), kind(slip))
+          prev(i,k) = real(v(6+i,k), kind(prev))
+        end do
+        tsec(k) = real(v(10,k), kind(tsec))
+        tmain(k) = real(v(11,k), kind(tmain))
+        do i = 1, nf
+          psec(k,i) = real(field(i,k), kind(psec))
+          if (k .le. mains)
+     &      pmain((i-1)*mains+k) = real(field(nf+i,k), kind(pmain))
+        end do
+        do i = 1, ns
+          state(i,node) = real(st(i,k), kind(state))
+        end do
+      end do
+      call vfric(ftan, state, nint(par(4)), nint(par(5)), n, 4, nodes,
+     &  4, nfric, ndir, ns, np, nint(par(2)), nf, mains, jsec, jmain,
+     &  jcs, jcm, 3*dtime, 5*dtime, dtime, cin, csec, cmain, 1, slip,
+     &  stick, prev, fnorm, 9*dtime, shape, xsec, xmain, dsl, dn, props,
+     &  area, tsec, psec, tmain, pmain)
+      out = 0
+      do k = 1, n
+        do i = 1, nfric
+          out(i,k) = ftan(i,k)
+        end do
+        do i = 1, ns
+          st(i,k) = state(i,jcs(k))
+          state(i,jcs(k)) = -5.25
+        end do
+      end do
+      do j = 1, nodes
+        do i = 1, ns
+          if (abs(state(i,j) + 5.25) .gt. 0) out(3,1) = out(3,1) + 1
+        end do
+      end do
+      end

@@ -81,3 +81,94 @@ C     Sets a state variable, and another one to what is rounded off it.
       st(i) = real(value, kind(st))
       if (j .gt. 0) st(j) = real(value - st(i), kind(st))
       end
+C
+C     One increment of VFRICTION (ftincr in src/codegen/driven_path.h).
+C     par: time increment, whether there are temperatures, values of
+C     the main surface (0, 1 or n), step, increment, directions of
+C     friction, directions, columns of state variables. v: normal force,
+C     area, stick force, motion (3), force before (3), temperatures (2).
+C     out: force (2).
+      subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
+     &  field, nout, out)
+      include 'vaba_param.inc'
+      integer*4 n, npar, nv, ns, np, nf, nout
+      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
+      real*8 out(nout,n)
+      character*80 cin, csec, cmain
+      dimension ftan(nint(par(6)),n)
+      dimension state(ns/nint(par(8)),nint(par(8)),n)
+      dimension slip(nint(par(7)),n), prev(nint(par(7)),n), stick(n)
+      dimension fnorm(n), area(n), props(np), dn(3,n), dsl(3,n)
+      dimension shs(4,n), shm(4,n), xs(3,4,n), xm(3,4,n), vs(3,4,n)
+      dimension vm(3,4,n), ts(n), tm(n), fs(nf,n), fm(nf,n)
+      dimension jsec(4,n), jmain(4,n), jflags(3), rdata(4)
+      nfric = nint(par(6))
+      ndir = nint(par(7))
+      ncol = nint(par(8))
+      nst = ns/ncol
+      mains = nint(par(3))
+      nsec = 1
+      if (ncol .gt. 1) nsec = 2
+      cin = '@{contact}'
+      csec = ' '
+      cmain = ' '
+      jflags(1) = nint(par(4))
+      jflags(2) = nint(par(5))
+      jflags(3) = 9
+      rdata(3) = real(par(1), kind(rdata))
+      rdata(1) = 3*rdata(3)
+      rdata(2) = 5*rdata(3)
+      rdata(4) = 7*rdata(3)
+C     What no law asks for
+      dn = huge(dn)
+      dsl = huge(dsl)
+      shs = huge(shs)
+      shm = huge(shm)
+      xs = huge(xs)
+      xm = huge(xm)
+      vs = huge(vs)
+      vm = huge(vm)
+      jmain = 8
+      ftan = 77
+      do i = 1, np
+        props(i) = real(prop(i), kind(props))
+      end do
+      do k = 1, n
+        do i = 1, 4
+          jsec(i,k) = 1000 + 7*k + i
+        end do
+        fnorm(k) = real(v(1,k), kind(fnorm))
+        area(k) = real(v(2,k), kind(area))
+        stick(k) = real(v(3,k), kind(stick))
+        do i = 1, ndir
+          slip(i,k) = real(v(3+i,k), kind(slip))
+          prev(i,k) = real(v(6+i,k), kind(prev))
+        end do
+        ts(k) = real(v(10,k), kind(ts))
+        tm(k) = real(v(11,k), kind(tm))
+        do i = 1, nf
+          fs(i,k) = real(field(i,k), kind(fs))
+          fm(i,k) = real(field(nf+i,k), kind(fm))
+        end do
+        do j = 1, ncol
+          do i = 1, nst
+            state(i,j,k) = real(st((j-1)*nst+i,k), kind(state))
+          end do
+        end do
+      end do
+      call vfriction(ftan, state, n, mains, 1, ncol, nsec, 4, nfric,
+     &  ndir, nst, np, nint(par(2)), nf, jflags, rdata, cin, csec,
+     &  cmain, jsec, jmain, props, slip, stick, prev, fnorm, area, dn,
+     &  dsl, shs, shm, xs, xm, vs, vm, ts, tm, fs, fm)
+      out = 0
+      do k = 1, n
+        do i = 1, nfric
+          out(i,k) = ftan(i,k)
+        end do
+        do j = 1, ncol
+          do i = 1, nst
+            st((j-1)*nst+i,k) = state(i,j,k)
+          end do
+        end do
+      end do
+      end

@@ -28,3 +28,36 @@ C       Along one axis; what moves along the normal is no slip.
         call usrmu(tau(k), v(1,k), al, xn, al(j), t, v(4,k))
       end do
       end
+C
+C     USRMU at each point (ftincr in src/codegen/driven_path.h).
+C     v: pressure, speed, slip, temperature.
+      subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
+     &  field, nout, out)
+      implicit none
+      integer*4 n, npar, nv, ns, np, nf, nout
+      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
+      real*8 out(nout,n)
+      real*8 step, al(3), xn(3), t(3), across
+      integer k
+C     Along the normal (2,-1,2)/3 something moves that is no slip, which
+C     is along (1,2,0)/sqrt(5).
+      across = 1.0D0/sqrt(5.0D0)
+      do k = 1, n
+        step = 2.0D0**(-20 - mod(k, 3))
+        if (abs(v(2,k)) .le. 0.0D0) step = 0
+        call usrmu_time(step)
+        xn(1) = 2.0D0/3.0D0
+        xn(2) = -1.0D0/3.0D0
+        xn(3) = 2.0D0/3.0D0
+        al = 0.5D0*v(2,k)*step*xn
+        al(1) = al(1) + v(2,k)*step*across
+        al(2) = al(2) + v(2,k)*step*2.0D0*across
+        t(1) = 0.48D0*v(3,k)
+        t(2) = 0.6D0*v(3,k)
+        t(3) = -0.64D0*v(3,k)
+        out(1,k) = 0.125D0
+        out(2,k) = 0
+        call usrmu(out(1,k), v(1,k), al, xn, 0.5D0*v(2,k)*step, t,
+     &    v(4,k))
+      end do
+      end

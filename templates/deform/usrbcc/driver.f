@@ -45,3 +45,105 @@ C     it is not is 0.
      &    nusrn, 20.0D0, temo, temc, 0.0D0, 1, 1, 2, 2)
       end do
       end
+C
+C     One step of DEFORM (ftincr in src/codegen/driven_path.h): USRBCC
+C     for an edge from each node to the next, then USRUPD's call of
+C     FTUPD for each node. par: time increment, number of user
+C     variables. v, of the edge: pressure, speed, temperatures (2), flow
+C     stress, surface expansion; of the node: tangential and normal
+C     traction, speed, temperature. out: the result; magnitudes of what
+C     calls change that are not for friction, and of other variables.
+      subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
+     &  field, nout, out)
+      implicit none
+      integer*4 n, npar, nv, ns, np, nf, nout
+      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
+      real*8 out(nout,n)
+      integer nbcd(2,2), ndie, k, nusrn, next
+      double precision rz(2,2), drz(2,2), usrnod(nint(par(2)),n), other
+      double precision temo(2), temc(2)
+      double precision tmpenv, tmpslf, sldvel, press
+      common /ufhcom/ tmpenv, tmpslf, sldvel, press
+      double precision strch, efsts, efeps
+      common /ufhcom2/ strch, efsts, efeps
+@if updates
+      integer kobj, istatus, kstep, ksstep
+      common /usrctl/ kobj, istatus, kstep, ksstep
+      double precision dtmaxc
+      common /sstu/ dtmaxc
+      integer knode, i, j
+      double precision rzn(2), urzn(2), drzn(2), tempn, dtmpn
+      double precision usrn1(1500), usrn2(1500)
+      common /nodcom/ rzn, urzn, drzn, tempn, dtmpn, usrn1, usrn2,
+     &  knode
+      integer intnal
+      double precision arean, tmpneb, spdnod, presr(2)
+      common /nodcom2/ arean, tmpneb, spdnod, presr, intnal
+@end
+      nusrn = nint(par(2))
+      usrnod = st(1:nusrn,:)
+      nbcd = 3
+      ndie = @{contact}
+      rz = 1.0D30
+      drz = 1.0D30
+      temo = 1.0D30
+      tmpenv = 1.0D30
+      tmpslf = 1.0D30
+      efeps = 1.0D30
+      do k = 1, n
+        next = 1 + mod(k, n)
+        press = v(1,k)
+        sldvel = v(2,k)
+        temc = v(3:4,k)
+        efsts = v(5,k)
+        strch = v(6,k)
+        out(1,k) = 0.125D0
+        call usrbcc(out(1,k), k, next, 5, nbcd, ndie, rz, drz, usrnod,
+     &    nusrn, 1.0D30, temo, temc, 0.5D0, 4, 1, 2, 2)
+        other = 0.125D0
+        call usrbcc(other, k, next, 5, nbcd, ndie, rz, drz, usrnod,
+     &    nusrn, 1.0D30, temo, temc, 0.5D0, 4, 2, 2, 2)
+        call usrbcc(other, k, next, 5, nbcd, ndie, rz, drz, usrnod,
+     &    nusrn, 1.0D30, temo, temc, 0.5D0, 4, 1, 1, 2)
+        out(2,k) = abs(other - 0.125D0)
+      end do
+@if updates
+      kobj = 1
+      kstep = 9
+      ksstep = 3
+      intnal = 6
+      arean = 1.0D30
+      tmpneb = 1.0D30
+      dtmpn = 1.0D30
+      dtmaxc = par(1)
+      do k = 1, n
+        usrn1 = 0.625D0
+        do i = 1, ns
+          usrn1(i) = st(i,k)
+        end do
+        presr(1) = v(7,k)
+        presr(2) = v(8,k)
+        spdnod = v(9,k)
+        tempn = v(10,k)
+C       Calls that are no end of a step, or of no node, change nothing.
+        usrn2 = usrn1
+        knode = k
+        istatus = 0
+        call ftupd
+        istatus = 1
+        knode = 0
+        call ftupd
+        do i = 1, 1500
+          out(2,k) = out(2,k) + abs(usrn2(i) - usrn1(i))
+        end do
+        knode = k
+        call ftupd
+        do i = 1, ns
+          st(i,k) = usrn2(i)
+        end do
+        do j = ns + 1, 1500
+          out(2,k) = out(2,k) + abs(usrn2(j) - 0.625D0)
+        end do
+      end do
+@end
+      end

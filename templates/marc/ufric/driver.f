@@ -25,3 +25,39 @@ C     3 temperature, 4 flow stress.
      &    time, inc, nsurf)
       end do
       end
+C
+C     UFRIC at each point (ftincr in src/codegen/driven_path.h).
+C     v: normal stress, speed, slip (not given), temperature, flow
+C     stress.
+      subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
+     &  field, nout, out)
+      implicit none
+      integer*4 n, npar, nv, ns, np, nf, nout
+      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
+      real*8 out(nout,n)
+      integer mibody(4), inc, nsurf, k
+      double precision coord(3), vrel(2), temp(2), time
+      mibody(1) = 13
+      mibody(2) = 5
+      mibody(3) = 4
+      mibody(4) = 9
+      coord = huge(coord)
+      time = 0.375D0
+      inc = 17
+      nsurf = @{contact}
+      do k = 1, n
+@if in_space
+        vrel(1) = 0.6D0*v(2,k)
+        vrel(2) = -0.8D0*v(2,k)
+@else
+        vrel(1) = v(2,k)
+        vrel(2) = 1.0D30
+@end
+        temp(1) = v(4,k)
+        temp(2) = 1.0D30
+        out(1,k) = 0.125D0
+        out(2,k) = 0
+        call ufric(mibody, coord, v(1,k), vrel, temp, v(5,k), out(1,k),
+     &    time, inc, nsurf)
+      end do
+      end

@@ -1,0 +1,333 @@
+// Account of VFRIC and VFRICTION over increments: force and state variables by their definitions in
+// the recipe.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "codegen/coefficient.h"
+#include "codegen/driven_path.h"
+#include "codegen/histories.h"
+#include "codegen/speed_scale.h"
+#include "explicit.h"
+
+namespace frictab::abaqus {
+
+using namespace codegen;
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+using Vector = std::array<double, 3>;
+
+double size_of(const Vector& a) {
+  return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+}
+
+// State variables of one column of a contact point, in the solver's units. The sums include what
+// the solver's precision rounds off.
+struct Column {
+  double slip = 0, work = 0, peak = 0, outside = 0, stress = 0, mu = 0;
+};
+
+// Numbers that the solver gives for one point, as its precision holds them.
+struct Given {
+  double normal = 0, area = 0, stick = 0, temperature = 0, main_temperature = 0;
+  Vector motion = {}, before = {};
+  std::vector<double> fields = {}, main_fields = {};
+};
+
+struct Point {
+  std::size_t node = 0;
+  std::vector<Column> columns;
+  ContactMemory memory;
+  std::vector<double> state; // as the routine left it
+};
+
+// A path with a fixed number of state variables and of columns per point.
+class ForcePath {
+public:
+  ForcePath(DrivenPath& path, const ForceRoutine& routine, std::size_t states, std::size_t columns)
+      : path_(path), by_node_(routine.entry == "vfric"), name_(routine.state_name), states_(states),
+        columns_(columns), all_(state_count(path.inputs)), histories_(history_count(path.inputs)),
+        scale_(speed_scale(path.request, path.inputs)), given_(points) {
+    for (std::size_t k = 0; k < points; ++k) {
+      Point point = {k + 2, std::vector<Column>(columns), ContactMemory(path.inputs),
+                     std::vector<double>(states * columns)};
+      for (std::size_t c = 0; c < columns && columns > 1; ++c) // the law takes their mean
+        point.columns[c].slip = path.held(path.length.from_canonical(0.01 * double(c + 1)));
+      for (std::size_t c = 0; c < columns && states >= 1; ++c)
+        point.state[c * states] = point.columns[c].slip;
+      points_.push_back(std::move(point));
+    }
+  }
+
+  void increment(std::size_t i) {
+    choose_call(i);
+    path_.random.shuffle(std::span(points_)); // the solver lists them in any order
+    for (std::size_t k = 0; k < points; ++k)
+      choose_motion(k, i);
+    for (std::size_t k = 0; k < points; ++k)
+      choose_forces(k, i);
+    hand_over();
+    path_.run(call_);
+    for (std::size_t k = 0; k < points; ++k)
+      check(k);
+    if (by_node_) path_.compare("state variables of other nodes", "", call_.out[2], 0);
+  }
+
+private:
+  static constexpr std::size_t points = 5, nodes = 8;
+  static constexpr std::size_t outputs = 3; // per point, in ftincr
+
+  bool keeps(std::size_t number) const { return states_ >= number; }
+  bool keeps_histories() const { return histories_ > 0 && keeps(all_ - shown_states); }
+
+  void choose_call(std::size_t i) {
+    time_ = i % 19 == 18 ? 0 : path_.held(path_.time.from_canonical(path_.time_increment()));
+    has_temperature_ = i % 4 != 3;
+    mains_ = i % 5 == 4 ? 1 : i % 7 == 6 ? 0 : points;
+    directions_ = i % 6 == 5 ? 2 : 3;
+    call_.properties = path_.usual_properties();
+    factor_ = 1;
+    if (!scale_.empty()) {
+      call_.properties.resize(scale_.front().number);
+      call_.properties.back() = factor_ = path_.held(path_.random.uniform(0.5, 20));
+    }
+    if (i % 9 == 8) { // the deck gives none
+      call_.properties.clear();
+      factor_ = 1;
+    }
+    call_.par = {time_,
+                 has_temperature_ ? 1.0 : 0.0,
+                 double(mains_),
+                 2,
+                 double(i + 11),
+                 double(directions_ - 1),
+                 double(directions_),
+                 by_node_ ? double(nodes) : double(columns_)};
+  }
+
+  void choose_motion(std::size_t k, std::size_t i) {
+    const WantedStates wanted = path_.wanted(k, i);
+    Given& g = given_[k] = {};
+    g.area = path_.held(path_.random.uniform(0.2, 4));
+    g.normal = path_.held(path_.stress.from_canonical(wanted.pressure) * g.area);
+    const double seconds = time_ > 0 ? seconds_of_increment() : 1e-3;
+    const double motion = path_.length.from_canonical(wanted.speed * seconds);
+    g.motion = {motion, 0, 0};
+    if (directions_ == 3) g.motion = {0.8 * motion, -0.48 * motion, 0.36 * motion};
+    for (double& x : g.motion)
+      x = path_.held(x);
+    const double apart = path_.random.uniform(-5, 5);
+    g.temperature = path_.held(path_.celsius.from_canonical(wanted.temperature - apart));
+    g.main_temperature = path_.held(path_.celsius.from_canonical(wanted.temperature + apart));
+    for (const double field : wanted.fields) {
+      g.fields.push_back(path_.held(0.99 * field));
+      g.main_fields.push_back(path_.held(1.01 * field));
+    }
+    const std::size_t turn = (7 * i + 3 * k) % 29;
+    if (turn == 0) g.normal = 0;
+    if (turn == 1) g.normal = -g.normal;
+    if (turn == 2) g.area = 0;
+    if (turn == 3) g.motion = {};
+  }
+
+  // Stick forces below and far above what friction holds, along and against the motion; then what
+  // is not a number.
+  void choose_forces(std::size_t k, std::size_t i) {
+    Given& g = given_[k];
+    constexpr std::array shares = {0.3, -0.55, 1.6, -2.5, 30.0, -1e6, 4.0};
+    const double limit = presses(g) ? std::max(limit_of(k), 1e-3 * g.area) : 1;
+    const double before = limit * path_.random.uniform(-1.2, 0.4);
+    g.stick = path_.held(limit * shares[path_.random.below(shares.size())]);
+    g.before = {path_.held(before), path_.held(0.3 * before),
+                directions_ == 3 ? path_.held(0.1 * before) : 0.0};
+    if (presses(g) && path_.is_refused(states_of(k))) g.normal = 0;
+    const std::size_t turn = (7 * i + 3 * k) % 29;
+    if (turn == 4) g.normal = nan;
+    if (turn == 5) g.stick = nan;
+    if (turn == 6) g.before[1] = nan;
+    if (turn == 7) g.motion[0] = nan;
+    if (turn == 8) g.area = nan;
+  }
+
+  void hand_over() {
+    call_.points = points;
+    call_.v.clear();
+    call_.st.clear();
+    call_.fields.clear();
+    call_.out.assign(points * outputs, 0.0);
+    for (std::size_t k = 0; k < points; ++k) {
+      const Given& g = given_[k];
+      call_.v.insert(call_.v.end(), {g.normal, g.area, g.stick});
+      call_.v.insert(call_.v.end(), g.motion.begin(), g.motion.end());
+      call_.v.insert(call_.v.end(), g.before.begin(), g.before.end());
+      call_.v.insert(call_.v.end(), {g.temperature, g.main_temperature, double(points_[k].node)});
+      call_.st.insert(call_.st.end(), points_[k].state.begin(), points_[k].state.end());
+      call_.fields.insert(call_.fields.end(), g.fields.begin(), g.fields.end());
+      call_.fields.insert(call_.fields.end(), g.main_fields.begin(), g.main_fields.end());
+    }
+  }
+
+  static bool presses(const Given& g) { return g.normal > 0 && g.area > 0; }
+  double seconds_of_increment() const { return path_.time.to_canonical(time_) * factor_; }
+
+  // A state variable as the mean of the columns; 0 if there are too few.
+  double mean(const Point& point, double Column::*variable, std::size_t number) const {
+    double sum = 0;
+    for (const Column& column : point.columns)
+      sum += column.*variable;
+    return keeps(number) ? sum / double(columns_) : 0;
+  }
+
+  double both(double secondary, double main) const {
+    return mains_ == 0 ? secondary : 0.5 * (secondary + main);
+  }
+
+  std::vector<double> states_of(std::size_t k) const {
+    const Given& g = given_[k];
+    const Given& main = given_[mains_ == 1 ? 0 : k];
+    const Point& point = points_[k];
+    const double move = path_.length.to_canonical(size_of(g.motion));
+    GivenStates out;
+    out.pressure = path_.stress.to_canonical(g.normal / g.area);
+    out.speed = time_ > 0 ? move / seconds_of_increment() : 0;
+    out.slip = path_.length.to_canonical(mean(point, &Column::slip, 1)) + move;
+    out.work = path_.length.to_canonical(path_.stress.to_canonical(mean(point, &Column::work, 2)));
+    out.peak_pressure =
+        std::max(path_.stress.to_canonical(mean(point, &Column::peak, 3)), out.pressure);
+    out.area = path_.length.to_canonical(path_.length.to_canonical(g.area));
+    out.properties = call_.properties;
+    if (keeps_histories()) out.memory = &point.memory;
+    if (has_temperature_)
+      out.temperature = path_.celsius.to_canonical(both(g.temperature, main.main_temperature));
+    for (std::size_t f = 0; f < g.fields.size(); ++f)
+      out.fields.push_back(both(g.fields[f], main.main_fields[f]));
+    followed_ = path_.followed_temperature(out);
+    return path_.states(out);
+  }
+
+  double limit_of(std::size_t k) const {
+    return std::max(path_.stress.from_canonical(path_.tau(states_of(k))) * given_[k].area, 0.0);
+  }
+
+  void check(std::size_t k) {
+    Given& g = given_[k];
+    const double* out = &call_.out[k * outputs];
+    Point& point = points_[k];
+    point.state.assign(call_.st.begin() + long(k * point.state.size()),
+                       call_.st.begin() + long((k + 1) * point.state.size()));
+    const double sum = g.normal + g.area + g.stick + size_of(g.motion) + time_;
+    double force = std::isnan(sum) ? nan : 0;
+    if (!std::isnan(sum) && presses(g)) force = slide(point, g, k);
+    path_.compare("fTangential(1)", path_.stress.name + "*" + path_.length.name + "^2", out[0],
+                  -force);
+    path_.compare("fTangential(2)", path_.stress.name + "*" + path_.length.name + "^2", out[1], 0);
+    for (std::size_t c = 0; c < columns_; ++c)
+      compare_states(point, c);
+  }
+
+  // The force against the motion; continues what the point remembers.
+  double slide(Point& point, const Given& g, std::size_t k) {
+    const std::vector<double> x = states_of(k);
+    const double limit = limit_of(k);
+    if (std::isnan(limit)) return nan;
+    const double force = std::clamp(g.stick, -limit, limit);
+    const double move = size_of(g.motion);
+    // The stick force grows with the motion from the force before; what friction does not hold of
+    // it is slip.
+    const bool known = !std::isnan(size_of(g.before));
+    const double beyond = std::abs(g.stick - force);
+    const double grown = known ? std::abs(g.stick + g.before[0]) : beyond;
+    double slip = beyond > 0 ? move : 0;
+    if (beyond > 0 && beyond < grown) slip = move * beyond / grown;
+    const double force_before = known ? size_of(g.before) : std::abs(force);
+    const double pressure = g.normal / g.area, stress = std::abs(force) / g.area;
+    const double peak = std::max(mean(point, &Column::peak, 3), pressure);
+    for (Column& column : point.columns) {
+      column.slip = summed(column.slip + slip, 5);
+      column.work = summed(column.work + 0.5 * (force_before + std::abs(force)) / g.area * slip, 6);
+      column.peak = std::max(column.peak, path_.held(pressure));
+      column.outside += path_.is_outside(x) ? 1 : 0;
+      column.stress = stress;
+      column.mu = stress / std::max(pressure, path_.stress.from_canonical(fortran::least_pressure));
+    }
+    const double seconds = seconds_of_increment();
+    const double slipped = path_.length.to_canonical(slip);
+    point.memory.advance(
+        {path_.stress.to_canonical(pressure), seconds > 0 ? slipped / seconds : 0, followed_,
+         path_.length.to_canonical(path_.length.to_canonical(g.area))},
+        {path_.stress.to_canonical(peak), path_.stress.to_canonical(stress), slipped, seconds});
+    return force;
+  }
+
+  // A sum, and whether a further state variable keeps what the solver's precision rounds off it.
+  double summed(double value, std::size_t remainder) const {
+    return keeps(remainder) ? value : path_.held(value);
+  }
+
+  void compare_states(const Point& point, std::size_t c) const {
+    const Column& column = point.columns[c];
+    const double* st = point.state.data() + c * states_;
+    const auto compare = [&](std::size_t number, std::size_t remainder, const std::string& what,
+                             const std::string& unit, double expected) {
+      if (!keeps(number)) return;
+      const bool has_rest = remainder > 0 && keeps(remainder);
+      const std::string quantity = fmt::format("{}({}) {}", name_, number, what);
+      path_.compare(quantity, unit, st[number - 1] + (has_rest ? st[remainder - 1] : 0), expected);
+      if (has_rest) // the number itself is the sum as the solver's precision holds it
+        path_.compare(quantity + ", rounded", unit, st[number - 1], expected);
+    };
+    const std::string length = path_.length.name, stress = path_.stress.name;
+    compare(1, 5, "slip", length, column.slip);
+    compare(2, 6, "friction work", stress + "*" + length, column.work);
+    compare(3, 0, "peak pressure", stress, column.peak);
+    compare(4, 0, "increments outside", "1", column.outside);
+    if (keeps_histories()) {
+      const std::vector<double> kept = point.memory.variables(path_.request.units);
+      const std::vector<HistoryState> known = history_states(path_.inputs, path_.request.units);
+      for (std::size_t h = 0; h < kept.size(); ++h)
+        compare(explicit_states + h + 1, explicit_states + histories_ + h + 1, known[h].name,
+                known[h].unit, kept[h]);
+    }
+    if (!keeps(all_)) return;
+    compare(all_ - 1, 0, "tau_R", stress, column.stress);
+    compare(all_, 0, "mu", "1", column.mu);
+  }
+
+  DrivenPath& path_;
+  bool by_node_; // VFRIC: state variables belong to nodes
+  std::string name_;
+  std::size_t states_, columns_, all_, histories_;
+  FurtherProperties scale_;
+  std::vector<Point> points_;
+  std::vector<Given> given_;
+  DrivenPath::Call call_;
+  double time_ = 0, factor_ = 1;
+  bool has_temperature_ = true;
+  std::size_t mains_ = points, directions_ = 3;
+  mutable double followed_ = 0; // temperature of the point looked at last
+};
+
+} // namespace
+
+void ForceTarget::follow(DrivenPath& path) const {
+  const std::size_t all = state_count(path.inputs);
+  const bool edges = routine_.entry == "vfriction";
+  const auto drive = [&](std::size_t states, std::size_t columns, std::size_t increments) {
+    ForcePath one(path, routine_, states, columns);
+    for (std::size_t i = 0; i < increments; ++i)
+      one.increment(i);
+  };
+  drive(all, 1, path.increments());
+  if (edges) drive(all, 4, path.increments() / 4);
+  for (const std::size_t fewer :
+       {all - shown_states, std::size_t{4}, std::size_t{2}, std::size_t{0}})
+    drive(fewer, 1, path.increments() / 12);
+}
+
+} // namespace frictab::abaqus

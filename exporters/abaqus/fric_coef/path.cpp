@@ -1,0 +1,265 @@
+// Account of FRIC_COEF over increments with iterations: coefficient, derivatives and state
+// variables by their definitions in the recipe.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "abaqus/fric_coef/source.h"
+#include "abaqus/standard.h"
+#include "codegen/coefficient.h"
+#include "codegen/driven_path.h"
+#include "codegen/histories.h"
+
+namespace frictab::abaqus::fric_coef {
+
+using namespace codegen;
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// Memory of a contact point, in the solver's units.
+struct Memory {
+  double work = 0, peak = 0, outside = 0, coefficient = 0, slip = 0;
+  ContactMemory further;
+};
+
+struct Given {
+  double pressure = 0, rate = 0, slip = 0, temperature = 0;
+  std::vector<double> fields = {};
+};
+
+// A path with calls of this many points; state variables are kept for a single one only.
+class CoefPath {
+public:
+  CoefPath(DrivenPath& path, std::size_t points, bool keeps)
+      : path_(path), points_(points), keeps_(keeps), newer_(is_2024(path.request)),
+        n_(state_count(path.inputs)),
+        frozen_(coefficient_is_frozen(*find_exporter("abaqus_fric_coef"), path.request)),
+        memory_{.further = ContactMemory(path.inputs)},
+        state_(abaqus::states_size(n_) - (keeps || points > 1 ? 0 : 1)), slip_(points) {}
+
+  void increment(std::size_t i) {
+    number_ = i + 1;
+    properties_ = path_.usual_properties();
+    if (i % 9 == 8) properties_.clear();
+    has_temperature_ = i % 4 != 3;
+    const std::vector<double> at_start = state_;
+    const Memory before = memory_;
+    const std::vector<double> slip_before = slip_;
+    const std::size_t calls = 1 + i % 3;
+    for (std::size_t call = 0; call < calls; ++call) {
+      if (path_.random.below(2) == 0) state_ = at_start;
+      memory_ = before;
+      slip_ = slip_before;
+      call_once(i);
+    }
+  }
+
+private:
+  static constexpr std::size_t outputs = 6; // per point, in ftincr
+
+  void call_once(std::size_t i) {
+    time_ = path_.time.from_canonical(path_.time_increment());
+    std::vector<Given> given;
+    for (std::size_t k = 0; k < points_; ++k)
+      given.push_back(plan(k, i));
+    DrivenPath::Call c;
+    c.points = points_;
+    c.par = {time_, 2, double(number_), has_temperature_ ? 1.0 : 0.0, double(state_.size())};
+    c.properties = properties_;
+    for (std::size_t k = 0; k < points_; ++k) {
+      const Given& g = given[k];
+      c.v.insert(c.v.end(), {g.pressure, g.rate, g.slip, g.temperature});
+      c.fields.insert(c.fields.end(), g.fields.begin(), g.fields.end());
+      c.fields.resize(c.fields.size() + g.fields.size());
+      c.st.insert(c.st.end(), state_.begin(), state_.end());
+    }
+    c.out.assign(points_ * outputs, 0.0);
+    path_.run(c);
+    for (std::size_t k = 0; k < points_; ++k)
+      check(given[k], &c.out[k * outputs]);
+    if (newer_) compare_states(c.st);
+    state_.assign(c.st.begin(), c.st.begin() + long(state_.size()));
+  }
+
+  Given plan(std::size_t k, std::size_t i) {
+    const WantedStates wanted = path_.wanted(k, i);
+    Given g;
+    g.pressure = path_.stress.from_canonical(wanted.pressure);
+    g.rate = path_.speed.from_canonical(wanted.speed) * (k % 2 == 0 ? 1 : -1);
+    g.temperature = path_.celsius.from_canonical(wanted.temperature);
+    g.fields = wanted.fields;
+    slip_[k] += std::abs(g.rate) * time_;
+    g.slip = slip_[k];
+    const std::size_t kind = (7 * i + 3 * k) % 29;
+    if (kind == 0) g.pressure = 0;
+    if (kind == 1) g.pressure = -g.pressure;
+    if (kind == 2) g.rate = 0;
+    if (kind == 3) g.pressure *= 1e-6; // below the pressure at which the coefficient is held
+    if (g.pressure > 0 && path_.is_refused(answer(g).states)) g.pressure = 0;
+    if (kind == 4) g.pressure = nan;
+    if (kind == 5) g.rate = nan;
+    if (kind == 6 && newer_) g.slip = nan;
+    return g;
+  }
+
+  struct Answer {
+    double coefficient = 0, of_state = 0; // of_state: before what an option holds
+    double temperature = 0;
+    std::vector<double> states = {};
+  };
+
+  Answer answer(const Given& g) const {
+    const double asked =
+        std::max(path_.stress.to_canonical(g.pressure), smallest_pressure(path_.request.table));
+    GivenStates given;
+    given.speed = path_.speed.to_canonical(std::abs(g.rate));
+    given.slip = path_.length.to_canonical(g.slip);
+    if (keeps_) {
+      given.work = path_.length.to_canonical(path_.stress.to_canonical(memory_.work));
+      given.memory = &memory_.further;
+    }
+    given.peak_pressure = path_.stress.to_canonical(keeps_ ? std::max(memory_.peak, g.pressure)
+                                                           : std::max(0.0, g.pressure));
+    if (has_temperature_) given.temperature = path_.celsius.to_canonical(g.temperature);
+    given.properties = properties_;
+    given.fields = g.fields;
+    Answer a;
+    a.temperature = path_.followed_temperature(given);
+    given.pressure = path_.stress.to_canonical(g.pressure);
+    const std::vector<double> of_histories = path_.states(given);
+    given.pressure = asked; // of the law itself
+    a.states = path_.states(given);
+    for (std::size_t d = 0; d < a.states.size(); ++d)
+      if (path_.inputs[d].source == Source::history) a.states[d] = of_histories[d];
+    if (!(g.pressure > 0)) a.states = path_.without_contact(std::move(a.states));
+    a.of_state = std::min(path_.tau(a.states) / asked, fortran::largest_coefficient);
+    const bool holds = frozen_ && keeps_ && memory_.coefficient > 0 && !std::isnan(a.of_state);
+    a.coefficient = holds ? memory_.coefficient : a.of_state;
+    return a;
+  }
+
+  void check(const Given& g, const double* out) {
+    const bool known = !std::isnan(g.pressure + g.rate + g.slip);
+    const Answer a = known ? answer(g) : Answer{nan, nan};
+    path_.compare("fCoef", "1", out[0], a.coefficient);
+    path_.compare("other derivatives", "", out[5], 0);
+    if (std::isnan(a.coefficient)) {
+      for (int j = 1; j < 5; ++j)
+        path_.compare("derivatives where something is not a number", "", out[j], 0);
+      return;
+    }
+    if (g.pressure > 0 || !path_.has_sides_that_refuse())
+      compare_slopes(g, out);
+    else
+      for (int j = 1; j < 5; ++j)
+        path_.compare("derivatives without contact", "", out[j], 0);
+    if (keeps_) keep(g, a);
+  }
+
+  void compare_slopes(const Given& g, const double* out) {
+    const auto coefficient = [&](double Given::*of) {
+      return [this, &g, of](double x) {
+        Given other = g;
+        other.*of = x;
+        return answer(other).coefficient;
+      };
+    };
+    const double stress = path_.stress.from_canonical(1), length = path_.length.from_canonical(1);
+    // By the magnitude of the slip rate; none at rest.
+    if (std::abs(g.rate) > 0)
+      path_.compare_slope("fCoefDeriv, slip rate", "1/(" + path_.speed.name + ")",
+                          std::copysign(out[1], out[1] * g.rate), coefficient(&Given::rate), g.rate,
+                          std::abs(g.rate));
+    path_.compare_slope("fCoefDeriv, pressure", "1/" + path_.stress.name, out[2],
+                        coefficient(&Given::pressure), g.pressure,
+                        std::max(std::abs(g.pressure), stress));
+    path_.compare_slope("fCoefDeriv, temperature", "1/K", out[3], coefficient(&Given::temperature),
+                        g.temperature, 100);
+    if (newer_)
+      path_.compare_slope("fCoefDeriv, slip", "1/" + path_.length.name, out[4],
+                          coefficient(&Given::slip), g.slip, std::max(g.slip, length));
+  }
+
+  void keep(const Given& g, const Answer& a) {
+    Memory m = memory_;
+    m.coefficient = a.of_state;
+    m.slip = g.slip;
+    if (g.pressure > 0) {
+      const double slip = std::max(g.slip - memory_.slip, 0.0);
+      m.peak = std::max(m.peak, g.pressure);
+      m.outside += path_.is_outside(a.states) ? 1 : 0;
+      m.work += a.coefficient * g.pressure * slip;
+      const double pressure = path_.stress.to_canonical(g.pressure);
+      m.further.advance({pressure, path_.speed.to_canonical(std::abs(g.rate)), a.temperature, 0},
+                        {path_.stress.to_canonical(m.peak), a.coefficient * pressure,
+                         path_.length.to_canonical(slip), path_.time.to_canonical(time_)});
+    }
+    at_start_ = memory_;
+    memory_ = m;
+    kept_ = true;
+  }
+
+  std::vector<double> numbers(const Memory& m) const {
+    std::vector<double> all = {m.work, m.peak, m.outside, m.coefficient, m.slip};
+    const std::vector<double> further = m.further.variables(path_.request.units);
+    all.insert(all.end(), further.begin(), further.end());
+    return all;
+  }
+
+  void compare_states(const std::vector<double>& st) {
+    if (!std::exchange(kept_, false)) { // as they were
+      for (std::size_t j = 0; j < state_.size(); ++j)
+        path_.compare("state variables that are not kept", "", st[j], state_[j]);
+      return;
+    }
+    static const std::vector<const char*> names = {"friction work", "peak pressure", "outside",
+                                                   "coefficient", "slip"};
+    const std::vector<HistoryState> known = history_states(path_.inputs, path_.request.units);
+    const std::vector<double> now = numbers(memory_), then = numbers(*at_start_);
+    for (std::size_t j = 0; j < n_; ++j) {
+      const std::string name = j < names.size() ? names[j] : known[j - names.size()].name;
+      path_.compare(fmt::format("state variable {} {}", j + 1, name), "", st[j], now[j]);
+      path_.compare(fmt::format("state variable {} {} at the start", n_ + 2 + j, name), "",
+                    st[n_ + 1 + j], then[j]);
+    }
+    path_.compare(fmt::format("state variable {} increment", n_ + 1), "", st[n_],
+                  2e8 + double(number_));
+  }
+
+  DrivenPath& path_;
+  std::size_t points_;
+  bool keeps_, newer_;
+  std::size_t n_;
+  bool frozen_;
+  Memory memory_;
+  std::optional<Memory> at_start_; // of the last call that kept something
+  bool kept_ = false;
+  std::vector<double> state_, slip_, properties_;
+  double time_ = 0;
+  bool has_temperature_ = true;
+  std::size_t number_ = 1;
+};
+
+} // namespace
+
+void follow(DrivenPath& path) {
+  const auto drive = [&](std::size_t points, bool keeps, std::size_t increments) {
+    CoefPath one(path, points, keeps);
+    for (std::size_t i = 0; i < increments; ++i)
+      one.increment(i);
+  };
+  if (is_2024(path.request)) {
+    drive(1, true, path.increments());
+    drive(1, false, path.increments() / 8);
+  }
+  drive(3, false, path.increments() / 2);
+}
+
+} // namespace frictab::abaqus::fric_coef

@@ -1,0 +1,245 @@
+// Continues histories of a contact point by their definitions.
+#include "codegen/contact_memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "codegen/histories.h"
+#include "codegen/solver_units.h"
+
+namespace frictab::codegen {
+
+namespace {
+
+using C = data::Continuation;
+
+constexpr double absolute_zero = -273.15; // degC
+
+data::Continuation definition_of(const SolverInput& input) {
+  if (const auto* derived = data::find_derived(input.argument.name)) return derived->continuation;
+  if (input.smoothed_over > 0) return {C::recent, C::speed};
+  return {C::growth, C::area};
+}
+
+double followed_value(C::Of of, const ContactState& now) {
+  switch (of) {
+  case C::pressure:
+    return now.pressure;
+  case C::speed:
+    return now.speed;
+  case C::temperature:
+    return now.temperature;
+  case C::area:
+    return now.area;
+  default:
+    return 0;
+  }
+}
+
+// Temperatures are kept above absolute zero, so that 0 means none yet.
+double as_kept(C::Of of, double value) {
+  return of == C::temperature ? value - absolute_zero : value;
+}
+
+// The highest pressure since the load last fell (positive), or minus the lowest since it last rose:
+// it turns where the load is 5 % from its last extreme.
+double turned(double kept, double pressure) {
+  const bool rises = kept >= 0;
+  const double extreme = std::abs(kept);
+  if (rises) return pressure < data::at_peak * extreme ? -pressure : std::max(extreme, pressure);
+  return data::at_peak * pressure > extreme ? pressure : -std::min(extreme, pressure);
+}
+
+double steady_state(const C& how, double speed) {
+  return how.distance_mm / std::max(speed, data::slowest_speed);
+}
+
+// d theta/dt = 1 - v theta/D at a constant speed v.
+double aged(const C& how, double theta, double speed, double time) {
+  if (!(time > 0)) return theta;
+  const double rate = std::max(speed, 0.0) / how.distance_mm;
+  if (!(rate * time > 1e-8)) return theta * std::exp(-rate * time) + time;
+  return 1 / rate + (theta - 1 / rate) * std::exp(-rate * time);
+}
+
+// d theta/dt = -(v theta/D) ln(v theta/D) at a constant speed v.
+double slipped(const C& how, double theta, double speed, double time) {
+  if (!(time > 0)) return theta;
+  const double steady = steady_state(how, speed);
+  const double decay = std::exp(-std::max(speed, 0.0) * time / how.distance_mm);
+  return steady * std::pow(theta / steady, decay);
+}
+
+double stress_times_length(double value, std::string_view units) {
+  return solver_unit("mm", units).from_canonical(solver_unit("MPa", units).from_canonical(value));
+}
+
+// Converts what a history keeps, without its time where it is summed over time.
+double kept_in(std::string_view units, const C& how, double value) {
+  const auto from = [&](const char* unit) {
+    return solver_unit(unit, units).from_canonical(value);
+  };
+  switch (how.rule) {
+  case C::per_slip:
+    return stress_times_length(value, units);
+  case C::last:
+    return how.of == C::flash ? from("MPa") : from("MPa mm/s");
+  case C::ratio:
+  case C::direction:
+    return from("MPa");
+  case C::since_peak:
+    return from("mm");
+  case C::recent:
+    return from("mm/s");
+  case C::growth:
+    return from("mm^2");
+  case C::peak:
+  case C::mean:
+    if (how.of == C::pressure) return from("MPa");
+    return how.of == C::speed ? from("mm/s") : value;
+  default:
+    return value;
+  }
+}
+
+bool is_summed_over_time(const C& how) {
+  return how.rule == C::mean || how.rule == C::lag;
+}
+
+} // namespace
+
+ContactMemory::ContactMemory(const std::vector<SolverInput>& inputs)
+    : histories_(history_count(inputs)) {
+  bool means = false, keeps_time = false;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].source != Source::history) continue;
+    History& one = histories_[inputs[i].history - 1];
+    one = {i, definition_of(inputs[i]), static_cast<double>(inputs[i].smoothed_over), 0};
+    means = means || is_summed_over_time(one.how);
+    keeps_time = keeps_time || one.how.rule == C::per_time;
+  }
+  time_of_its_own_ = means && !keeps_time;
+  if (time_of_its_own_) histories_.pop_back();
+}
+
+double ContactMemory::state(std::size_t index, const ContactState& now) const {
+  const auto found = std::find_if(histories_.begin(), histories_.end(),
+                                  [&](const History& one) { return one.input == index; });
+  if (found == histories_.end()) throw std::logic_error("not an input from a history");
+  const double kept = found->kept, value = followed_value(found->how.of, now);
+  const auto mean = [&] { return time_ > 0 ? kept / time_ : value; };
+  switch (found->how.rule) {
+  case C::mean:
+    return mean();
+  case C::lag:
+    return value - mean();
+  case C::peak:
+    return found->how.of == C::temperature ? std::max(kept + absolute_zero, value)
+                                           : std::max(kept, value);
+  case C::ratio: {
+    const double peak = std::max(kept, now.pressure);
+    return peak > 0 ? now.pressure / peak : 1;
+  }
+  case C::direction:
+    return turned(kept, now.pressure) >= 0 ? 1 : 0;
+  case C::rise:
+    return kept > 0 ? value - (kept + absolute_zero) : 0;
+  case C::recent:
+    return kept > 0 ? kept + (now.speed - kept) / found->smoothed_over : now.speed;
+  case C::growth:
+    return kept > 0 ? now.area / kept : 1;
+  case C::aging:
+  case C::slipping:
+    return kept > 0 ? kept : steady_state(found->how, now.speed);
+  default:
+    return kept;
+  }
+}
+
+void ContactMemory::advance(const ContactState& now, const ContactChange& change) {
+  for (History& one : histories_) {
+    const double value = followed_value(one.how.of, now);
+    switch (one.how.rule) {
+    case C::per_slip:
+      one.kept += now.pressure * change.slip;
+      break;
+    case C::per_time:
+      one.kept += change.time;
+      break;
+    case C::dwell:
+      if (now.pressure >= 0.5 * change.peak_pressure) one.kept += change.time;
+      break;
+    case C::since_peak:
+      one.kept = now.pressure >= data::at_peak * change.peak_pressure ? 0 : one.kept + change.slip;
+      break;
+    case C::mean:
+    case C::lag:
+      one.kept += value * change.time;
+      break;
+    case C::peak:
+      one.kept = std::max(one.kept, as_kept(one.how.of, value));
+      break;
+    case C::ratio:
+      one.kept = std::max(one.kept, now.pressure);
+      break;
+    case C::direction:
+      one.kept = turned(one.kept, now.pressure);
+      break;
+    case C::rise:
+      if (!(one.kept > 0)) one.kept = value - absolute_zero;
+      break;
+    case C::growth:
+      if (!(one.kept > 0)) one.kept = now.area;
+      break;
+    case C::last:
+      one.kept = change.stress * (one.how.of == C::flash ? std::sqrt(now.speed) : now.speed);
+      break;
+    case C::recent:
+      one.kept = one.kept > 0 ? one.kept + (now.speed - one.kept) / one.smoothed_over : now.speed;
+      break;
+    case C::aging:
+    case C::slipping: {
+      if (!(one.kept > 0) && now.speed <= data::slowest_speed) break; // at rest since it touched
+      const double before = one.kept > 0 ? one.kept : steady_state(one.how, now.speed);
+      one.kept = one.how.rule == C::aging ? aged(one.how, before, now.speed, change.time)
+                                          : slipped(one.how, before, now.speed, change.time);
+      break;
+    }
+    case C::none:
+      break;
+    }
+  }
+  time_ += change.time;
+}
+
+ContactMemory ContactMemory::between(const ContactMemory& a, const ContactMemory& b,
+                                     double temperature) {
+  ContactMemory out = a;
+  for (std::size_t i = 0; i < out.histories_.size(); ++i) {
+    const auto kept = [&](const ContactMemory& one) {
+      const History& h = one.histories_[i];
+      const double now = temperature - absolute_zero;
+      if (h.how.rule == C::peak && h.how.of == C::temperature) return std::max(h.kept, now);
+      return h.how.rule == C::rise && !(h.kept > 0) ? now : h.kept;
+    };
+    out.histories_[i].kept = 0.5 * (kept(a) + kept(b));
+  }
+  out.time_ = 0.5 * (a.time_ + b.time_);
+  return out;
+}
+
+std::vector<double> ContactMemory::variables(std::string_view units) const {
+  const SolverUnit time = solver_unit("s", units);
+  std::vector<double> out;
+  for (const History& one : histories_) {
+    double value = kept_in(units, one.how, one.kept);
+    if (one.how.rule == C::per_time || one.how.rule == C::dwell) value = time.from_canonical(value);
+    if (is_summed_over_time(one.how)) value = time.from_canonical(value);
+    out.push_back(value);
+  }
+  if (time_of_its_own_) out.push_back(time.from_canonical(time_));
+  return out;
+}
+
+} // namespace frictab::codegen
