@@ -145,7 +145,7 @@ std::string point(const ForceRoutine& routine, const ExportRequest& request,
   const SolverUnit stress = solver_unit("MPa", request.units);
   TemplateValues values;
   values.text = {{"n_x", std::to_string(n_x)},
-                 {"to_solver", stress.same() ? "" : "*" + fortran_number(stress.over)}};
+                 {"to_solver", from_canonical_text(stress, Notation::fortran)}};
   values.flags = {{"has_ends", !frictab::table::all_ends(request.table).empty()},
                   {"refuses", fortran::refuses(request.table)}};
   add_sizes(values, inputs);

@@ -23,9 +23,8 @@ using namespace codegen;
 namespace {
 
 void add_units(TemplateValues& values, const ExportRequest& request) {
-  const SolverUnit length = solver_unit("mm", request.units);
-  values.text["to_mpa"] = fortran_conversion(solver_unit("MPa", request.units));
-  values.text["to_mm"] = fortran_conversion(length);
+  values.text["to_mpa"] = to_canonical_text(solver_unit("MPa", request.units), Notation::fortran);
+  values.text["to_mm_s"] = to_canonical_text(solver_unit("mm/s", request.units), Notation::fortran);
 }
 
 std::vector<std::string> coefficient_lines(bool frozen) {

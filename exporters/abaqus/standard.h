@@ -24,7 +24,7 @@ bool coefficient_is_frozen(const codegen::Exporter& exporter,
 double smallest_pressure(const frictab::table::Table& table);
 
 // Adds the values that both templates need: head, histories, core with its gradient, stop, pmin and
-// smallest, to_mpa, to_mm, lines `coefficient`, flags frozen, has_ends, refuses. Returns true if
+// smallest, to_mpa, to_mm_s, lines `coefficient`, flags frozen, has_ends, refuses. Returns true if
 // the core has ftqnan; `unknown` requests it in any case. `head`: the parts that depend on the
 // target.
 bool add_routine(TemplateValues& values, const codegen::Exporter& exporter,

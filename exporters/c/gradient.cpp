@@ -74,12 +74,6 @@ void add_axis_slopes(TemplateValues& values, const Table& table, const Variables
   values.lists["axes"] = axes;
 }
 
-// Returns " * 1000.0", from MPa per canonical unit to the solver's stress per its unit.
-std::string conversion(const SolverUnit& stress, const SolverUnit& unit) {
-  const double factor = stress.over / stress.times * unit.times / unit.over;
-  return factor == 1 ? "" : " * " + c_number(factor);
-}
-
 void add_formula(TemplateValues& values, const ExportRequest& request,
                  const std::vector<InputArgument>& inputs, Variables& variables,
                  const Slopes& slopes) {
@@ -108,7 +102,7 @@ void add_formula(TemplateValues& values, const ExportRequest& request,
     if (through)
       sum +=
           fmt::format("{}{} * {}", direct ? " + " : "", code.results[1], slopes.at(inputs[i].name));
-    const std::string factor = conversion(stress, inputs[i].solver);
+    const std::string factor = from_canonical_text(per(stress, inputs[i].solver), Notation::c);
     TemplateValues slope =
         item(factor.empty() || !direct || !through ? sum + factor : "(" + sum + ")" + factor);
     slope.text["place"] = std::to_string(i);

@@ -42,16 +42,11 @@ std::string lines(const std::vector<std::string>& pieces) {
 }
 
 std::string canonical(const InputArgument& input, const std::string& element) {
-  const std::string argument = input.argument + element;
-  if (input.solver.times != 1)
-    return fmt::format("{} * {}", argument, c_number(input.solver.times));
-  if (input.solver.over != 1) return fmt::format("{} / {}", argument, c_number(input.solver.over));
-  return argument;
+  return input.argument + element + to_canonical_text(input.solver, Notation::c);
 }
 
-std::string in_units(const std::string& stress, const std::string& units) {
-  const SolverUnit unit = solver_unit("MPa", units);
-  return unit.same() ? stress : stress + " * " + c_number(unit.over);
+std::string in_units(const std::string& stress, const SolverUnits& units) {
+  return stress + from_canonical_text(solver_unit("MPa", units), Notation::c);
 }
 
 Variables variables_of(const Table& table, const Expr& formula,

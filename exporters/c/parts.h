@@ -26,7 +26,7 @@ std::string lines(const std::vector<std::string>& pieces);
 std::string canonical(const codegen::InputArgument& input, const std::string& element = "");
 
 // Converts a stress in MPa, given by its name, to the solver's unit.
-std::string in_units(const std::string& stress, const std::string& units);
+std::string in_units(const std::string& stress, const codegen::SolverUnits& units);
 
 // Returns the variables of a function with this formula; an argument in its canonical unit serves
 // as the state.

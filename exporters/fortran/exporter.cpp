@@ -34,16 +34,7 @@ std::string continued(const std::vector<std::string>& pieces) {
 }
 
 std::string canonical(const InputArgument& input, const std::string& element = "") {
-  const std::string argument = input.argument + element;
-  if (input.solver.times != 1) return argument + "*" + fortran_number(input.solver.times);
-  if (input.solver.over != 1) return argument + "/" + fortran_number(input.solver.over);
-  return argument;
-}
-
-// Returns the factor from MPa per canonical unit to the solver's stress per its unit.
-std::string slope_factor(const SolverUnit& stress, const SolverUnit& unit) {
-  const double factor = stress.over / stress.times * unit.times / unit.over;
-  return factor == 1 ? "" : "*" + fortran_number(factor);
+  return input.argument + element + to_canonical_text(input.solver, Notation::fortran);
 }
 
 void add_arguments(TemplateValues& values, const ExportRequest& request,
@@ -65,12 +56,13 @@ void add_arguments(TemplateValues& values, const ExportRequest& request,
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       if (inputs[i].name != name) continue;
       TemplateValues one;
-      one.text = {{"index", std::to_string(values.lists["used"].size() + 1)},
-                  {"place", std::to_string(i + 1)},
-                  {"name", comment_text(name)},
-                  {"canonical", canonical(inputs[i])},
-                  {"element", canonical(inputs[i], "(ft_i)")},
-                  {"factor", slope_factor(stress, inputs[i].solver)}};
+      one.text = {
+          {"index", std::to_string(values.lists["used"].size() + 1)},
+          {"place", std::to_string(i + 1)},
+          {"name", comment_text(name)},
+          {"canonical", canonical(inputs[i])},
+          {"element", canonical(inputs[i], "(ft_i)")},
+          {"factor", from_canonical_text(per(stress, inputs[i].solver), Notation::fortran)}};
       values.lists["used"].push_back(one);
     }
   values.text["names"] = continued(names);
@@ -110,7 +102,7 @@ std::string source(const ExportRequest& request, const std::vector<InputArgument
                  {"pure", file ? "" : "pure "},
                  {"elemental", file ? "impure elemental" : "elemental"},
                  {"state_text", file ? "no state but the table's values" : "no state"},
-                 {"to_solver", stress.same() ? "" : "*" + fortran_number(stress.over)},
+                 {"to_solver", from_canonical_text(stress, Notation::fortran)},
                  {"data", fortran::free_form(core.data)},
                  {"core", fortran::free_form(core.text)}};
   values.flags["converts"] = !stress.same();

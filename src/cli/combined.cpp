@@ -62,6 +62,7 @@ codegen::ExportOptions export_options(const CombineOptions& options, const Commo
   codegen::ExportOptions out;
   out.targets = options.targets;
   out.units = options.units;
+  out.temperature = options.temperature;
   return out;
 }
 
@@ -89,7 +90,7 @@ std::vector<codegen::ExportRequest> requests(const NamedTables& laws,
                                              const std::string& target) {
   std::vector<codegen::ExportRequest> out;
   for (const table::Table& table : laws.tables)
-    out.push_back({table, options.units, options.inputs_for(target), options.options});
+    out.push_back({table, options.solver_units(), options.inputs_for(target), options.options});
   return out;
 }
 
@@ -129,6 +130,7 @@ void read_recipe(Combined& out, const fs::path& file) {
   io::read_json(file.string(), "export again", [&] {
     out.exporter = codegen::find_exporter(recipe.at("target").get<std::string>());
     out.options.units = recipe.at("units").at("system");
+    out.options.temperature = recipe.at("units").at("temperature");
     for (const json& law : recipe.at("laws")) {
       out.laws.names.push_back(law.at("name"));
       out.laws.files.push_back(file.parent_path() / law.at("table_file").get<std::string>());

@@ -14,7 +14,7 @@ struct CombineOptions {
   std::vector<std::string> laws; // "PUNCH=tables/coulomb.h5"
   std::string job;               // its [export] applies to all laws; empty: the next two do
   std::vector<std::string> targets;
-  std::string units;
+  std::string units, temperature;
 };
 
 // Writes DIR/<target>/ for each target.

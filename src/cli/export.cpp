@@ -22,7 +22,7 @@ struct Options {
   std::string job;
   std::string table;
   std::vector<std::string> targets{"c", "abaqus_vfric"};
-  std::string units = "mm-t-s";
+  std::string units = "mm-t-s", temperature = "degC";
   std::vector<std::string> combine;
   std::string law;
   std::vector<std::string> parameters, ranges;
@@ -34,7 +34,7 @@ int export_alone(const Options& options, const CommonOptions& common) {
   codegen::check_request_size(table::read_description(options.table).table, exporters, {});
   const table::Table table = table::read_table(options.table);
   io::OutputFiles output(common.output);
-  write_sources(output, exporters, table, options.units);
+  write_sources(output, exporters, table, {options.units, options.temperature});
   commit_and_list(output, common);
   return 0;
 }
@@ -48,8 +48,11 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
                  "Without a JOB: FE codes, a list or all (frictab list targets)")
       ->delimiter(',')
       ->type_name("TARGETS");
-  app.add_option("--units", options->units, "Without a JOB: mm-t-s (MPa, mm/s) or m-kg-s (Pa, m/s)")
+  app.add_option("--units", options->units, "Without a JOB: " + codegen::unit_systems_text())
       ->type_name("SYSTEM");
+  app.add_option("--temperature", options->temperature,
+                 "Without a JOB: degC or K, in which the simulation has temperatures")
+      ->type_name("UNIT");
   app.add_option("--combine", options->combine,
                  "Several laws in one user file, by the names of their contacts in the deck "
                  "(PUNCH=A.h5 DIE=B.h5); needs -o DIR. A JOB's [export] holds for all of them")
@@ -68,19 +71,21 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
       if (!options->table.empty())
         throw InputError({}, "--combine and --table exclude each other",
                          "--combine NAME=FILE takes the tables itself");
-      return export_combined({options->combine, options->job, options->targets, options->units},
-                             common);
+      return export_combined(
+          {options->combine, options->job, options->targets, options->units, options->temperature},
+          common);
     }
     if (!common.set.empty() && (!options->law.empty() || !options->table.empty()))
-      throw InputError({}, "--set overrides keys of a job, and here is none",
-                       "--units, and of --law --param and --range; other options take a job, whose "
-                       "table.model may be a law of constants");
+      throw InputError(
+          {}, "--set overrides keys of a job, and here is none",
+          "--units, --temperature, and of --law --param and --range; other options take "
+          "a job, whose table.model may be a law of constants");
     if (!options->law.empty()) {
       if (!options->job.empty() || !options->table.empty())
         throw InputError({}, "--law stands alone", "without JOB and --table");
-      return export_law(
-          {options->law, options->parameters, options->ranges, options->targets, options->units},
-          common);
+      return export_law({options->law, options->parameters, options->ranges, options->targets,
+                         options->units, options->temperature},
+                        common);
     }
     if (!options->parameters.empty() || !options->ranges.empty())
       throw InputError({}, "--param and --range belong to --law", "--law coulomb --param mu=0.08");

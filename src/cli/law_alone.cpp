@@ -176,7 +176,7 @@ int export_law(const LawOptions& options, const CommonOptions& common) {
   io::OutputFiles output(common.output);
   table::write_table(table, output.stage(options.law + ".h5"), usual.hdf5);
   output.write(options.law + ".json", model_file(law.model));
-  write_sources(output, exporters, table, options.units);
+  write_sources(output, exporters, table, {options.units, options.temperature});
   commit_and_list(output, common);
   show(words::as_text(words::drift(verification, words::Detail::full)));
   return verification.passed() ? 0 : 1;

@@ -14,7 +14,7 @@ struct LawOptions {
   std::vector<std::string> parameters; // "mu=0.08"
   std::vector<std::string> ranges;     // "sigma_f_MPa=300..900"
   std::vector<std::string> targets;
-  std::string units;
+  std::string units, temperature;
 };
 
 // Writes table, model and DIR/<target>/ and proves the table; returns 1 where it exceeds its

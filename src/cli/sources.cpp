@@ -15,7 +15,7 @@ void need_directory(const CommonOptions& common, const std::string& option) {
 }
 
 void write_sources(io::OutputFiles& output, const std::vector<const codegen::Exporter*>& exporters,
-                   const table::Table& table, const std::string& units) {
+                   const table::Table& table, const codegen::SolverUnits& units) {
   for (const codegen::Exporter* exporter : exporters)
     for (const auto& [path, text] : exporter->generate({table, units, {}}))
       output.write(exporter->name + "/" + path, text);

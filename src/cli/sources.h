@@ -14,7 +14,7 @@ void need_directory(const CommonOptions& common, const std::string& option);
 
 // Writes <target>/ for each target.
 void write_sources(io::OutputFiles& output, const std::vector<const codegen::Exporter*>& exporters,
-                   const table::Table& table, const std::string& units);
+                   const table::Table& table, const codegen::SolverUnits& units);
 
 // Moves sources into place under -o DIR and prints their names.
 void commit_and_list(io::OutputFiles& output, const CommonOptions& common);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "codegen/solver_units.h"
 #include "core/text.h"
 #include "data/quantity.h"
 #include "data/rules.h"
@@ -37,7 +38,8 @@ Explanation about_units() {
                                      "degC`; or in a row of its own (data.units_row)"},
                    {"in the job", "sigma_n_MPa = { column = \"Normal stress\", unit = \"Pa\" }"},
                    {"known", "what UDUNITS-2 knows; what does not convert is an error"},
-                   {"routines", "mm-t-s (MPa, mm/s) or m-kg-s (Pa, m/s): export.units"}},
+                   {"routines", codegen::unit_systems_text() +
+                                    ": export.units; degC or K: export.temperature"}},
                   "units inside",
                   {}};
   for (const data::Quantity& quantity : data::quantities())

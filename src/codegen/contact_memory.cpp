@@ -14,7 +14,7 @@ namespace {
 
 using C = data::Continuation;
 
-constexpr double absolute_zero = -273.15; // degC
+constexpr double absolute_zero = -zero_celsius; // degC
 
 data::Continuation definition_of(const SolverInput& input) {
   if (const auto* derived = data::find_derived(input.argument.name)) return derived->continuation;
@@ -71,35 +71,35 @@ double slipped(const C& how, double theta, double speed, double time) {
   return steady * std::pow(theta / steady, decay);
 }
 
-double stress_times_length(double value, std::string_view units) {
-  return solver_unit("mm", units).from_canonical(solver_unit("MPa", units).from_canonical(value));
-}
-
-// Converts what a history keeps, without its time where it is summed over time.
-double kept_in(std::string_view units, const C& how, double value) {
-  const auto from = [&](const char* unit) {
-    return solver_unit(unit, units).from_canonical(value);
-  };
+// Canonical unit of a state variable; empty: in K or degC, whatever the analysis has.
+std::string unit_of(const C& how) {
   switch (how.rule) {
   case C::per_slip:
-    return stress_times_length(value, units);
+    return "MPa mm";
+  case C::per_time:
+  case C::dwell:
+  case C::aging:
+  case C::slipping:
+    return "s";
   case C::last:
-    return how.of == C::flash ? from("MPa") : from("MPa mm/s");
+    return how.of == C::flash ? "MPa" : "MPa mm/s";
   case C::ratio:
   case C::direction:
-    return from("MPa");
+    return "MPa";
   case C::since_peak:
-    return from("mm");
+    return "mm";
   case C::recent:
-    return from("mm/s");
+    return "mm/s";
   case C::growth:
-    return from("mm^2");
+    return "mm^2";
   case C::peak:
+    return how.of == C::pressure ? "MPa" : how.of == C::speed ? "mm/s" : "";
   case C::mean:
-    if (how.of == C::pressure) return from("MPa");
-    return how.of == C::speed ? from("mm/s") : value;
+    return how.of == C::pressure ? "MPa s" : how.of == C::speed ? "mm" : "s";
+  case C::lag:
+    return "s"; // a temperature in degC over time
   default:
-    return value;
+    return "";
   }
 }
 
@@ -229,16 +229,11 @@ ContactMemory ContactMemory::between(const ContactMemory& a, const ContactMemory
   return out;
 }
 
-std::vector<double> ContactMemory::variables(std::string_view units) const {
-  const SolverUnit time = solver_unit("s", units);
+std::vector<double> ContactMemory::variables(const SolverUnits& units) const {
   std::vector<double> out;
-  for (const History& one : histories_) {
-    double value = kept_in(units, one.how, one.kept);
-    if (one.how.rule == C::per_time || one.how.rule == C::dwell) value = time.from_canonical(value);
-    if (is_summed_over_time(one.how)) value = time.from_canonical(value);
-    out.push_back(value);
-  }
-  if (time_of_its_own_) out.push_back(time.from_canonical(time_));
+  for (const History& one : histories_)
+    out.push_back(solver_unit(unit_of(one.how), units).from_canonical(one.kept));
+  if (time_of_its_own_) out.push_back(solver_unit("s", units).from_canonical(time_));
   return out;
 }
 

@@ -3,7 +3,6 @@
 // routine are compared. It shares no text with the routines.
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include "codegen/solver_inputs.h"
@@ -39,7 +38,7 @@ public:
   // temperature (degC).
   static ContactMemory between(const ContactMemory& a, const ContactMemory& b, double temperature);
   // Returns the state variables in the units of the solver, in the order of history_states().
-  std::vector<double> variables(std::string_view units) const;
+  std::vector<double> variables(const SolverUnits& units) const;
 
 private:
   struct History {

@@ -49,7 +49,7 @@ public:
       table_rows_.push_back(table_row(state.state));
     pressure_ = table_row("sigma_n_MPa").column;
     peak_ = table_row("peak_sigma_n").column;
-    temperature_ = table_row("T_contact_C").column;
+    temperature_ = table_row("T_contact_C");
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       if (is_given(c, "s_mm")) slips_.push_back(columns_[c]);
       // The law's own flow stress, from any source.
@@ -63,7 +63,9 @@ public:
     for (std::size_t i = 1; i < slips_.size(); ++i)
       if (slips_[i - 1][row] != slips_[i][row]) return false;
     if (!histories_are_representable(inputs_, columns_, row)) return false;
-    if (driver_.zero_is_no_temperature && temperature_ && temperature_[row] == 0.0) return false;
+    if (driver_.zero_is_no_temperature && temperature_.column &&
+        solver_value(temperature_, row) == 0.0)
+      return false;
     return !peak_ || !(peak_[row] < (pressure_ ? pressure_[row] : lowest_pressure()));
   }
 
@@ -172,9 +174,9 @@ private:
   std::size_t fields_ = 0;
   std::vector<TableRow> table_rows_; // in the order of Driver::gives
   std::vector<const double*> slips_; // sliding distances that share the solver's one row
-  // Null if the law does not take them (the first three: from the solver).
-  const double *pressure_ = nullptr, *peak_ = nullptr, *temperature_ = nullptr,
-               *flow_stress_ = nullptr;
+  TableRow temperature_;
+  // Null if the law does not take them (the first two: from the solver).
+  const double *pressure_ = nullptr, *peak_ = nullptr, *flow_stress_ = nullptr;
 };
 
 // Groups rows that can share a call, at most `most` each: properties are constants of a call, so

@@ -28,7 +28,8 @@ struct Driver {
   std::size_t most_points = 1; // largest number of points per call of ftdriv
   // If the law takes the peak pressure and not the pressure, the peak is used for both.
   bool peak_presses = false;
-  // The routine takes a temperature of exactly 0 as missing: such a row cannot be represented.
+  // The routine takes a temperature of exactly 0 (in the solver's unit) as missing: such a row
+  // cannot be represented.
   bool zero_is_no_temperature = false;
 };
 

@@ -32,15 +32,12 @@ std::string identifier(const std::string& name) {
 }
 
 std::string argument_name(const InputArgument& input) {
-  const std::string name = identifier(input.name);
-  if (input.solver.same()) return name;
-  if (input.unit == "MPa") return replace_ending(name, "_MPa", "_Pa");
-  if (input.unit == "mm/s") return replace_ending(name, "_mm_s", "_m_s");
-  if (input.unit == "mm") return replace_ending(name, "_mm", "_m");
-  return name;
+  return replace_ending(identifier(input.name), "_" + unit_suffix(input.unit),
+                        "_" + unit_suffix(input.solver.name));
 }
 
-InputArgument argument(const table::Table& table, const std::string& name, std::string_view units) {
+InputArgument argument(const table::Table& table, const std::string& name,
+                       const SolverUnits& units) {
   InputArgument input;
   const data::Meaning meaning = data::meaning_of(name);
   input.name = name;
@@ -67,7 +64,7 @@ InputArgument argument(const table::Table& table, const std::string& name, std::
 
 } // namespace
 
-std::vector<InputArgument> entry_arguments(const table::Table& table, std::string_view units) {
+std::vector<InputArgument> entry_arguments(const table::Table& table, const SolverUnits& units) {
   std::vector<InputArgument> arguments;
   std::set<std::string> taken;
   const std::vector<std::string> needed = table.inputs();

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "codegen/solver_units.h"
@@ -27,7 +26,7 @@ struct InputArgument {
 
 // Returns sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, s_mm, sigma_f_MPa in the order of the
 // contract, then the table's further inputs.
-std::vector<InputArgument> entry_arguments(const table::Table& table, std::string_view units);
+std::vector<InputArgument> entry_arguments(const table::Table& table, const SolverUnits& units);
 
 // Returns the value of an input that the solver does not give: the middle of its range (in its
 // logarithm if that is the quantity's coordinate); nullopt if no range is known.

@@ -12,13 +12,11 @@ namespace frictab::codegen {
 
 std::vector<std::string> about_entry(const ExportRequest& request) {
   const table::Table& table = request.table;
-  std::vector<std::string> lines = {
-      fmt::format("Law: {}", comment_text(table.model)),
-      fmt::format("Data: {}", comment_text(origin_text(table))),
-      fmt::format("Units: {} (stress in {}, speed in {}, length in {}, temperature in degC)",
-                  request.units, solver_unit("MPa", request.units).name,
-                  solver_unit("mm/s", request.units).name, solver_unit("mm", request.units).name),
-      fmt::format("Worst drift from the law: {}", drift_text(table))};
+  std::vector<std::string> lines = {fmt::format("Law: {}", comment_text(table.model)),
+                                    fmt::format("Data: {}", comment_text(origin_text(table))),
+                                    fmt::format("Units: {} ({})", request.units.system().name,
+                                                names_of_units(request.units, " in ")),
+                                    fmt::format("Worst drift from the law: {}", drift_text(table))};
   for (const std::string& line : wrap_text("tau_R_MPa = " + expr::to_text(table.combine), 92))
     lines.push_back(comment_text(line));
   return lines;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "codegen/path_result.h"
+#include "codegen/solver_units.h"
 #include "core/registry.h"
 #include "table/states.h"
 #include "table/table.h"
@@ -25,7 +26,7 @@ using SourceBundle = std::map<std::string, std::string>;
 
 struct ExportRequest {
   const table::Table& table;
-  std::string units = "mm-t-s"; // mm-t-s: MPa, mm/s, mm, N | m-kg-s: Pa, m/s, m, N
+  SolverUnits units = {};
   // [export.inputs] of the job; checked by the exporter.
   std::map<std::string, std::string> inputs = {};
   // [export.options] of the job; Exporter::option.

@@ -120,10 +120,8 @@ std::vector<std::string> argument_lines(const Table& table) {
 std::vector<std::string> about(const ExportRequest& request) {
   const Table& table = request.table;
   return {fmt::format("Law: {}", table.model), fmt::format("Data: {}", origin_text(table)),
-          fmt::format("Units: {} (stress {}, speed {}, length {}, degC)", request.units,
-                      solver_unit("MPa", request.units).name,
-                      solver_unit("mm/s", request.units).name,
-                      solver_unit("mm", request.units).name),
+          fmt::format("Units: {} ({})", request.units.system().name,
+                      names_of_units(request.units, " ")),
           fmt::format("Worst drift from the law: {}", drift_text(table)),
           fmt::format("tau_R_MPa = {}", expr::to_text(table.combine))};
 }
@@ -209,7 +207,7 @@ void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequ
   values.text["n_x"] = std::to_string(std::max<std::size_t>(inputs.size(), 1));
   values.text["stress"] = stress.name;
   values.text["length"] = solver_unit("mm", request.units).name;
-  values.text["to_solver"] = stress.same() ? "" : "*" + fortran_number(stress.over);
+  values.text["to_solver"] = from_canonical_text(stress, Notation::fortran);
   values.lists["properties"] = comments(property_lines(inputs, head.further_properties));
   values.text["n_props"] = std::to_string(property_count(inputs) + head.further_properties.size());
   values.lists["source"] = comments({exporter.signature_source});

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "codegen/fixed_form.h"
 #include "codegen/fortran_parts.h"
 #include "codegen/history_rules.h"
 #include "codegen/number_text.h"
@@ -17,9 +18,6 @@ namespace frictab::codegen {
 namespace {
 
 using C = data::Continuation;
-
-// K: a peak is kept above absolute zero, 0 means none.
-constexpr double zero_celsius = 273.15;
 
 // Returns the rule of an input. Inputs that are not derived quantities are states that the job
 // wants smoothed or computed from areas.
@@ -53,17 +51,17 @@ std::size_t time_state(const std::vector<SolverInput>& inputs) {
   return mean ? last + 1 : 0;
 }
 
-HistoryState state_of(const SolverInput& input, std::string_view units) {
+HistoryState state_of(const SolverInput& input, const SolverUnits& units) {
   const HistoryRule rule = history_rule(continuation(input));
   const std::string unit =
       rule.unit.empty() ? input.argument.solver.name : solver_unit(rule.unit, units).name;
-  return {input.argument.name, rule.times_time ? unit + " s" : unit, rule.meaning, rule.grows};
+  return {input.argument.name, unit, rule.meaning, rule.grows};
 }
 
 // Writes the statements of one history, the law's input number `index`, in fixed form.
 class RuleText {
 public:
-  RuleText(const SolverInput& input, std::size_t index, std::size_t time, std::string_view units)
+  RuleText(const SolverInput& input, std::size_t index, std::size_t time, const SolverUnits& units)
       : rule_(history_rule(continuation(input))), comment_(fortran::clip(input.argument.name)),
         names_{{"x", fmt::format("x({})", index)},
                {"dy", fmt::format("dy({})", index)},
@@ -71,10 +69,12 @@ public:
                {"h1", fmt::format("h1({})", input.history)},
                {"time", fmt::format("h({})", time)},
                {"increments", std::to_string(input.smoothed_over) + ".0D0"},
-               {"q", followed(continuation(input).of).argument},
-               {"convert", fortran_conversion(input.argument.solver)},
-               {"from_stress", fortran_conversion(solver_unit("MPa", units))},
-               {"from_speed", fortran_conversion(solver_unit("mm/s", units))},
+               {"argument", followed(continuation(input).of).argument},
+               {"q", value_of(followed(continuation(input).of), units)},
+               {"convert", text_of(input.argument.solver)},
+               {"from_stress", text_of(solver_unit("MPa", units))},
+               {"from_speed", text_of(solver_unit("mm/s", units))},
+               {"from_length", text_of(solver_unit("mm", units))},
                {"at_peak", fortran_number(data::at_peak)},
                {"slowest", fortran_number(data::slowest_speed)},
                {"distance", distance_of(input)}} {}
@@ -89,6 +89,17 @@ public:
   }
 
 private:
+  static std::string text_of(const SolverUnit& unit) {
+    return to_canonical_text(unit, Notation::fortran);
+  }
+
+  // Returns the followed quantity in the solver's unit; temperatures reach the rules in degC.
+  static std::string value_of(const Followed& followed, const SolverUnits& units) {
+    const SolverUnit unit = solver_unit(followed.unit, units);
+    if (unit.zero == 0) return followed.argument;
+    return fmt::format("({}{})", followed.argument, from_canonical_text(unit, Notation::fortran));
+  }
+
   static std::string distance_of(const SolverInput& input) {
     const data::Continuation how = continuation(input);
     if (!is_state(how.rule)) return "";
@@ -104,7 +115,7 @@ private:
     std::string out;
     while (!lines.empty()) {
       const std::size_t end = std::min(lines.find('\n'), lines.size());
-      out += (out.empty() ? "      " : "\n      ") + insert_names(lines.substr(0, end), names_);
+      out += (out.empty() ? "" : "\n") + fixed_form(insert_names(lines.substr(0, end), names_));
       lines.remove_prefix(std::min(end + 1, lines.size()));
     }
     return out;
@@ -153,10 +164,10 @@ double extreme_of(double rises, double pressure) {
   return rises == 1 ? pressure : -pressure;
 }
 
-// Converts a pressure to the solver's unit.
-double pressure_now(const std::vector<SolverInput>& inputs, double canonical) {
+// Converts a quantity to the solver's unit, if the law takes it.
+double in_solver_unit(C::Of of, const std::vector<SolverInput>& inputs, double canonical) {
   for (const SolverInput& input : inputs)
-    if (input.argument.name == "sigma_n_MPa")
+    if (input.argument.name == followed(of).state)
       return input.argument.solver.from_canonical(canonical);
   return canonical;
 }
@@ -173,12 +184,12 @@ bool follows_temperature(const std::string& name) {
 }
 
 std::vector<HistoryState> history_states(const std::vector<SolverInput>& inputs,
-                                         std::string_view units) {
+                                         const SolverUnits& units) {
   std::vector<HistoryState> states;
   for (const SolverInput& input : inputs)
     if (input.source == Source::history) states.push_back(state_of(input, units));
   if (time_state(inputs) > states.size())
-    states.push_back({"time_under_pressure", "s", "time under pressure"});
+    states.push_back({"time_under_pressure", solver_unit("s", units).name, "time under pressure"});
   return states;
 }
 
@@ -229,7 +240,7 @@ std::size_t history_count(const std::vector<SolverInput>& inputs) {
 }
 
 void fortran::add_histories(TemplateValues& values, const std::vector<SolverInput>& inputs,
-                            std::string_view units, bool gradient) {
+                            const SolverUnits& units, bool gradient) {
   const std::size_t count = history_count(inputs), time = time_state(inputs);
   values.flags["has_histories"] = count > 0;
   values.text["temperature_now"] = "0.0D0";
@@ -259,9 +270,11 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
   own.flags["has_slipping"] = calls(histories, "next", "ftslpd");
   own.flags["has_area"] = first_area(inputs) > 0;
   own.flags["asks_nan"] = calls(histories, "next", "ftnan");
+  const SolverUnit second = solver_unit("s", units);
   own.text = {{"n", std::to_string(count)},
               {"time", std::to_string(time)},
-              {"slowest", fortran_number(data::slowest_speed)},
+              {"time_unit", second.name},
+              {"slowest", fortran_number(second.to_canonical(data::slowest_speed))},
               {"at_peak", fortran_number(data::at_peak)},
               {"a", own.flags["has_area"] ? ", a" : ""}};
   values.text["histories_text"] =
@@ -282,20 +295,23 @@ std::vector<double> history_values(const std::vector<SolverInput>& inputs,
   std::vector<double> values(history_count(inputs), 0.0);
   if (time > 0) values[time - 1] = 1; // any value: means are computed over it
   for (std::size_t c = 0; c < columns.size(); ++c)
-    if (is(inputs[c], C::per_time)) values[time - 1] = columns[c][row];
+    if (is(inputs[c], C::per_time))
+      values[time - 1] = inputs[c].argument.solver.from_canonical(columns[c][row]);
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const SolverInput& input = inputs[c];
     if (input.source != Source::history || is(input, C::per_time)) continue;
     double& value = values[input.history - 1];
-    value = input.argument.solver.from_canonical(columns[c][row]);
-    const double now = present(continuation(input).of, inputs, columns, row);
-    if (is(input, C::lag) || is(input, C::rise)) value = now - value;
-    if (is(input, C::growth)) value = 1 / columns[c][row];
-    if (is(input, C::direction)) value = extreme_of(columns[c][row], pressure_now(inputs, now));
-    if (is(input, C::ratio)) value = peak_of(columns[c][row], pressure_now(inputs, now));
+    const double canonical = columns[c][row];
+    value = input.argument.solver.from_canonical(canonical);
+    const C::Of of = continuation(input).of;
+    const double now = present(of, inputs, columns, row);
+    if (is(input, C::lag)) value = in_solver_unit(of, inputs, now - canonical);
+    if (is(input, C::growth)) value = 1 / canonical;
+    if (is(input, C::direction)) value = extreme_of(canonical, in_solver_unit(of, inputs, now));
+    if (is(input, C::ratio)) value = peak_of(canonical, in_solver_unit(of, inputs, now));
     if (takes_mean(input)) value *= values[time - 1];
-    if (is(input, C::rise) || (is(input, C::peak) && continuation(input).of == C::temperature))
-      value += zero_celsius;
+    if (is(input, C::rise)) value = now - canonical + zero_celsius;
+    if (is(input, C::peak) && of == C::temperature) value = canonical + zero_celsius;
   }
   return values;
 }

@@ -54,7 +54,7 @@ struct HistoryState {
 // SolverInput::history, followed by the time over which means are taken, unless an input is that
 // time.
 std::vector<HistoryState> history_states(const std::vector<SolverInput>& inputs,
-                                         std::string_view units);
+                                         const SolverUnits& units);
 std::size_t history_count(const std::vector<SolverInput>& inputs);
 
 // Appends, for each, the part lost to rounding in the solver's precision; `before`: number of
@@ -95,7 +95,7 @@ namespace fortran {
 //   present values to the derivatives of tau_R by pressure, speed and temperature (canonical).
 // The texts are empty if the law has no histories. NaN gives NaN wherever it is used.
 void add_histories(TemplateValues& values, const std::vector<SolverInput>& inputs,
-                   std::string_view units, bool gradient);
+                   const SolverUnits& units, bool gradient);
 
 } // namespace fortran
 

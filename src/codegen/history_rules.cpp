@@ -55,21 +55,20 @@ HistoryRule sum_over_time(C::Of of) {
   sum.next = "@{h1} = @{h}\n"
              "if (dt .gt. 0.0D0) @{h1} = @{h} + @{q}*dt";
   sum.meaning = fmt::format("{} times time under pressure", followed(of).name);
-  sum.unit = of == C::speed ? "mm" : followed(of).unit;
-  sum.times_time = of != C::speed;
+  sum.unit = of == C::speed ? "mm" : followed(of).unit + std::string(" s");
   return sum;
 }
 
 HistoryRule mean(C::Of of) {
   HistoryRule out = sum_over_time(of);
   out.now = "@{x} = ftmean(@{h}, @{time}, @{q})@{convert}";
-  out.slope = "if (@{time} .le. 0.0D0) d@{q} = d@{q} + @{dy}";
+  out.slope = "if (@{time} .le. 0.0D0) d@{argument} = d@{argument} + @{dy}";
   return out;
 }
 
 HistoryRule lag(C::Of of) {
   HistoryRule out = sum_over_time(of);
-  out.now = "@{x} = t - ftmean(@{h}, @{time}, t)";
+  out.now = "@{x} = @{q} - ftmean(@{h}, @{time}, @{q})";
   out.slope = "if (@{time} .gt. 0.0D0) dt = dt + @{dy}";
   return out;
 }
@@ -146,9 +145,9 @@ HistoryRule recent_speed() {
 // afterwards.
 HistoryRule slip_state(C::Rule rule) {
   HistoryRule out;
-  out.now = "@{x} = ftthta(@{h}, v@{from_speed}, @{distance})";
-  out.next = rule == C::aging ? "@{h1} = ftaged(@{h}, v@{from_speed}, dt, @{distance})"
-                              : "@{h1} = ftslpd(@{h}, v@{from_speed}, dt, @{distance})";
+  out.now = "@{x} = ftthta(@{h}, v@{from_length}, @{distance})@{convert}";
+  out.next = rule == C::aging ? "@{h1} = ftaged(@{h}, v@{from_length}, dt, @{distance})"
+                              : "@{h1} = ftslpd(@{h}, v@{from_length}, dt, @{distance})";
   out.slope = "if (@{h} .le. 0.0D0 .and. v@{from_speed} .gt. @{slowest}) then\n"
               "  dv = dv - @{dy}*@{distance}/(v@{from_speed})**2\n"
               "end if";
@@ -209,7 +208,7 @@ HistoryRule history_rule(const data::Continuation& how) {
 const Followed& followed(data::Continuation::Of of) {
   static const Followed pressure = {"sigma_n_MPa", "MPa", "pressure", "p"};
   static const Followed speed = {"v_rel_mm_s", "mm/s", "sliding speed", "v"};
-  static const Followed temperature = {"T_contact_C", "degC", "temperature (degC)", "t"};
+  static const Followed temperature = {"T_contact_C", "degC", "temperature", "t"};
   static const Followed area = {"", "mm^2", "area", "a"};
   if (of == C::pressure) return pressure;
   if (of == C::area) return area;

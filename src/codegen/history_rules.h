@@ -9,9 +9,11 @@ namespace frictab::codegen {
 
 // Statements, one per line. They may contain @{x} (the law's input), @{h} and @{h1} (the state
 // variable before and after the increment), @{time} (the state variable of the time over which
-// means are taken), @{increments} (over which the speed is smoothed), @{q} (the argument p, v, t or
-// a that the rule follows), @{dy} (the derivative of tau_R by x), and the conversions from the
-// solver's units @{convert} (of x), @{from_stress} and @{from_speed}; @{slowest} (speed) and
+// means are taken), @{increments} (over which the speed is smoothed), @{argument} (p, v, t or a,
+// which the rule follows), @{q} (its value in the solver's unit), @{dy} (the derivative of tau_R by
+// x), and the conversions from the solver's units @{convert} (of x), @{from_stress}, @{from_speed}
+// and
+// @{from_length} (of a speed: to mm per unit of the solver's time); @{slowest} (speed) and
 // @{distance} in mm for a state of rate-and-state friction.
 struct HistoryRule {
   // Sets @{x} from @{h} and the present pressure p, speed v, temperature t and area a.
@@ -21,9 +23,8 @@ struct HistoryRule {
   std::string slope = {}; // adds the derivatives of x by p, v and t to dp, dv and dt
 
   std::string meaning = {};
-  std::string unit = {};   // canonical unit of h; empty: that of x
-  bool times_time = false; // multiply this unit by s
-  bool grows = true;       // as in HistoryState
+  std::string unit = {}; // canonical unit of h; empty: that of x
+  bool grows = true;     // as in HistoryState
 };
 
 // Throws std::logic_error for the rule `none`.

@@ -315,7 +315,6 @@ NativeProblem problem_of(const ExportRequest& request, const NativeForm& form,
 
 NativeTable native_table(const ExportRequest& request, const NativeForm& form) {
   check_table(request.table);
-  solver_unit("MPa", request.units); // throws for an unknown system
   NativeTable out;
   out.columns = native_columns(request, form);
   out.fixed = native_fixed_states(request, form);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "codegen/solver_units.h"
 #include "core/error.h"
 
 namespace frictab::codegen {
@@ -17,7 +18,8 @@ enum class ExportForm {
 
 struct ExportOptions {
   std::vector<std::string> targets{"c", "abaqus_vfric"}; // names, or all
-  std::string units = "mm-t-s";                          // mm-t-s (MPa, mm/s) | m-kg-s (Pa, m/s)
+  std::string units = "mm-t-s";                          // one of unit_systems()
+  std::string temperature = "degC";                      // or "K"
   ExportForm form = ExportForm::table;
   // Sources of states that the solver does not give: "constant:1.0", "property" (input deck
   // constant), "field:2" (predefined field variable) or one that the target offers ("state",
@@ -31,6 +33,8 @@ struct ExportOptions {
   // Choices that targets offer, by option name.
   std::map<std::string, std::string> options;
   Place place;
+
+  SolverUnits solver_units() const { return {units, temperature}; }
 
   // Returns the sources for one target.
   std::map<std::string, std::string> inputs_for(const std::string& target) const {

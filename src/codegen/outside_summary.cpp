@@ -24,7 +24,8 @@ bool is_logarithmic(const table::Table& table, const std::string& name) {
 }
 
 TemplateValues end_values(const table::Table& table, const table::AxisEnds& axis,
-                          const std::string& unit) {
+                          const InputArgument& argument) {
+  const SolverUnit& unit = argument.solver;
   const bool log = is_logarithmic(table, axis.name);
   const double length = log ? std::log(axis.high / axis.low) : axis.high - axis.low;
   TemplateValues one;
@@ -33,9 +34,11 @@ TemplateValues end_values(const table::Table& table, const table::AxisEnds& axis
               {"low", fortran_number(axis.low)},
               {"high", fortran_number(axis.high)},
               {"length", fortran_number(length > 0 ? length : 1)},
-              {"name", fortran::in_apostrophes(axis.name)},
-              {"unit", unit == "1" ? "" : " " + fortran::in_apostrophes(unit)},
-              {"range", fmt::format("{:.6g} .. {:.6g}", axis.low, axis.high)}};
+              {"name", fortran::in_apostrophes(unit.same() ? axis.name : argument.argument)},
+              {"to_solver", from_canonical_text(unit, Notation::fortran)},
+              {"unit", unit.name == "1" ? "" : " " + fortran::in_apostrophes(unit.name)},
+              {"range", fmt::format("{:.6g} .. {:.6g}", unit.from_canonical(axis.low),
+                                    unit.from_canonical(axis.high))}};
   return one;
 }
 
@@ -54,12 +57,12 @@ std::string fortran::outside_summary(const Exporter& exporter, const ExportReque
   const std::vector<table::AxisEnds> ends = table::all_ends(request.table);
   if (!exporter.offers(summary_key) || said.empty() || said == "none" || ends.empty()) return "";
   TemplateValues values;
-  const std::vector<InputArgument> arguments = entry_arguments(request.table, "mm-t-s");
+  const std::vector<InputArgument> arguments = entry_arguments(request.table, request.units);
   for (const table::AxisEnds& axis : ends) {
     const auto argument =
         std::find_if(arguments.begin(), arguments.end(),
                      [&](const InputArgument& one) { return one.name == axis.name; });
-    values.lists["ends"].push_back(end_values(request.table, axis, argument->solver.name));
+    values.lists["ends"].push_back(end_values(request.table, axis, *argument));
     values.lists["ends"].back().text["number"] = std::to_string(values.lists["ends"].size());
   }
   const bool windows = said == "at_exit_windows";

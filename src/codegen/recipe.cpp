@@ -22,12 +22,14 @@ using json = nlohmann::ordered_json;
 
 constexpr const char* schema = "frictab/recipe/1";
 
-json unit_names(std::string_view units) {
-  return {{"system", units},
+json unit_names(const SolverUnits& units) {
+  return {{"system", units.system().name},
           {"stress", solver_unit("MPa", units).name},
           {"speed", solver_unit("mm/s", units).name},
           {"length", solver_unit("mm", units).name},
-          {"temperature", "degC"}};
+          {"time", solver_unit("s", units).name},
+          {"force", solver_unit("N", units).name},
+          {"temperature", solver_unit("degC", units).name}};
 }
 
 json axis_json(const table::TableAxis& axis, std::size_t bit, const InputArgument& input) {

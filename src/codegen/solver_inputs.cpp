@@ -220,11 +220,6 @@ const GivenState* SolverGives::find(const std::string& state) const {
   return nullptr;
 }
 
-std::string fortran_conversion(const SolverUnit& unit) {
-  if (unit.times != 1) return "*" + fortran_number(unit.times);
-  return unit.over != 1 ? "/" + fortran_number(unit.over) : "";
-}
-
 std::vector<SolverInput> solver_inputs(const ExportRequest& request, const SolverGives& gives) {
   FaultList faults;
   const std::vector<std::string> needed = request.table.inputs();
@@ -334,7 +329,7 @@ public:
               {"property", std::to_string(input.property)},
               {"field", std::to_string(input.field)},
               {"fallback", input.fallback ? fortran_number(*input.fallback) : "ftqnan()"},
-              {"convert", fortran_conversion(input.argument.solver)}};
+              {"convert", to_canonical_text(input.argument.solver, Notation::fortran)}};
   }
 
   std::string out;

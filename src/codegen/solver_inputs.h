@@ -118,10 +118,6 @@ std::string meaning_and_unit(const SolverInput& input); // "contact temperature,
 std::vector<std::string> property_placeholders(const std::vector<SolverInput>& inputs,
                                                const FurtherProperties& further);
 
-// Returns "/1.0D6", the conversion from the solver's unit to the canonical one; empty if they are
-// equal.
-std::string fortran_conversion(const SolverUnit& unit);
-
 namespace fortran {
 
 // Returns statements in fixed form, indented by `indent` blanks, that fill x(1), ..., x(n) with the

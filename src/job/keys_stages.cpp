@@ -49,9 +49,6 @@ std::vector<std::string> sides() {
 std::vector<std::string> forms() {
   return {"table", "direct"}; // in the order of codegen::ExportForm
 }
-std::vector<std::string> unit_systems() {
-  return {"mm-t-s", "m-kg-s"};
-}
 
 } // namespace
 
@@ -329,8 +326,12 @@ std::vector<KeyRule> export_keys() {
           Allowed{"target", targets_or_all},
       key<std::string>(
           "export.units", [](Job & job) -> auto& { return job.exports.units; },
-          "unit system of the simulation: mm-t-s (MPa, mm/s) or m-kg-s (Pa, m/s)") |
-          Allowed{"", unit_systems},
+          "unit system of the simulation: " + codegen::unit_systems_text()) |
+          Allowed{"", codegen::unit_system_names},
+      key<std::string>(
+          "export.temperature", [](Job & job) -> auto& { return job.exports.temperature; },
+          "unit of temperatures in the simulation, in each unit system") |
+          Allowed{"", codegen::temperature_units},
       key<codegen::ExportForm>(
           "export.form", [](Job & job) -> auto& { return job.exports.form; },
           "what the routine holds: table, or direct = the law itself (its formula, or the network "

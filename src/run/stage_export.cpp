@@ -51,7 +51,7 @@ std::string export_directory(const Run& run, const std::string& target, const Ta
 
 codegen::ExportRequest export_request(const job::Job& job, const std::string& target,
                                       const Table& form) {
-  return {form, job.exports.units, job.exports.inputs_for(target), job.exports.options};
+  return {form, job.exports.solver_units(), job.exports.inputs_for(target), job.exports.options};
 }
 
 void export_sources(Run& run) {

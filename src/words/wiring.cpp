@@ -42,8 +42,10 @@ Section recipe_section(const Json& recipe, const std::string& path, Detail detai
   Section section{"", "", title};
   section.foldable = true;
   section.open = false;
-  section.say("Entry " + code(text_at(recipe, "entry")) + ", units " +
-              recipe.at("units").at("system").get<std::string>() + ". Files: " +
+  const Json& units = recipe.at("units");
+  const std::string temperature = text_at(units, "temperature");
+  section.say("Entry " + code(text_at(recipe, "entry")) + ", units " + text_at(units, "system") +
+              (temperature == "K" ? ", K" : "") + ". Files: " +
               code(join(texts_at(recipe, "files"), ", ")) + "; all of it in " + code(path) + ".");
   if (const auto compile = texts_at(recipe, "compile"); !compile.empty())
     section.add(Code{detail == Detail::brief ? compile.front() : join(compile, "\n")});

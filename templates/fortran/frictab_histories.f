@@ -256,8 +256,8 @@ C     increment of it. NaN where one is.
 C
 @end
 @if has_theta
-C     A state of rate-and-state friction (s): that of sliding at v
-C     (mm/s) for long, over the distance d (mm), where there was none.
+C     A state of rate-and-state friction (@{time_unit}): that of sliding at v
+C     (mm/@{time_unit}) for long, over the distance d (mm), where there was none.
 C     There is none (0) before the contact first slides.
       double precision function ftthta(theta, v, d)
       implicit none

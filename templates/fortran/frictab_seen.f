@@ -39,7 +39,7 @@ C     so instead with `say`: when the program ends.
 @for axis in ends
       if (which .eq. @{axis.number}) write (*, '(1x,a,1pg0.6,a)')
      &  'of the law. Furthest: @{axis.name} = ',
-     &  value, '@{axis.unit},'
+     &  value@{axis.to_solver}, '@{axis.unit},'
       if (which .eq. @{axis.number}) write (*, '(1x,a)')
      &  'of a range @{axis.range}.'
 @end

@@ -61,7 +61,7 @@ template <class Real> struct RoutineCase {
 
   void* routine(const std::string& key, const table::Table& table,
                 const std::map<std::string, std::string>& inputs = {},
-                const std::string& units = "mm-t-s",
+                const codegen::SolverUnits& units = {},
                 const std::vector<std::string>& flags = strict) const {
     std::string name = key;
     for (const auto& [option, choice] : options)

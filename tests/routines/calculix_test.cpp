@@ -9,6 +9,7 @@
 #include "codegen/entry_arguments.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
+#include "support/solver_scale.h"
 
 namespace frictab::calculix_test {
 
@@ -67,10 +68,10 @@ using SlowCalculix = Calculix;
 
 TEST_F(SlowCalculix, AgreesWithFrictabForEveryTableAndUnit) {
   for (const test::NamedTable& sample : test::sample_tables())
-    for (const std::string units : {"mm-t-s", "m-kg-s"}) {
-      if (units != "mm-t-s" && !test::has_every_kind_of_argument(sample)) continue;
-      SCOPED_TRACE(sample.name + " " + units);
-      const test::SampleRequest sampled(target(), sample.table, units);
+    for (const test::SolverScale& scale : test::every_system()) {
+      if (scale.name != "mm-t-s" && !test::has_every_kind_of_argument(sample)) continue;
+      SCOPED_TRACE(sample.name + " " + scale.name);
+      const test::SampleRequest sampled(target(), sample.table, scale.units);
       EXPECT_LE(test::worst_driven(target(), sampled.get(), "double", test::strict_declared),
                 bound);
     }

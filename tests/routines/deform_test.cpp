@@ -16,6 +16,7 @@
 #include "support/generated.h"
 #include "support/json.h"
 #include "support/sample_tables.h"
+#include "support/solver_scale.h"
 
 namespace frictab::deform_test {
 
@@ -41,7 +42,7 @@ const codegen::Exporter& deform() {
 }
 
 ExportRequest request(const Table& table, const std::string& friction = "coulomb",
-                      const Words& inputs = {}, const std::string& units = "mm-t-s") {
+                      const Words& inputs = {}, const codegen::SolverUnits& units = {}) {
   ExportRequest out{table, units, inputs};
   out.options = {{"deform_friction", friction}};
   return out;
@@ -79,12 +80,14 @@ struct SlowDeform : test::NeedsGfortran {
 };
 
 TEST_F(SlowDeform, AgreesWithFrictabForEveryKindOfArgumentAndFrictionType) {
-  const std::pair<const char*, const char*> choices[] = {
-      {"coulomb", "mm-t-s"}, {"shear", "mm-t-s"}, {"constant", "mm-t-s"}, {"constant", "m-kg-s"}};
+  std::vector<std::pair<const char*, codegen::SolverUnits>> choices = {{"coulomb", {}},
+                                                                       {"shear", {}}};
+  for (const test::SolverScale& scale : test::every_system())
+    choices.emplace_back("constant", scale.units);
   for (const test::NamedTable& sample : test::sample_tables())
     for (const auto& [friction, units] : choices) {
       if (!test::has_every_kind_of_argument(sample)) continue;
-      SCOPED_TRACE(sample.name + " " + units + " " + friction);
+      SCOPED_TRACE(sample.name + " " + units.text() + " " + friction);
       const ExportRequest asked = request(sample.table, friction, {}, units);
       EXPECT_LE(test::worst_driven(deform(), asked, "double", test::strict_declared), bound);
     }
@@ -249,15 +252,15 @@ TEST_F(SlowDeform, ReadsNoFileAndNoTextWhileItRuns) {
 TEST_F(SlowDeform, TakesWorkAndPeakPressureOfTheNodesInTheSolversUnits) {
   const Table table = test::history_table();
   const TableFunction function(table);
-  for (const std::string units : {"mm-t-s", "m-kg-s"}) {
-    const bool si = units == "m-kg-s";
-    use("histories " + units, request(table, "coulomb", {}, units));
+  for (const test::SolverScale& scale : test::every_system()) {
+    const double stress = scale.stress, work = scale.stress * scale.length;
+    use("histories " + scale.name, request(table, "coulomb", {}, scale.units));
     call.user_variables = 3;
-    contact->pressure = si ? 700e6 : 700;
-    call.nodal = {0, si ? 100e3 : 100, si ? 800e6 : 800, 0, si ? 300e3 : 300, si ? 1000e6 : 1000};
+    contact->pressure = 700 * stress;
+    call.nodal = {0, 100 * work, 800 * stress, 0, 300 * work, 1000 * stress};
     const double state[] = {700, 200, 900}, risen[] = {1200, 200, 1200};
     EXPECT_CLOSE(run(), function(state) / 700, bound);
-    contact->pressure = si ? 1200e6 : 1200; // above the peak of the last step
+    contact->pressure = 1200 * stress; // above the peak of the last step
     EXPECT_CLOSE(run(), function(risen) / 1200, bound);
     contact->pressure = nan;
     EXPECT_TRUE(std::isnan(run()));

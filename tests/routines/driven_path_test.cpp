@@ -1,6 +1,7 @@
 // Every routine, driven over increments: stick, slip, reversal, loss of contact, beyond each end of
 // the range, iterations and cutbacks, nodes in any order. All that it returns and remembers is what
 // the account of its target says, and the account notices a routine that remembers something else.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include "core/text.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
+#include "support/solver_scale.h"
 
 namespace frictab::driven_path_test {
 
@@ -94,16 +96,17 @@ class LongDrivenPath : public testing::TestWithParam<Case> {};
 TEST_P(LongDrivenPath, ReturnsAndRemembersWhatItsDefinitionSays) {
   const Exporter& exporter = *find_exporter(GetParam().target);
   if (!is_driven(exporter)) GTEST_SKIP() << "returns the law alone and remembers nothing";
-  for (const char* units : {"mm-t-s", "m-kg-s"})
+  const bool plain = GetParam().options.empty();
+  for (const test::SolverScale& scale : test::every_system()) {
+    const bool usual = scale.name == codegen::SolverUnits().text();
     for (const test::NamedTable& sample : test::sample_tables()) {
-      const bool in_metres = std::string(units) == "m-kg-s";
-      const bool plain = GetParam().options.empty();
-      if ((in_metres || !plain) && !test::has_every_kind_of_argument(sample)) continue;
-      if (in_metres && !plain) continue; // units are the same text for each option
+      if (!usual && !plain) continue; // units are the same text for each option
+      if ((!usual || !plain) && !test::has_every_kind_of_argument(sample)) continue;
+      const codegen::SolverUnits& units = scale.units;
       test::SampleRequest sampled(exporter, sample.table, units);
       ExportRequest request = sampled.get();
       request.options = GetParam().options;
-      SCOPED_TRACE(sample.name + " " + units);
+      SCOPED_TRACE(sample.name + " " + units.text());
       const codegen::SourceBundle bundle = exporter.generate(request);
       for (const codegen::BuildVariant& variant : exporter.variants(request)) {
         if (!have_program(variant.program())) GTEST_SKIP() << variant.program() << " is missing";
@@ -113,6 +116,7 @@ TEST_P(LongDrivenPath, ReturnsAndRemembersWhatItsDefinitionSays) {
         EXPECT_GE(driven.compared, 1000u);
       }
     }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LongDrivenPath, testing::ValuesIn(cases()), name_of);

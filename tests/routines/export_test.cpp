@@ -119,13 +119,6 @@ TEST(Export, RefusesFieldNumbersThatAreNone) {
                 HasSubstr("names no field variable"));
 }
 
-TEST(Export, RefusesUnknownUnitSystemsInEveryTarget) {
-  const Table table = test::constant_table();
-  for (const Exporter& exporter : all_exporters())
-    EXPECT_THAT(refusal({table, "inch", {}}, exporter.name),
-                HasSubstr("unknown unit system 'inch'"));
-}
-
 TEST(Export, RefusesTablesThatCannotBecomeCode) {
   for (const Exporter& exporter : all_exporters()) {
     Table table = test::one_axis_table();

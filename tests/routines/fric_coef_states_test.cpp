@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "routines/abaqus_routines.h"
+#include "support/solver_scale.h"
 
 namespace frictab::fric_coef_states_test {
 
@@ -36,12 +37,12 @@ protected:
 
 TEST_F(FricCoef2024, TakesTheEquivalentSlipAndGivesItsDerivative) {
   static const Table table = branching_table();
-  for (const std::string units : {"mm-t-s", "m-kg-s"}) {
-    const double length = units == "m-kg-s" ? 1e-3 : 1, stress = units == "m-kg-s" ? 1e6 : 1;
-    void* const compiled = routine("states branching " + units, table, {}, units);
+  for (const test::SolverScale& scale : test::every_system()) {
+    const double length = scale.length, stress = scale.stress;
+    void* const compiled = routine("states branching " + scale.name, table, {}, scale.units);
     auto c = call({flow * stress});
     c.pressure[0] = 300 * stress;
-    c.slip[0] = 20 * length;
+    c.slip[0] = 20 * scale.speed;
     c.slip[3] = 7 * length;
     run(c, compiled);
     EXPECT_CLOSE(c.coefficient[0], branching_tau(300, 20, 7) / 300, 1e-13);
@@ -54,12 +55,12 @@ TEST_F(FricCoef2024, TakesTheEquivalentSlipAndGivesItsDerivative) {
 
 TEST_F(FricCoef2024, GivesTheDerivativeOfALawThatTakesTheSlipByBothOfItsNames) {
   static const Table table = two_slips_table();
-  for (const std::string units : {"mm-t-s", "m-kg-s"}) {
-    const double length = units == "m-kg-s" ? 1e-3 : 1, stress = units == "m-kg-s" ? 1e6 : 1;
+  for (const test::SolverScale& scale : test::every_system()) {
+    const double length = scale.length, stress = scale.stress;
     auto c = call({});
     c.pressure[0] = 300 * stress;
     c.slip[3] = 7 * length;
-    run(c, routine("two slips " + units, table, {}, units));
+    run(c, routine("two slips " + scale.name, table, {}, scale.units));
     EXPECT_CLOSE(c.coefficient[0], 0.08 + 7 * 5e-3, 1e-13);
     EXPECT_NEAR(c.derivative[5] * length, 5e-3, 1e-15);
   }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "routines/fric_case.h"
+#include "support/solver_scale.h"
 
 namespace frictab::fric_history_test {
 
@@ -114,13 +115,12 @@ TEST_F(FricHistory, WorksWithoutStateVariablesFromTheStressOfTheIncrementsStart)
   }
 }
 
-TEST_F(FricHistory, FollowsPeakPressureAndFrictionWorkInBothUnitSystems) {
+TEST_F(FricHistory, FollowsPeakPressureAndFrictionWorkInEveryUnitSystem) {
   static const table::Table table = peak_and_work_table();
   static const table::TableFunction function(table);
-  for (const std::string units : {"mm-t-s", "m-kg-s"}) {
-    SCOPED_TRACE(units);
-    const bool metre = units == "m-kg-s";
-    const double stress = metre ? 1e6 : 1, length = metre ? 1e-3 : 1;
+  for (const test::SolverScale& scale : test::every_system()) {
+    SCOPED_TRACE(scale.name);
+    const double stress = scale.stress, length = scale.length;
     const std::vector<std::string> inputs = table.inputs();
     const auto wanted = [&](double pressure, double peak, double work) {
       std::vector<double> state;
@@ -134,18 +134,18 @@ TEST_F(FricHistory, FollowsPeakPressureAndFrictionWorkInBothUnitSystems) {
     for (const double pressure : {800.0, 500.0}) {
       c.pressure = pressure * stress;
       c.motion[0] = (1 + critical) * length;
-      run(c, routine("histories " + units, {table, units, {}}));
+      run(c, routine("histories " + scale.name, {table, scale.units, {}}));
       EXPECT_CLOSE(c.tau[0], wanted(pressure, 800, work) * stress, 1e-13);
       work += wanted(pressure, 800, work) * (c.increment == 1 ? 1 : 1 + critical);
       EXPECT_CLOSE(c.state[1], work * stress * length, 1e-13);
-      expect_tangents(c, routine("histories " + units, {table, units, {}}), "histories");
+      expect_tangents(c, routine("histories " + scale.name, {table, scale.units, {}}), "histories");
       ++c.increment;
     }
     auto light = call(1); // below the smallest pressure the peak still counts
     light.properties = {critical * length};
     light.pressure = 0.4 * stress;
     light.motion[0] = length;
-    expect_tangents(light, routine("histories " + units, {table, units, {}}), "light");
+    expect_tangents(light, routine("histories " + scale.name, {table, scale.units, {}}), "light");
   }
 }
 

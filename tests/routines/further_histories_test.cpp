@@ -12,6 +12,7 @@
 #include "support/calls/usrbcc.h"
 #include "support/calls/usrfrc.h"
 #include "support/json.h"
+#include "support/solver_scale.h"
 
 namespace frictab::further_histories_test {
 
@@ -136,14 +137,12 @@ private:
   Table table_;
 };
 
-// What the solver's units are of MPa and of mm; which table, and where its temperature comes from.
-struct Units {
-  std::string name;
-  double stress, length;
+// The solver's units; which table, and where its temperature comes from.
+struct Units : test::SolverScale {
+  Units(const test::SolverScale& scale = test::SolverScale("mm-t-s")) : SolverScale(scale) {}
   std::string table = "further";
-  std::string temperature = {};
+  std::string temperature_from = {};
 };
-const std::vector<Units> both_units = {{"mm-t-s", 1, 1}, {"m-kg-s", 1e6, 1e-3}};
 
 const Library& compiled(const std::string& target, const Units& units, const std::string& variant) {
   static const std::map<std::string, Table> tables = {{"further", further_histories_table()},
@@ -152,9 +151,9 @@ const Library& compiled(const std::string& target, const Units& units, const std
                                                       {"mean", table_of("mean_T_contact")},
                                                       {"peak", table_of("peak_T_contact")}};
   std::map<std::string, std::string> inputs;
-  if (!units.temperature.empty()) inputs["T_contact_C"] = units.temperature;
-  return *test::compiled(units.table + units.name + units.temperature, *find_exporter(target),
-                         {tables.at(units.table), units.name, inputs}, variant, test::strict);
+  if (!units.temperature_from.empty()) inputs["T_contact_C"] = units.temperature_from;
+  return *test::compiled(units.table + units.name + units.temperature_from, *find_exporter(target),
+                         {tables.at(units.table), units.units, inputs}, variant, test::strict);
 }
 
 // One contact point of a target: tau_R (MPa) of the next increment. An edge has four columns of
@@ -171,10 +170,11 @@ template <class Case> struct ForcePoint {
     c.area[0] = 4;
   }
   double step(const Increment& now) {
-    c.time_increment = static_cast<Real>(now.time);
+    c.time_increment = static_cast<Real>(now.time * units.time);
     c.normal[0] = static_cast<Real>(4 * now.pressure * units.stress);
     c.slip[0] = static_cast<Real>(now.speed * now.time * units.length);
-    c.temperature[0] = c.temperature_main[0] = static_cast<Real>(now.temperature);
+    c.temperature[0] = c.temperature_main[0] =
+        static_cast<Real>(units.temperature(now.temperature));
     const Library& library = compiled(target, units, Case::single ? "single" : "double");
     const test::FloatTraps traps;
     c.run(Library::address(library.handle(), Case::pairs ? "vfric_" : "vfriction_"));
@@ -198,10 +198,11 @@ template <class Real> struct Usrfrc {
   double step(const Increment& now) {
     const Library& library = compiled(target, units, sizeof(Real) == 4 ? "single" : "double");
     *static_cast<Int*>(Library::address(library.handle(), "thropt_")) = 999;
-    c.rate = static_cast<Real>(1 / now.time);
+    c.rate = static_cast<Real>(1 / (now.time * units.time));
     c.normal[0] = -static_cast<Real>(now.pressure * units.stress);
     c.slip[1][0] = static_cast<Real>(now.speed * now.time * units.length);
-    std::fill(c.temperature.begin(), c.temperature.end(), static_cast<Real>(now.temperature));
+    std::fill(c.temperature.begin(), c.temperature.end(),
+              static_cast<Real>(units.temperature(now.temperature)));
     c.force[0][0] = 0;
     c.before[2] = Real(0x1p60);
     c.before[3] = c.before[4] = 0;
@@ -242,9 +243,9 @@ struct Fric {
         [&](const Increment& tried) {
           c.mode = 0;
           c.pressure = tried.pressure * units.stress;
-          c.time_increment = tried.time;
+          c.time_increment = tried.time * units.time;
           c.motion[0] = tried.speed * tried.time * units.length;
-          c.temperature[0] = c.temperature[1] = tried.temperature;
+          c.temperature[0] = c.temperature[1] = units.temperature(tried.temperature);
         },
         [&] { c.run(function); });
     return c.tau[0] / units.stress;
@@ -269,11 +270,11 @@ struct FricCoef {
         c, now,
         [&](const Increment& tried) {
           c.pressure[0] = tried.pressure * units.stress;
-          c.time_increment = tried.time;
+          c.time_increment = tried.time * units.time;
           slip = slipped + tried.speed * tried.time * units.length;
-          c.slip[0] = tried.speed * units.length;
+          c.slip[0] = tried.speed * units.speed;
           c.slip[3] = slip;
-          c.temperature[0] = tried.temperature;
+          c.temperature[0] = units.temperature(tried.temperature);
         },
         [&] { c.run(function); });
     return c.coefficient[0] * now.pressure;
@@ -292,9 +293,10 @@ struct Usrbcc {
   }
   double step(const Increment& now) {
     const Library& library = compiled(target, units, "double");
-    *library.find<calls::Ufhcom>("ufhcom_") = {20, 20, -now.speed * units.length,
+    *library.find<calls::Ufhcom>("ufhcom_") = {20, 20, -now.speed * units.speed,
                                                -now.pressure * units.stress};
-    c.temperature[0] = now.temperature - 5, c.temperature[1] = now.temperature + 5;
+    c.temperature[0] = units.temperature(now.temperature - 5);
+    c.temperature[1] = units.temperature(now.temperature + 5);
     auto* node = library.find<test::Nodcom>("nodcom_");
     auto* contact = library.find<test::Nodcom2>("nodcom2_");
     const test::FloatTraps traps;
@@ -302,12 +304,12 @@ struct Usrbcc {
     const double tau = c.variable * now.pressure;
     *node = {};
     node->node = 5;
-    node->temperature = now.temperature;
+    node->temperature = units.temperature(now.temperature);
     std::copy(c.nodal.begin(), c.nodal.begin() + 12, node->before);
     *contact = {
-        1, 20, -now.speed * units.length, {tau * units.stress, -now.pressure * units.stress}, 0};
+        1, 20, -now.speed * units.speed, {tau * units.stress, -now.pressure * units.stress}, 0};
     library.find<int>("usrctl_")[1] = 1;
-    *library.find<double>("sstu_") = now.time;
+    *library.find<double>("sstu_") = now.time * units.time;
     library.find<void()>("ftupd_")();
     for (int i = 0; i < 24; ++i)
       c.nodal[static_cast<std::size_t>(i)] = node->after[i % 12];
@@ -347,7 +349,7 @@ TYPED_TEST_SUITE(FurtherHistories, Points, PointName);
 
 TYPED_TEST(FurtherHistories, FollowAPathOfIncrementsAsTheDefinitionSays) {
   for (const std::string table : {"further", "way"})
-    for (Units units : both_units) {
+    for (Units units : test::every_system()) {
       SCOPED_TRACE(table + " " + units.name);
       units.table = table;
       TypeParam point(units);
@@ -364,7 +366,7 @@ TYPED_TEST(FurtherHistories, FollowAPathOfIncrementsAsTheDefinitionSays) {
 }
 
 TYPED_TEST(FurtherHistories, SlipStatesStartWithTheFirstIncrementThatSlides) {
-  Units units = both_units[0];
+  Units units;
   units.table = "state";
   TypeParam point(units);
   point.step({500, 0, 2, 20});
@@ -377,7 +379,7 @@ TYPED_TEST(FurtherHistories, SlipStatesStartWithTheFirstIncrementThatSlides) {
 }
 
 TYPED_TEST(FurtherHistories, KeepNothingOfAnIncrementWhoseTemperatureIsNaN) {
-  Units units = both_units[0];
+  Units units;
   units.table = "mean";
   TypeParam point(units);
   const double bound = std::max(1e-10, further_histories_test::bound<TypeParam>());
@@ -392,7 +394,7 @@ TYPED_TEST(FurtherHistories, KeepNothingOfAnIncrementWhoseTemperatureIsNaN) {
 }
 
 TYPED_TEST(FurtherHistories, AreNumbersAfterAnInfinitePressureOrALongRest) {
-  TypeParam point(both_units[0]);
+  TypeParam point{Units()};
   point.step({500, 0, 0.5, 80});
   point.step({1e30, 0, 1e-30, 80});
   point.step({1e30, 2, 0.5, 80});
@@ -424,7 +426,7 @@ TYPED_TEST(FurtherHistories, AreToldInTheRecipeWithTheirNumbers) {
 
 TEST(FurtherHistoriesOfVfric, DoNotStandStillInSinglePrecision) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  Vfric<float> point(both_units[0]);
+  Vfric<float> point{Units()};
   const int increments = 200000;
   for (int i = 0; i < increments; ++i)
     point.step({1000, 100, 0x1p-24, 60}); // 6e-8 s: lost at 1 s without what is rounded off
@@ -440,8 +442,9 @@ TEST(FurtherHistoriesOfVfric, DoNotStandStillInSinglePrecision) {
 
 TEST(FurtherHistoriesOfFric, HaveTheDerivativesOfTheStress) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  std::vector<Units> all = both_units;
-  for (Units units : both_units) {
+  const auto systems = test::every_system();
+  std::vector<Units> all(systems.begin(), systems.end());
+  for (Units units : test::every_system()) {
     units.table = "way";
     all.push_back(units);
   }
@@ -454,9 +457,9 @@ TEST(FurtherHistoriesOfFric, HaveTheDerivativesOfTheStress) {
         ++at.c.increment;
         at.c.mode = 0;
         at.c.pressure = now.pressure * units.stress;
-        at.c.time_increment = 1e-3;
+        at.c.time_increment = 1e-3 * units.time;
         at.c.motion[0] = now.speed * 1e-3 * units.length;
-        at.c.temperature[0] = at.c.temperature[1] = now.temperature;
+        at.c.temperature[0] = at.c.temperature[1] = units.temperature(now.temperature);
         test::expect_tangents(
             at.c, Library::address(compiled("abaqus_fric", units, "double").handle(), "fric_"),
             "path");
@@ -468,7 +471,7 @@ TEST(FurtherHistoriesOfFric, HaveTheDerivativesOfTheStress) {
 
 TEST(FurtherHistoriesOfFric, AreNothingSoFarWithFewerStateVariables) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  Fric point(both_units[0]);
+  Fric point{Units()};
   point.c.states = 15;
   point.c.resize();
   const Definition nothing;
@@ -479,7 +482,7 @@ TEST(FurtherHistoriesOfFric, AreNothingSoFarWithFewerStateVariables) {
 
 TEST(FurtherHistoriesOfFric, CountTheStressThatASticksPointHas) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  Fric point(both_units[0]);
+  Fric point{Units()};
   point.c.properties = {1}; // mm: all of the motion is elastic
   const double tau = point.step({800, 0.02, 0.5, 60});
   EXPECT_GT(tau, 0);
@@ -491,13 +494,13 @@ TEST(FurtherHistoriesOfFric, CountTheStressThatASticksPointHas) {
 
 TEST(FurtherHistoriesOfDeform, TakeTheTemperatureThatTheJobSays) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  Units units = both_units[0];
+  Units units;
   units.table = "mean";
-  units.temperature = "constant:90";
+  units.temperature_from = "constant:90";
   Usrbcc fixed(units);
   for (int i = 0; i < 2; ++i)
     EXPECT_NEAR(fixed.step({500, 2, 0.5, 20}), 500 * 0.059, 1e-10);
-  units.temperature = "field:9";
+  units.temperature_from = "field:9";
   Usrbcc field(units);
   field.c.nodal[8] = field.c.nodal[12 + 8] = 150;
   EXPECT_NEAR(field.step({500, 2, 0.5, 20}), 500 * 0.065, 1e-10);
@@ -507,7 +510,7 @@ TEST(FurtherHistoriesOfDeform, TakeTheTemperatureThatTheJobSays) {
 
 TEST(FurtherHistoriesOfDeform, DoNotForgetAPeakBesideANodeThatWasNeverInContact) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  Units units = both_units[0];
+  Units units;
   units.table = "peak";
   Usrbcc point(units);
   point.step({500, 2, 0.5, 200});

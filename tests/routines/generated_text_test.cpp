@@ -5,17 +5,21 @@
 #include <fstream>
 #include <sstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "codegen/exporter.h"
 #include "io/atomic_file.h"
 #include "support/sample_tables.h"
+#include "support/solver_scale.h"
 
 namespace frictab::generated_text_test {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+using testing::HasSubstr;
 
 // UPDATE_EXAMPLES=1 rewrites it.
 const fs::path root = fs::path(FRICTAB_SOURCE_DIR) / "examples/generated";
@@ -57,24 +61,48 @@ TEST(GeneratedExamples, HoldNothingElse) {
   }
 }
 
+TEST(GeneratedText, NamesTheUnitsOfTheAnalysis) {
+  const table::Table table = test::four_axis_table();
+  for (const codegen::Exporter& exporter : codegen::all_exporters())
+    for (const test::SolverScale& scale : test::all_units()) {
+      SCOPED_TRACE(exporter.name + " " + scale.name);
+      std::string text;
+      for (const auto& [path, content] :
+           exporter.generate(test::SampleRequest(exporter, table, scale.units).get()))
+        text += content;
+      const std::string system = scale.units.system().name;
+      const bool kelvin = scale.units.kelvin();
+      const bool has_temperatures = exporter.name != "lsdyna_table";
+      EXPECT_THAT(text, HasSubstr("Units: " + system));
+      EXPECT_THAT(text, HasSubstr("\"system\": \"" + system + "\""));
+      EXPECT_THAT(text, HasSubstr(kelvin ? "\"temperature\": \"K\"" : "\"temperature\": \"degC\""));
+      EXPECT_EQ(text.find("293.15") != text.npos, kelvin && has_temperatures);
+      EXPECT_EQ(text.find("T_contact_K") != text.npos, kelvin && has_temperatures);
+      if (exporter.is_routine()) {
+        EXPECT_EQ(text.find("273.15") != text.npos, kelvin);
+      }
+    }
+}
+
 TEST(SlowGeneratedText, KeepsToItsColumns) {
   for (const test::NamedTable& sample : test::sample_tables())
     for (const codegen::Exporter& exporter : codegen::all_exporters())
-      for (const auto& [path, content] :
-           exporter.generate(test::SampleRequest(exporter, sample.table, "m-kg-s").get())) {
-        const bool wide = path.ends_with(".json") || path.ends_with(".key"); // a line per axis
-        const std::size_t limit = path.ends_with(".f") ? 72 : wide ? 1000000 : 100;
-        std::size_t continued = 0;
-        std::istringstream lines(content);
-        for (std::string line; std::getline(lines, line);) {
-          EXPECT_LE(line.size(), limit) << path << ": " << line;
-          EXPECT_TRUE(line.empty() || line.back() != ' ') << path << ": '" << line << "'";
-          const bool continues = path.ends_with(".f") && line.size() > 5 && line[0] == ' ' &&
-                                 line.substr(0, 5) == "     " && line[5] != ' ';
-          continued = continues ? continued + 1 : 0;
-          EXPECT_LE(continued, 19u) << path << ": " << line;
+      for (const test::SolverScale& scale : test::every_system())
+        for (const auto& [path, content] :
+             exporter.generate(test::SampleRequest(exporter, sample.table, scale.units).get())) {
+          const bool wide = path.ends_with(".json") || path.ends_with(".key"); // a line per axis
+          const std::size_t limit = path.ends_with(".f") ? 72 : wide ? 1000000 : 100;
+          std::size_t continued = 0;
+          std::istringstream lines(content);
+          for (std::string line; std::getline(lines, line);) {
+            EXPECT_LE(line.size(), limit) << path << ": " << line;
+            EXPECT_TRUE(line.empty() || line.back() != ' ') << path << ": '" << line << "'";
+            const bool continues = path.ends_with(".f") && line.size() > 5 && line[0] == ' ' &&
+                                   line.substr(0, 5) == "     " && line[5] != ' ';
+            continued = continues ? continued + 1 : 0;
+            EXPECT_LE(continued, 19u) << path << ": " << line;
+          }
         }
-      }
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include "codegen/solver_inputs.h"
 #include "data/derived.h"
 #include "routines/abaqus_routines.h"
+#include "support/solver_scale.h"
 
 namespace frictab::histories_test {
 
@@ -74,9 +75,9 @@ TYPED_TEST(SlowHistories, FollowAPathOfIncrementsAsTheDefinitionSays) {
   using Number = typename TypeParam::Real;
   static const Table table = history_table();
   static const table::TableFunction function(table);
-  for (const std::string units : {"mm-t-s", "m-kg-s"}) {
-    const double stress = units == "mm-t-s" ? 1 : 1e6, length = units == "mm-t-s" ? 1 : 1e-3;
-    void* routine = this->routine("path" + units, table, {}, units);
+  for (const test::SolverScale& scale : test::every_system()) {
+    const double stress = scale.stress, length = scale.length;
+    void* routine = this->routine("path" + scale.name, table, {}, scale.units);
     auto c = this->call();
     double slip = 0, work = 0, peak = 0, before = 0;
     for (const Contact& contact : path) {
@@ -168,8 +169,8 @@ TYPED_TEST(SlowHistories, DriversPoseThemAndLeaveOutWhatCannotBe) {
   const std::vector<double> slip = {5, 20, 30, 12}, work = {100, 2000, 700, 5};
   const std::vector<double> peak = {900, 1500, 400, 600}, pressure = {700, 1500, 500, 600};
   const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_" + this->entry);
-  for (const std::string units : {"mm-t-s", "m-kg-s"}) {
-    const codegen::ExportRequest request{table, units, {}};
+  for (const test::SolverScale& scale : test::every_system()) {
+    const codegen::ExportRequest request{table, scale.units, {}};
     const codegen::BuildVariant variant = exporter.variants(request)[TestFixture::single ? 1 : 0];
     std::vector<double> tau(4, -1);
     codegen::CompiledTarget(exporter, request, exporter.generate(request), variant)
@@ -178,7 +179,7 @@ TYPED_TEST(SlowHistories, DriversPoseThemAndLeaveOutWhatCannotBe) {
                tau);
     for (std::size_t i : {0u, 1u, 3u}) {
       const double state[] = {pressure[i], work[i], peak[i], slip[i]};
-      EXPECT_NEAR(tau[i], function(state), function(state) * TestFixture::bound) << units;
+      EXPECT_NEAR(tau[i], function(state), function(state) * TestFixture::bound) << scale.name;
     }
     EXPECT_EQ(tau[2], -1) << "a peak below the present pressure is not a state";
   }

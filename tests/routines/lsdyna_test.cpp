@@ -13,6 +13,7 @@
 #include "support/calls/usrfrc.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
+#include "support/solver_scale.h"
 
 namespace frictab::lsdyna_test {
 
@@ -39,7 +40,7 @@ template <class Real> struct SlowLsDyna : test::NeedsGfortran {
 
   static const Library& library(const std::string& key, const Table& table,
                                 const std::map<std::string, std::string>& inputs = {},
-                                const std::string& units = "mm-t-s") {
+                                const codegen::SolverUnits& units = {}) {
     return *test::compiled(key, lsdyna(), {table, units, inputs}, variant, test::strict_declared);
   }
   static const Library& four_axes() { return library("four_axes", four_axis()); }
@@ -82,10 +83,10 @@ TYPED_TEST_SUITE(SlowLsDyna, Precisions, PrecisionName);
 
 TYPED_TEST(SlowLsDyna, AgreesWithFrictabForEveryKindOfArgumentAndUnit) {
   for (const test::NamedTable& sample : test::sample_tables())
-    for (const std::string units : {"mm-t-s", "m-kg-s"}) {
+    for (const test::SolverScale& scale : test::every_system()) {
       if (!test::has_every_kind_of_argument(sample)) continue;
-      SCOPED_TRACE(sample.name + " " + units);
-      const codegen::ExportRequest asked{sample.table, units, {}};
+      SCOPED_TRACE(sample.name + " " + scale.name);
+      const codegen::ExportRequest asked{sample.table, scale.units, {}};
       EXPECT_LE(
           test::worst_driven(lsdyna(), asked, TestFixture::single ? "single" : "double",
                              test::strict_declared,
@@ -394,19 +395,18 @@ TYPED_TEST(SlowLsDyna, KeepsNoSlipAndNoWorkOfANodeThatIsHeld) {
 TYPED_TEST(SlowLsDyna, TakesWorkAndPeakPressureInTheSolversUnits) {
   const Table table = test::history_table();
   const TableFunction function(table);
-  for (const std::string units : {"mm-t-s", "m-kg-s"}) {
-    const bool si = units == "m-kg-s";
+  for (const test::SolverScale& scale : test::every_system()) {
     auto c = this->call(2);
-    c.normal = {TypeParam(si ? -700e6 : -700), TypeParam(si ? -1200e6 : -1200)};
+    c.normal = {TypeParam(-700 * scale.stress), TypeParam(-1200 * scale.stress)};
     c.slip[1] = {0, 0};
     for (std::size_t i = 0; i < 2; ++i) {
-      c.history[4 * i + 1] = TypeParam(si ? 200e3 : 200);
-      c.history[4 * i + 2] = TypeParam(si ? 900e6 : 900);
+      c.history[4 * i + 1] = TypeParam(200 * scale.stress * scale.length);
+      c.history[4 * i + 2] = TypeParam(900 * scale.stress);
     }
-    this->run(c, this->library("histories " + units, table, {}, units));
+    this->run(c, this->library("histories " + scale.name, table, {}, scale.units));
     const double below[] = {700, 200, 900}, above[] = {1200, 200, 1200};
-    EXPECT_CLOSE(c.force[0][0], function(below) * (si ? 1e6 : 1), TestFixture::bound);
-    EXPECT_CLOSE(c.force[0][1], function(above) * (si ? 1e6 : 1), TestFixture::bound);
+    EXPECT_CLOSE(c.force[0][0], function(below) * scale.stress, TestFixture::bound);
+    EXPECT_CLOSE(c.force[0][1], function(above) * scale.stress, TestFixture::bound);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "support/calls/ufric.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
+#include "support/solver_scale.h"
 
 namespace frictab::marc_test {
 
@@ -32,7 +33,7 @@ const codegen::Exporter& marc() {
 }
 
 ExportRequest request(const Table& table, const Options& options = {},
-                      const std::string& units = "mm-t-s") {
+                      const codegen::SolverUnits& units = {}) {
   ExportRequest out{table, units, {}};
   out.options = options;
   return out;
@@ -44,10 +45,10 @@ protected:
     return Library::address(
         test::compiled(key, marc(), request, "double", test::strict_declared)->handle(), "ufric_");
   }
-  static void* four_axes(const Options& options = {}, const std::string& units = "mm-t-s") {
+  static void* four_axes(const Options& options = {}, const codegen::SolverUnits& units = {}) {
     ExportRequest asked = request(four_axis(), options, units);
     asked.inputs = {{"psi", "constant:2.5"}};
-    std::string key = "four " + units;
+    std::string key = "four " + units.text();
     for (const auto& [name, word] : options)
       key += " " + word;
     return routine(key, asked);
@@ -70,12 +71,12 @@ protected:
 
 TEST_F(SlowMarc, AgreesWithFrictabForEveryKindOfArgumentUnitAndChoice) {
   for (const test::NamedTable& sample : test::sample_tables())
-    for (const std::string units : {"mm-t-s", "m-kg-s"})
+    for (const test::SolverScale& scale : test::every_system())
       for (const std::string friction : {"coulomb", "shear"}) {
         if (!test::has_every_kind_of_argument(sample)) continue;
-        SCOPED_TRACE(sample.name + " " + units + " " + friction);
-        const ExportRequest asked =
-            request(sample.table, {{"marc_friction", friction}, {"marc_dimension", "3d"}}, units);
+        SCOPED_TRACE(sample.name + " " + scale.name + " " + friction);
+        const ExportRequest asked = request(
+            sample.table, {{"marc_friction", friction}, {"marc_dimension", "3d"}}, scale.units);
         EXPECT_LE(test::worst_driven(marc(), asked, "double", test::strict_declared), bound);
       }
 }

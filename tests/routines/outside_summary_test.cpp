@@ -53,11 +53,11 @@ class OutsideSummary : public test::NeedsGfortran {
 protected:
   // What the program writes that is linked with the routine.
   static std::string output(const std::string& target, const std::string& beyond,
-                            const std::string& low) {
+                            const std::string& low, const codegen::SolverUnits& units = {}) {
     const codegen::Exporter& exporter = *find_exporter(target);
     const table::Table table = test::four_axis_table();
     const codegen::ExportRequest request{
-        table, "mm-t-s", test::sample_inputs(exporter), {{"outside_summary", "at_exit"}}};
+        table, units, test::sample_inputs(exporter), {{"outside_summary", "at_exit"}}};
     const TemporaryDirectory work;
     codegen::BuildVariant variant = exporter.variants(request).front();
     // The variant's library becomes a program, by a file beside it.
@@ -82,6 +82,12 @@ TEST_F(OutsideSummary, CountsOverThreadsAndNamesTheStateFurthestBeyondAnEnd) {
               " of a range 500 .. 2750.\n")
         << target;
   }
+}
+
+TEST_F(OutsideSummary, IsInTheUnitsOfTheAnalysis) {
+  EXPECT_THAT(
+      output("abaqus_vfric", "750.0D0", "100.0D0", "mm-ms-kg-GPa"),
+      testing::HasSubstr("Furthest: sigma_n_GPa = 0.100000 GPa,\n of a range 0.5 .. 2.75."));
 }
 
 TEST_F(OutsideSummary, IsNotWrittenWhereNothingWasOutside) {

@@ -23,7 +23,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string source(const Table& table, const std::map<std::string, std::string>& inputs = {},
-                   const std::string& units = "mm-t-s") {
+                   const codegen::SolverUnits& units = {}) {
   return codegen::find_exporter("qform_lua")
       ->generate({table, units, inputs})
       .at("frictab_qform.lua");

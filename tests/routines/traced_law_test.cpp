@@ -139,7 +139,7 @@ TEST(TracedLaw, ModelFileOfAnUnknownShearYieldIsRefused) {
 }
 
 std::vector<DriftRecord> verified(const Case& c, const codegen::Exporter& exporter,
-                                  const Table& form, const std::string& units = "mm-t-s",
+                                  const Table& form, const codegen::SolverUnits& units = {},
                                   const std::map<std::string, std::string>& inputs = {}) {
   const codegen::ExportRequest request{form, units, inputs};
   return verify::verify({AssembledLaw(c.model), c.table, "table", &c.data, 0.5, 2000},
@@ -172,18 +172,19 @@ void LongTracedLawOf::expect_verified(const Case& c) {
   // Arguments are divided by units in the same lines for either form: one of each, and one alone
   // where the core is another target's. (A solver's own table is made from the law itself, by units
   // of its own text.)
-  std::vector<std::pair<const Table*, std::string>> forms = {{&c.table, "mm-t-s"},
-                                                             {&direct, "m-kg-s"}};
+  std::vector<std::pair<const Table*, codegen::SolverUnits>> forms = {{&c.table, "mm-t-s"},
+                                                                      {&direct, "m-kg-s"}};
   if (!exporter.is_routine()) forms[0].first = &direct;
   if (exporter.is_routine() && !test::has_a_core_of_its_own(exporter))
     forms = {{&c.table, "m-kg-s"}};
+  forms.emplace_back(forms[0].first, codegen::SolverUnits("mm-ms-kg-GPa", "K"));
   for (const auto& [form, units] : forms) {
     Table with_tolerance = *form;
     with_tolerance.record.tolerance_MPa = 0.5;
     for (const DriftRecord& record : verified(c, exporter, with_tolerance, units, held)) {
       if (!record.ran) GTEST_SKIP() << record.why_not;
-      EXPECT_TRUE(record.passed) << record.subject << ' ' << units << ' ' << record.worst_case_MPa
-                                 << ' ' << record.rows.max_abs;
+      EXPECT_TRUE(record.passed) << record.subject << ' ' << units.text() << ' '
+                                 << record.worst_case_MPa << ' ' << record.rows.max_abs;
       EXPECT_LT(record.n_rows_not_representable, record.n_rows) << record.subject;
     }
   }

@@ -287,7 +287,7 @@ std::map<std::string, std::string> sample_inputs(const codegen::Exporter& export
 }
 
 SampleRequest::SampleRequest(const codegen::Exporter& exporter, const Table& table,
-                             const std::string& units)
+                             const codegen::SolverUnits& units)
     : table_(table), units_(units), inputs_(sample_inputs(exporter)) {
   if (exporter.is_routine()) return;
   table_.record.tolerance_MPa = 40;

@@ -56,12 +56,12 @@ std::map<std::string, std::string> sample_inputs(const codegen::Exporter& export
 class SampleRequest {
 public:
   SampleRequest(const codegen::Exporter& exporter, const table::Table& table,
-                const std::string& units);
+                const codegen::SolverUnits& units);
   codegen::ExportRequest get() const { return {table_, units_, inputs_}; }
 
 private:
   table::Table table_;
-  std::string units_;
+  codegen::SolverUnits units_;
   std::map<std::string, std::string> inputs_;
 };
 

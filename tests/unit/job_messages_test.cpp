@@ -196,9 +196,10 @@ TEST(JobMessages, SayTheAllowedWords) {
   EXPECT_EQ(
       with("[export]\n"
            "units = \"SI\""),
-      "job.toml:4:9: error: export.units must be \"mm-t-s\" or \"m-kg-s\", not the text \"SI\"\n"
-      "  hint: unit system of the simulation: mm-t-s (MPa, mm/s) or m-kg-s (Pa, m/s); default "
-      "\"mm-t-s\"");
+      "job.toml:4:9: error: export.units must be \"mm-t-s\", \"m-kg-s\", \"mm-ms-kg-GPa\" or "
+      "\"mm-ms-g-MPa\", not the text \"SI\"\n"
+      "  hint: unit system of the simulation: mm-t-s (MPa, mm/s), m-kg-s (Pa, m/s), mm-ms-kg-GPa "
+      "(GPa, mm/ms) or mm-ms-g-MPa (MPa, mm/ms); default \"mm-t-s\"");
   EXPECT_EQ(with("[table.axes.psi]\n"
                  "spacing = \"logg\""),
             "job.toml:4:11: error: table.axes.psi.spacing must be \"linear\" or \"log\", not the "

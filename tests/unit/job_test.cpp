@@ -167,6 +167,7 @@ model = ["shaw", "coulomb"]
 [export]
 targets = "all"
 units = "m-kg-s"
+temperature = "K"
 [export.inputs]
 psi = "constant:1.5"
 T_contact_C = "field:2"
@@ -203,6 +204,7 @@ repeatability = 0.03
   EXPECT_THAT(job.table.model, ElementsAre("shaw", "coulomb"));
   EXPECT_THAT(job.exports.targets, ElementsAre("all"));
   EXPECT_EQ(job.exports.units, "m-kg-s");
+  EXPECT_EQ(job.exports.solver_units().text(), "m-kg-s, K");
   EXPECT_EQ(job.exports.inputs.at("T_contact_C"), "field:2");
   EXPECT_EQ(job.verify.samples, 1000u);
   EXPECT_EQ(job.trace.repeatability, 0.03);

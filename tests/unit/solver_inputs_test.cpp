@@ -42,7 +42,7 @@ const codegen::SolverGives solver = {
 const Table table = test::four_axis_table(); // pressure, psi, speed, temperature; flow stress
 
 std::vector<codegen::SolverInput> inputs(const std::map<std::string, std::string>& job,
-                                         const std::string& units = "mm-t-s") {
+                                         const codegen::SolverUnits& units = {}) {
   return codegen::solver_inputs({table, units, job}, solver);
 }
 

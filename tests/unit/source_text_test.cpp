@@ -9,12 +9,14 @@
 #include "codegen/fixed_form.h"
 #include "codegen/number_text.h"
 #include "core/random.h"
+#include "support/generated.h"
 #include "support/sample_tables.h"
 
 namespace frictab::source_text_test {
 
 using codegen::fortran_number;
 using codegen::solver_unit;
+using codegen::SolverUnit;
 using codegen::typical_value;
 
 namespace {
@@ -94,6 +96,68 @@ TEST(SolverUnits, ConvertByOneOperation) {
   }
   EXPECT_TRUE(solver_unit("degC", "m-kg-s").same());
   EXPECT_TRUE(solver_unit("MPa", "mm-t-s").same());
+}
+
+TEST(SolverUnits, OfCompoundQuantitiesFollowFromTheSystem) {
+  const auto in_ms = [](const char* unit) { return solver_unit(unit, "mm-ms-kg-GPa"); };
+  for (const auto& [unit, name, canonical] : {std::tuple{"MPa", "GPa", 1e3},
+                                              {"mm/s", "mm/ms", 1e3},
+                                              {"mm", "mm", 1.0},
+                                              {"s", "ms", 1e-3},
+                                              {"MPa mm/s", "GPa mm/ms", 1e6},
+                                              {"MPa s", "GPa ms", 1.0},
+                                              {"N", "kN", 1e3},
+                                              {"N/mm^2", "kN/mm^2", 1e3},
+                                              {"mm/s^2", "mm/ms^2", 1e6},
+                                              {"degC/s", "degC/ms", 1e3}}) {
+    EXPECT_EQ(in_ms(unit).name, name);
+    EXPECT_EQ(in_ms(unit).to_canonical(1), canonical) << unit;
+    EXPECT_EQ(in_ms(unit).from_canonical(canonical), 1) << unit;
+  }
+  EXPECT_EQ(solver_unit("mm^3", "m-kg-s").from_canonical(1e9), 1);
+  EXPECT_EQ(solver_unit("MPa", "mm-ms-g-MPa").name, "MPa");
+  EXPECT_EQ(solver_unit("mm/s", "mm-ms-g-MPa").name, "mm/ms");
+  for (const char* other : {"%", "um", "g/m^2", "mm^x", "", "um/s"}) {
+    EXPECT_TRUE(in_ms(other).same()) << other;
+    EXPECT_EQ(in_ms(other).name, other);
+  }
+}
+
+TEST(SolverUnits, TakeKelvinInEverySystemAndKeepDifferences) {
+  for (const std::string& system : codegen::unit_system_names()) {
+    const codegen::SolverUnits units(system, "K");
+    EXPECT_EQ(solver_unit("degC", units).from_canonical(20), 293.15);
+    EXPECT_EQ(solver_unit("degC", units).to_canonical(293.15), 20);
+    EXPECT_EQ(solver_unit("degC", units).name, "K");
+    EXPECT_TRUE(solver_unit("K", units).same());
+    EXPECT_EQ(solver_unit("degC s", units).zero, 0);
+    EXPECT_EQ(solver_unit("degC s", units).name.front(), 'K');
+  }
+  using codegen::Notation;
+  const SolverUnit kelvin = solver_unit("degC", codegen::SolverUnits("mm-t-s", "K"));
+  EXPECT_EQ(to_canonical_text(kelvin, Notation::fortran), "-273.15D0");
+  EXPECT_EQ(from_canonical_text(kelvin, Notation::c), " + 273.15");
+  EXPECT_EQ(from_canonical_text(per(solver_unit("MPa", "m-kg-s"), kelvin), Notation::c),
+            " * 1000000.0");
+}
+
+TEST(SolverUnits, ThatAreUnknownAreNamedWithTheKnown) {
+  EXPECT_EQ(test::refusal([] { codegen::SolverUnits("SI"); }),
+            "error: unknown unit system 'SI' in export.units\n"
+            "  hint: known: mm-t-s (MPa, mm/s), m-kg-s (Pa, m/s), mm-ms-kg-GPa (GPa, mm/ms) or "
+            "mm-ms-g-MPa (MPa, mm/ms)");
+  EXPECT_EQ(test::refusal([] { codegen::SolverUnits("m-kg-s", "F"); }),
+            "error: unknown unit 'F' in export.temperature\n"
+            "  hint: known: degC, K");
+}
+
+TEST(EntryArguments, EndInTheSolversUnit) {
+  const table::Table table = test::four_axis_table();
+  std::vector<std::string> names;
+  for (const auto& argument : entry_arguments(table, codegen::SolverUnits("mm-ms-kg-GPa", "K")))
+    names.push_back(argument.argument);
+  EXPECT_EQ(names, (std::vector<std::string>{"sigma_n_GPa", "psi", "v_rel_mm_ms", "T_contact_K",
+                                             "s_mm", "sigma_f_GPa"}));
 }
 
 TEST(EntryArguments, TypicalValueIsTheMiddleOfTheRange) {

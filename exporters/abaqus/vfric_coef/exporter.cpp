@@ -81,7 +81,7 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
                  {"reads_once", fortran::reads(inputs, gives(request), "once")},
                  {"reads_point", fortran::reads(inputs, gives(request), "point", 2)},
                  {"reads", fortran::reads(inputs, gives(request))},
-                 {"stress_convert", stress.same() ? "" : "/" + fortran_number(stress.over)},
+                 {"stress_convert", to_canonical_text(stress, Notation::fortran)},
                  {"least", fortran_number(fortran::least_pressure)},
                  {"most", fortran::most_text()},
                  {"core", core.text}};

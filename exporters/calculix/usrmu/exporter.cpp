@@ -53,7 +53,8 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
   const bool refuses = values.flags.at("refuses");
   values.text["least"] = fmt::format("{}", fortran::least_pressure);
   values.text["most"] = fmt::format("{}", fortran::largest_coefficient);
-  values.text["stress_convert"] = fortran_conversion(solver_unit("MPa", request.units));
+  values.text["stress_convert"] =
+      to_canonical_text(solver_unit("MPa", request.units), Notation::fortran);
   values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
   values.text["constants"] = fortran::constants_data(inputs);
   values.text["coefficient"] = fortran::coefficient(request.table, Coefficient::coulomb);

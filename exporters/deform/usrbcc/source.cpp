@@ -46,13 +46,14 @@ void add_further(TemplateValues& values, const ExportRequest& request,
 }
 
 // Returns the temperature for FTUPD as the job defines it; by default the node's own.
-std::string node_temperature(const std::vector<SolverInput>& inputs) {
+std::string node_temperature(const std::vector<SolverInput>& inputs, const SolverUnits& units) {
+  std::string read = "tempn";
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (inputs[i].argument.name != "T_contact_C") continue;
     if (inputs[i].source == Source::constant) return fmt::format("cst({})", i + 1);
-    if (inputs[i].source == Source::field) return fmt::format("usrn1({})", inputs[i].field);
+    if (inputs[i].source == Source::field) read = fmt::format("usrn1({})", inputs[i].field);
   }
-  return "tempn";
+  return read + to_canonical_text(solver_unit("degC", units), Notation::fortran);
 }
 
 std::string result_text(Coefficient kind, const std::string& stress) {
@@ -156,7 +157,7 @@ std::string usrbcc_source(const ExportRequest& request, const std::vector<Solver
   const bool refuses = values.flags["refuses"];
   values.lists["result"] = fortran::comments({result_text(kind, stress.name)});
   values.text["result_name"] = result_name(kind);
-  values.text["stress_convert"] = stress.same() ? "" : "/" + fortran_number(stress.over);
+  values.text["stress_convert"] = to_canonical_text(stress, Notation::fortran);
   values.text["result_convert"] =
       kind == Coefficient::stress ? values.text.at("to_solver") : std::string();
   const auto flow = std::find_if(inputs.begin(), inputs.end(), [](const SolverInput& input) {
@@ -193,7 +194,7 @@ std::string usrupd_source(const ExportRequest& request, const std::vector<Solver
                  {"stress", solver_unit("MPa", request.units).name}};
   add_further(all, request, inputs);
   values.text["n_histories"] = all.text.at("n_histories");
-  values.text["node_temperature"] = node_temperature(inputs);
+  values.text["node_temperature"] = node_temperature(inputs, request.units);
   values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
   values.flags = all.flags;
   values.lists = all.lists;

@@ -47,7 +47,7 @@ std::string keywords(const ExportRequest& request, const std::vector<SolverInput
   return deck;
 }
 
-json history(std::string_view units, const std::vector<SolverInput>& inputs) {
+json history(const SolverUnits& units, const std::vector<SolverInput>& inputs) {
   const std::string length = solver_unit("mm", units).name, stress = solver_unit("MPa", units).name;
   json out = json::array();
   const auto add = [&](const std::string& name, const std::string& unit,

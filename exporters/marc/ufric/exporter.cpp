@@ -62,9 +62,9 @@ const char* const target_notes =
     "would be 0/0. Marc keeps no history for this routine, so sliding distance, surface expansion "
     "and all else that is not among its arguments are constants: [export.inputs] says "
     "constant:VALUE, else the middle of the range the table was made for. They lie in COMMON "
-    "/FTCONS/ and can be read and changed at one place. Temperatures have to be degC. Beyond a "
-    "side with outside = error the routine writes state and value to the standard output and ends "
-    "the analysis through QUIT(1234).";
+    "/FTCONS/ and can be read and changed at one place. Temperatures are in export.temperature. "
+    "Beyond a side with outside = error the routine writes state and value to the standard output "
+    "and ends the analysis through QUIT(1234).";
 
 class Ufric final : public RoutineTarget {
 public:

@@ -108,7 +108,7 @@ std::string ufric_source(const ExportRequest& request, const std::vector<SolverI
   values.text["result_name"] = coulomb ? "friction coefficient mu" : "shear factor m";
   values.text["arguments"] = fortran::without_last_break(arguments(request));
   values.text["n_slip"] = std::to_string(chosen.slip_components);
-  values.text["stress_convert"] = stress.same() ? "" : "/" + fortran_number(stress.over);
+  values.text["stress_convert"] = to_canonical_text(stress, Notation::fortran);
   values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
   values.text["constants"] = fortran::constants_data(inputs);
   values.text["coefficient"] = fortran::coefficient(table, chosen.coefficient);

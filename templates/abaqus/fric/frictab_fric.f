@@ -219,7 +219,7 @@ C     The limit and its derivatives
       hv = zero
       ht = zero
       call ftlive(s0(8), p, speed, @{temperature_now}, dy, dpeak, hv, ht)
-      flimv = flimv + hv@{to_solver}@{to_mm}
+      flimv = flimv + hv@{to_solver}@{to_mm_s}
 @if knows_temperature
       flimt = flimt + ht@{to_solver}
 @end

@@ -150,7 +150,7 @@ C           A point that does not press cannot stop the analysis.
           hv = zero
           ht = zero
           call ftlive(s0(6), p, rate, @{temperature_now}, dy, dpeak, hv, ht)
-          dmuv = dmuv + hv/peval@{to_mm}
+          dmuv = dmuv + hv/peval@{to_mm_s}
 @if knows_temperature
           if (nTemp .gt. 0) dmut = dmut + ht/peval
 @end
