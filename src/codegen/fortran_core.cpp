@@ -190,7 +190,7 @@ Core core(const ExportRequest& request, const CoreOptions& options) {
   values.text["interpolation"] = looked_up.text;
   values.text["values_file"] = file ? values_unit(request, numbers, options) : "";
   std::string& stops = values.text["stop"];
-  if (external && !options.quit.empty() && refuses(table)) stops = stop(table) + "\n";
+  if (external && !options.quit.empty() && refuses(table)) stops = stop(request) + "\n";
   if (!stops.empty() || file || options.quits) stops += options.quit;
   values.flags["ends"] = !stops.empty();
   out.data = join(std::vector<std::string>{looked_up.data, weights}, "\n");

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "codegen/entry_arguments.h"
 #include "codegen/fortran_parts.h"
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
@@ -29,13 +30,22 @@ std::string say() {
          "C";
 }
 
-std::string stop(const table::Table& table) {
+std::string stop(const ExportRequest& request) {
+  const table::Table& table = request.table;
+  const std::vector<InputArgument> arguments = entry_arguments(table, request.units);
   TemplateValues values;
   Lines refusing = sides(table, table::Outside::error);
   std::size_t side = 0;
   const auto say = [&](const table::AxisEnds& axis, const char* where, double end) {
-    refusing[side++].text["name"] =
-        fmt::format("{} {} {:.6g}", in_apostrophes(axis.name), where, end);
+    const InputArgument& argument =
+        *std::find_if(arguments.begin(), arguments.end(),
+                      [&](const InputArgument& one) { return one.name == axis.name; });
+    const SolverUnit& unit = argument.solver;
+    auto& text = refusing[side++].text;
+    text["to_solver"] = from_canonical_text(unit, Notation::fortran);
+    text["name"] =
+        fmt::format("{} {} {:.6g}", in_apostrophes(unit.same() ? axis.name : argument.argument),
+                    where, unit.from_canonical(end));
   };
   for (const table::AxisEnds& axis : table::axis_ends(table)) {
     if (axis.below == table::Outside::error) say(axis, "below", axis.low);

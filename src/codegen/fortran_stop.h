@@ -8,8 +8,8 @@
 
 namespace frictab::codegen::fortran {
 
-// Returns the function ftstop of Core.
-std::string stop(const table::Table& table);
+// Returns the function ftstop of Core. Its message is in the units of the analysis.
+std::string stop(const ExportRequest& request);
 
 // Returns ftquit(text) of Core for a solver without a message routine: writes the text to the
 // standard output and executes `statement` ("call quit(1234)").

@@ -19,7 +19,7 @@ C     end by rounding.
 @for side in refusing
       if (x(@{side.index}) @{side.relation} @{side.limit}) then
         ftstop = .true.
-        bad = x(@{side.index})
+        bad = x(@{side.index})@{side.to_solver}
         name =
      &  '@{side.name}'
       end if

@@ -84,6 +84,14 @@ TEST(GeneratedText, NamesTheUnitsOfTheAnalysis) {
     }
 }
 
+TEST(GeneratedText, StopsWithTheStateInTheUnitsOfTheAnalysis) {
+  const codegen::Exporter& marc = *codegen::find_exporter("marc_ufric");
+  const std::string text =
+      marc.generate({test::sides_table(), "mm-ms-kg-GPa"}).at("frictab_ufric.f");
+  EXPECT_THAT(text, HasSubstr("        bad = x(2)/1000.0D0\n"));
+  EXPECT_THAT(text, HasSubstr("'v_rel_mm_ms above 0.5'"));
+}
+
 TEST(SlowGeneratedText, KeepsToItsColumns) {
   for (const test::NamedTable& sample : test::sample_tables())
     for (const codegen::Exporter& exporter : codegen::all_exporters())
