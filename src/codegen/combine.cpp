@@ -163,8 +163,36 @@ bool holds(const std::string& source, const std::string& entry) {
   return source.find("      subroutine " + entry) != std::string::npos;
 }
 
+constexpr std::size_t last_column = 72;
+
+// Returns the place after the last blank, comma or bracket that fits and is not in quotes.
+std::size_t place_of_cut(const std::string& line) {
+  bool quoted = false;
+  std::size_t last = 0;
+  const std::size_t first = line.find_first_not_of(" &");
+  for (std::size_t at = 0; at < last_column; ++at) {
+    if (line[at] == '\'' && !is_comment(line)) quoted = !quoted;
+    const bool between = line[at] == ' ' || line[at] == ',' || line[at] == '(';
+    if (!quoted && at > first + 1 && between) last = at + 1;
+  }
+  if (last == 0) throw std::logic_error("cannot be cut at column 72: " + line);
+  return last;
+}
+
+// Continues a line that ends beyond column 72 in further lines.
+std::string within_columns(std::string line) {
+  std::string out;
+  const char* const begin = is_comment(line) ? "C       " : "     &  ";
+  while (line.size() > last_column) {
+    const std::size_t at = place_of_cut(line);
+    out += line.substr(0, line.find_last_not_of(' ', at - 1) + 1) + "\n";
+    line = begin + line.substr(at);
+  }
+  return out + line;
+}
+
 // Returns one law's source as one of several: its linked names and its entry get another stem, in
-// statements and comments. Texts in quotes are unchanged.
+// statements and comments. Texts in quotes are unchanged. No entry: it keeps its name.
 std::string with_stem(const std::string& source, const std::set<std::string>& names,
                       const std::string& entry, const std::string& stem) {
   const std::vector<std::string> lines = lines_of(source);
@@ -175,12 +203,13 @@ std::string with_stem(const std::string& source, const std::set<std::string>& na
       throw std::logic_error("two meanings of " + renamed(name, names, stem));
   std::string out;
   for (const std::string& line : lines) {
-    const bool statement = !is_comment(line), heads = holds(line, entry);
-    const std::string text = with_words(line, [&](const std::string& word) {
-      return heads && word == entry ? stem + entry : renamed(word, names, stem);
-    });
-    if (statement && text.size() > 72) throw std::logic_error("beyond column 72: " + text);
-    out += text + "\n";
+    const bool heads = !entry.empty() && holds(line, entry);
+    out += within_columns(with_words(line,
+                                     [&](const std::string& word) {
+                                       return heads && word == entry ? stem + entry
+                                                                     : renamed(word, names, stem);
+                                     })) +
+           "\n";
   }
   return out;
 }
@@ -362,11 +391,31 @@ std::vector<ExportRequest> named_laws(std::vector<ExportRequest> laws,
 }
 
 std::string stem(const ExportRequest& request) {
+  if (has_prefix(request)) return lower_case(prefix(request)) + "_";
   return request.law_stem.empty() ? "ft" : request.law_stem;
 }
 
 std::string entry_stem(const ExportRequest& request) {
-  return request.law_stem.empty() ? "ft" : request.law_stem.substr(0, 1) + "0";
+  return request.law_stem.empty() ? stem(request) : request.law_stem.substr(0, 1) + "0";
+}
+
+SourceBundle under_prefix(const SourceBundle& bundle, const ExportRequest& request) {
+  if (!has_prefix(request)) return bundle;
+  const std::string own = stem(request);
+  const std::set<std::string> names = linked_names(bundle);
+  SourceBundle out = with_prefix(bundle, request);
+  for (auto& [path, text] : out) {
+    if (path.ends_with(".f")) {
+      for (const std::string& word : words_of_statements(lines_of(text)))
+        if (word.starts_with(own) && names.count("ft" + word.substr(own.size())))
+          throw InputError(at_job_key("export.options", "prefix"),
+                           fmt::format("{} is already a name in {}", word, path), "another prefix");
+      text = with_stem(text, names, "", own);
+    } else if (path == "recipe.json") {
+      text = recipe_with_stem(text, names, own);
+    }
+  }
+  return out;
 }
 
 SourceBundle combine(const Combination& c, const std::vector<ExportRequest>& laws,

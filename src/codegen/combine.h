@@ -52,7 +52,8 @@ template <class Make> auto faults_of_law(const std::string& whose, const Make& m
   }
 }
 
-// First letters of the names of program units: "ft", or the stem of one of several laws.
+// First letters of the names of program units: "ft", "die_oil_" under a prefix, or the stem of one
+// of several laws.
 std::string stem(const ExportRequest& request);
 // First letters for the units that the entry itself calls: "ft", or "f0" if there are several laws.
 std::string entry_stem(const ExportRequest& request);
@@ -71,6 +72,12 @@ struct Combination {
 // are kept once for all laws; throws InputError if such a file depends on one of the laws.
 SourceBundle combine(const Combination& combination, const std::vector<ExportRequest>& laws,
                      const std::vector<SourceBundle>& bundles);
+
+// Returns the bundle of one law with its linked names, those of program units and COMMON blocks,
+// under the request's prefix; unchanged if it has none. The entry, and what the solver's code calls
+// by name
+// ("ftupd"), keep their names. Throws InputError if a name has another meaning in the source.
+SourceBundle under_prefix(const SourceBundle& bundle, const ExportRequest& request);
 
 inline constexpr const char* combined_schema = "frictab/combined-recipe/1";
 

@@ -50,8 +50,19 @@ ExportOption prefix_option() {
   return {prefix_name,
           {usual_prefix},
           "what names start with, so that the sources of several laws go into one program: "
-          "\"die_oil\" gives die_oil_tau_R, die_oil_tau_R.h, the module die_oil_law",
+          "\"die_oil\" gives die_oil_tau_R, die_oil_tau_R.h, the module die_oil_law, and in "
+          "routines of solvers die_oil_tau for fttau. The solver's own entry (vfric) keeps its "
+          "name: two laws for the same entry need export --combine",
           prefix_fault};
+}
+
+bool has_prefix(const ExportRequest& request) {
+  return request.law_stem.empty() && prefix(request) != usual_prefix;
+}
+
+ExportRequest without_prefix(ExportRequest request) {
+  request.options.erase(prefix_name);
+  return request;
 }
 
 std::string prefix(const ExportRequest& request) {

@@ -1,5 +1,6 @@
 // [export.options] prefix: allows several laws in one program. Names that would meet in a linker or
-// a directory start with the prefix: "die_oil_tau_R" instead of "frictab_tau_R".
+// a directory start with the prefix: "die_oil_tau_R" instead of "frictab_tau_R". Program units of
+// solver routines get it as their stem (codegen/combine.h).
 #pragma once
 
 #include <string>
@@ -11,6 +12,12 @@ namespace frictab::codegen {
 
 // Option of targets whose sources are linked into programs of all kinds.
 ExportOption prefix_option();
+
+// True if the job gives a prefix; a law of a user file with several laws has none.
+bool has_prefix(const ExportRequest& request);
+
+// Returns the same request without the option.
+ExportRequest without_prefix(ExportRequest request);
 
 // Returns the request's prefix; "frictab" by default; "frictab_f2" for one of several laws of a
 // user file.

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "codegen/combine.h"
+#include "codegen/prefix.h"
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
 #include "core/error.h"
@@ -62,6 +63,7 @@ json recipe_head(const Exporter& exporter, const ExportRequest& request, const s
               {"entry", entry},
               {"files", names},
               {"signature_source", exporter.signature_source}};
+  if (has_prefix(request)) out["prefix"] = prefix(request);
   if (const auto values = files.find(values_file_name); values != files.end())
     out["values_file"] = values_file_json(values->second);
   return out;

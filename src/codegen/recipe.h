@@ -12,7 +12,7 @@
 namespace frictab::codegen {
 
 // Returns schema, target, model, form (table or direct), data_origin, units, entry, files,
-// signature_source; values_file, if the files include one.
+// signature_source; prefix, if the request has one; values_file, if the files include one.
 nlohmann::ordered_json recipe_head(const Exporter& exporter, const ExportRequest& request,
                                    const std::string& entry, const SourceBundle& files);
 

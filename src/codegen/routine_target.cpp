@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "codegen/flow_curve.h"
+#include "codegen/prefix.h"
 #include "codegen/recipe.h"
 #include "codegen/values_file.h"
 #include "io/json.h"
@@ -12,6 +13,7 @@ namespace frictab::codegen {
 
 RoutineTarget::RoutineTarget(TargetDescription description, std::string entry, LawSelector selector)
     : Exporter(std::move(description)), entry_(std::move(entry)), selector_(std::move(selector)) {
+  options.push_back(prefix_option());
   several_laws = combines() ? selector_.argument + ", " + selector_.meaning : selector_.meaning;
 }
 
@@ -41,7 +43,7 @@ SourceBundle RoutineTarget::generate(const ExportRequest& as_given) const {
   add_recipe(recipe, request, inputs);
   recipe["table"] = recipe_table(request);
   files["recipe.json"] = io::json_text(recipe);
-  return files;
+  return under_prefix(files, request);
 }
 
 std::vector<BuildVariant> RoutineTarget::variants(const ExportRequest& as_given) const {
@@ -88,10 +90,13 @@ bool RoutineTarget::gives_mu(const ExportRequest& request) const {
 
 CombinedBundle RoutineTarget::combine(const std::vector<ExportRequest>& requests,
                                       const std::vector<std::string>& names) const {
-  CombinedBundle out{{}, named_laws(requests, names, selector_)};
+  std::vector<ExportRequest> alone; // stems of their own stand for the prefix
+  for (const ExportRequest& request : requests)
+    alone.push_back(without_prefix(request));
+  CombinedBundle out{{}, named_laws(alone, names, selector_)};
   std::vector<SourceBundle> bundles;
-  for (std::size_t i = 0; i < requests.size(); ++i)
-    bundles.push_back(faults_of_law(names[i], [&] { return generate(requests[i]); }));
+  for (std::size_t i = 0; i < alone.size(); ++i)
+    bundles.push_back(faults_of_law(names[i], [&] { return generate(alone[i]); }));
   out.files = codegen::combine({*this, entry_, arguments(requests.front()), quit(), selector_},
                                out.laws, bundles);
   return out;

@@ -2,15 +2,19 @@
 // tells contacts apart by name.
 #include <cmath>
 #include <limits>
+#include <regex>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "codegen/compile.h"
 #include "codegen/values_file.h"
 #include "core/error.h"
 #include "support/calls/vfriction.h"
 #include "support/error_routine.h"
 #include "support/generated.h"
+#include "support/json.h"
 #include "support/sample_tables.h"
 
 namespace frictab::combined_test {
@@ -79,6 +83,130 @@ TEST(Prefix, StandsInEveryNameOfTheBundleAndItsRecipe) {
       EXPECT_THAT(text, testing::Not(testing::ContainsRegex("frictab_[^k]|FRICTAB_TAU"))) << path;
       EXPECT_THAT(text, HasSubstr("die_oil_tau_R")) << path;
     }
+}
+
+// ---- prefixes of solvers' routines ----
+
+// What a user may have in the same library; neither is meant for a law.
+const char* const routines_of_a_user = "      double precision function ftmax(a, b)\n"
+                                       "      double precision a, b\n"
+                                       "      ftmax = -a - b\n"
+                                       "      end\n"
+                                       "      double precision function fttau(x)\n"
+                                       "      double precision x\n"
+                                       "      fttau = -x\n"
+                                       "      end\n"
+                                       "      subroutine ftpnt\n"
+                                       "      common /ftcons/ c\n"
+                                       "      c = 1.0\n"
+                                       "      end\n";
+
+ExportRequest under(const codegen::Exporter& exporter, const Table& table,
+                    const std::string& prefix) {
+  return {table, "mm-t-s", test::sample_inputs(exporter), {{"prefix", prefix}}};
+}
+
+// What the first routine answers in one library with the second and a user's routines.
+std::vector<double> answers_beside(const codegen::Exporter& first, const ExportRequest& request,
+                                   const codegen::Exporter& second, const ExportRequest& other,
+                                   const test::States& states) {
+  codegen::BuildVariant variant = first.variants(request)[0];
+  // No second definition of any name, not even the stand-in of the bundle's own.
+  for (const char* word : {"-Wl,-z,muldefs", "@{dir}/ftquit.f"})
+    std::erase(variant.command, word);
+  variant.extra["of_a_user.f"] = routines_of_a_user;
+  variant.command.push_back("@{dir}/of_a_user.f");
+  for (const auto& [path, text] : second.generate(other)) {
+    if (!path.ends_with(".f")) continue;
+    variant.extra[path] = text;
+    variant.command.push_back("@{dir}/" + path);
+  }
+  const codegen::SourceBundle stand_ins = second.variants(other)[0].extra;
+  for (const auto& [path, text] : stand_ins) {
+    if (path == "driver.f" || path == "ftquit.f") continue;
+    if (variant.extra.emplace(path, text).second && path.ends_with(".f"))
+      variant.command.push_back("@{dir}/" + path);
+  }
+  const TemporaryDirectory work;
+  const Library library(codegen::compile_library(first.generate(request), variant, work.path()));
+  std::vector<double> tau(states.rows(), -1);
+  first.drive({library.handle(), work.path(), variant}, request, tau.size(), states.columns(), tau);
+  return tau;
+}
+
+std::vector<double> answers_alone(const codegen::Exporter& exporter, const Table& table,
+                                  const test::States& states) {
+  const ExportRequest request{table, "mm-t-s", test::sample_inputs(exporter)};
+  std::vector<double> tau(states.rows(), -1);
+  codegen::CompiledTarget(exporter, request, exporter.generate(request),
+                          exporter.variants(request)[0])
+      .drive(tau.size(), states.columns(), tau);
+  return tau;
+}
+
+class SlowPrefixOfARoutine : public test::NeedsGfortran {};
+
+TEST_F(SlowPrefixOfARoutine, LetsTwoRoutinesAndAUsersOwnIntoOneLibraryWhereEachAnswersAsAlone) {
+  const Table table = test::four_axis_table(), other = test::branching_table();
+  const test::States states(table, 300, 7, 0.1, {{"psi", 2.5}, {"sigma_f_MPa", 480.0}});
+  const std::pair<const char*, const char*> pairs[] = {{"abaqus_vfric", "abaqus_vfric_coef"},
+                                                       {"abaqus_vfriction", "abaqus_vfric"},
+                                                       {"abaqus_fric", "abaqus_fric_coef"},
+                                                       {"marc_ufric", "deform_usrbcc"},
+                                                       {"lsdyna_usrfrc", "calculix_usrmu"}};
+  for (const auto& [one, two] : pairs)
+    for (const auto& [first, second] : {std::pair{one, two}, std::pair{two, one}}) {
+      SCOPED_TRACE(std::string(first) + " with " + second);
+      const codegen::Exporter &a = *codegen::find_exporter(first),
+                              &b = *codegen::find_exporter(second);
+      EXPECT_EQ(answers_beside(a, under(a, table, "Die_oil"), b, under(b, other, "wax2"), states),
+                answers_alone(a, table, states));
+    }
+}
+
+TEST(PrefixOfARoutine, StandsBeforeAllLinkedNamesWithinTheColumnsAndInTheRecipe) {
+  const std::string longest = "a_very_long_name_indeed_";
+  const std::regex linked("^ +([a-z ]*(subroutine|function|block data) +|common */)ft",
+                          std::regex::icase);
+  for (const codegen::Exporter& exporter : codegen::all_exporters()) {
+    if (!exporter.is_routine() || exporter.has_batch()) continue;
+    if (exporter.name == "qform_lua") continue; // loads each law's file alone
+    for (const test::NamedTable& sample : test::sample_tables()) {
+      SCOPED_TRACE(exporter.name + " " + sample.name);
+      ExportRequest request = under(exporter, sample.table, longest);
+      if (exporter.offers("values")) request.options["values"] = "file";
+      const SourceBundle bundle = exporter.generate(request);
+      EXPECT_EQ(test::parse_json(bundle.at("recipe.json")).at("prefix"), longest);
+      for (const auto& [path, text] : bundle) {
+        if (!path.ends_with(".f")) continue;
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+          EXPECT_LE(line.size(), 72u) << line;
+          EXPECT_TRUE(line.find("subroutine ftupd") != line.npos ||
+                      !std::regex_search(line, linked))
+              << line;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(SlowPrefixOfARoutine, OfAnyLengthGivesTheSameAnswersFromAFileOfValues) {
+  const Table table = test::spline_table();
+  const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_fric");
+  ExportRequest request = under(exporter, table, "a_very_long_name_indeed_");
+  request.options["values"] = "file";
+  EXPECT_LE(test::worst_driven(exporter, request, "double", test::no_warnings), 1e-13);
+}
+
+TEST(PrefixOfARoutine, ThatGivesANameOfTheSourceAnotherMeaningIsRefused) {
+  Table table = test::four_axis_table();
+  table.constants["v_tau"] = 1;
+  table.combine = table.combine * expr::Expr::symbol("v_tau");
+  const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_vfric");
+  EXPECT_EQ(test::refusal([&] { exporter.generate(under(exporter, table, "v")); }),
+            "export.options.prefix: error: v_tau is already a name in frictab_vfric.f\n"
+            "  hint: another prefix");
 }
 
 // ---- one user file ----
