@@ -147,6 +147,8 @@ void describe_made_law(Fields& f, Law& law, const models::Conventions& conventio
     describe_table(f, law);
   else if (f.has("kinks", !law.kinks.empty()))
     f.known("kinks", law.kinks);
+  if (f.has("clamped_inputs", !law.clamped_inputs.empty())) // not in files of 0.2
+    f.known("clamped_inputs", law.clamped_inputs);
   if (!own_name) return;
   f.known("levels", law.levels);
   f.each("bounds", law.parameters.size(), [&](Fields& bounds, std::size_t p) {
