@@ -77,8 +77,16 @@ private:
   }
 
   PlannedStage stage_before(const std::string& stage, const std::string& command) const {
-    if (!stage_named(stage).is_there(earlier_, stages_))
-      return {stage, Action::run, "there is none: it is made first", writes(stage)};
+    const bool is_there = stage_named(stage).is_there(earlier_, stages_);
+    if (!is_there && !stage_named(command).makes_missing)
+      return {
+          stage,
+          Action::refuse,
+          fmt::format("missing, and `{}` makes nothing: `frictab {} {}` makes it, `frictab run` "
+                      "all",
+                      command, stage, job_.arguments()),
+          {}};
+    if (!is_there) return {stage, Action::run, "there is none: it is made first", writes(stage)};
     const std::string why = stages_.stale(stage, key_);
     if (why.empty()) return {stage, Action::keep, "", {}};
     const std::string mend = fmt::format("{}; `frictab {} {}` rebuilds it, `frictab run` all", why,

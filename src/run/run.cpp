@@ -4,12 +4,20 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <fmt/format.h>
+
+#include "core/error.h"
 #include "core/large_work.h"
 #include "core/progress.h"
 #include "data/dataset.h"
 #include "run/stage_functions.h"
 
 namespace frictab::run {
+
+std::string Stage::folder_or_file() const {
+  const std::filesystem::path result = results.front();
+  return (result.has_filename() ? result : result.parent_path()).string();
+}
 
 std::vector<std::string> Stage::writes() const {
   std::vector<std::string> all = results;
@@ -49,7 +57,6 @@ const std::vector<Stage>& all_stages() {
        .sections = {"export"},
        .results = {"export/"},
        .applies = [](const job::Job& job) { return !job.exports.targets.empty(); },
-       .made_first = "there were no routines: they were written first",
        .is_there =
            [](const ResultDirectory& d, const StageRecord& record) {
              return record.has("export") || !d.source_files().empty();
@@ -58,6 +65,7 @@ const std::vector<Stage>& all_stages() {
        .run = export_sources},
       {.name = "verify",
        .needs = {"calibrate", "tabulate", "export"},
+       .makes_missing = false,
        .sections = {"verify"},
        .results = {"verify.json", "verify.xml"},
        .load = load_verification,
@@ -91,6 +99,7 @@ std::string Run::data_fingerprint() const {
 void Run::finish(const std::string& stage) {
   workspace.record(stage, data_fingerprint());
   present.insert(stage);
+  made.insert(stage);
 }
 
 namespace {
@@ -116,13 +125,43 @@ void make_present(Run& run, const Stage& stage, std::string_view wanted_by) {
   run.present.insert(stage.name);
 }
 
+// Loads what a gate needs. Throws InputError with everything that is missing or stale.
+void load_for_gate(Run& run, const std::vector<const Stage*>& needed, std::string_view gate) {
+  FaultList faults;
+  for (const Stage* stage : needed) {
+    if (run.present.count(stage->name) > 0) continue;
+    if (!stage->is_there(run.workspace.earlier(), run.workspace.record())) {
+      faults.add({run.path(stage->folder_or_file()), 0, 0},
+                 fmt::format("is missing, and `frictab {}` makes nothing", gate),
+                 fmt::format("`frictab {} {}` makes it, `frictab run` everything", stage->name,
+                             run.job.arguments()));
+      continue;
+    }
+    try {
+      run.workspace.check_fresh(*stage, run.data_fingerprint());
+      if (!faults.empty()) continue; // what it needs is not loaded
+      stage->load(run, gate);
+      run.present.insert(stage->name);
+    } catch (const InputError& error) {
+      faults.add(error);
+    }
+  }
+  faults.throw_if_any();
+}
+
 } // namespace
 
 void run_stage(Run& run, std::string_view name) {
   const Stage& stage = stage_named(name);
   load_data(run);
-  for (const std::string& needed : stage.needs)
-    if (stage_named(needed).applies_to(run.job)) make_present(run, stage_named(needed), name);
+  std::vector<const Stage*> needed;
+  for (const std::string& one : stage.needs)
+    if (stage_named(one).applies_to(run.job)) needed.push_back(&stage_named(one));
+  if (!stage.makes_missing)
+    load_for_gate(run, needed, name);
+  else
+    for (const Stage* one : needed)
+      make_present(run, *one, name);
   stage.run(run);
 }
 

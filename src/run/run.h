@@ -38,6 +38,7 @@ struct Run {
 
   // Stages whose values below are final, including those known to have none.
   std::set<std::string> present;
+  std::set<std::string> made; // those that this command ran; the others were loaded
 
   // Values, in the order in which they are filled, each with its stage. A value is empty until that
   // stage has computed it or loaded it from an earlier run.
@@ -60,8 +61,8 @@ struct Run {
 };
 
 // Runs one stage. First puts the values of the stages it needs into the run: loads current results
-// of an earlier run, or runs those stages if there are none. Throws InputError if the earlier
-// results are stale.
+// of an earlier run, or runs those stages if there are none; a gate (Stage::makes_missing) runs
+// none. Throws InputError if the earlier results are stale, or missing for a gate.
 void run_stage(Run& run, std::string_view stage);
 
 // Runs every stage, resuming from the checkpoint of a run that did not end, then times the forms.

@@ -19,6 +19,7 @@ struct Stage {
   std::string name; // also the name of its command
   // Stages whose results it needs; run first if their results are missing.
   std::vector<std::string> needs = {};
+  bool makes_missing = true; // false: a gate, which names missing results instead of making them
   std::vector<std::string> sections = {}; // sections of the job; empty: results are not recorded
   // Files that later stages read, and pages that only people read; "models/" is a whole folder.
   std::vector<std::string> results = {}, pages = {};
@@ -38,6 +39,7 @@ struct Stage {
   bool applies_to(const job::Job& job) const { return !applies || applies(job); }
   bool is_recorded() const { return !sections.empty(); }
   std::vector<std::string> writes() const; // results, then pages
+  std::string folder_or_file() const;      // its first result: "calibration.json", "tables"
 };
 
 const std::vector<Stage>& all_stages();

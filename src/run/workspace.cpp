@@ -18,9 +18,7 @@ Workspace::Workspace(const job::Job& job)
 void Workspace::check_fresh(const Stage& stage, const std::string& data) const {
   const std::string why = record_.stale(stage.name, data);
   if (why.empty()) return;
-  const fs::path result = fs::path(job_.directory) / stage.results.front();
-  // Path without the trailing slash of a folder.
-  const fs::path named = result.has_filename() ? result : result.parent_path();
+  const fs::path named = fs::path(job_.directory) / stage.folder_or_file();
   throw InputError({named.string(), 0, 0}, "is stale: " + why,
                    fmt::format("`frictab {} {}` rebuilds it, `frictab run` everything; `frictab "
                                "status` shows all stages",

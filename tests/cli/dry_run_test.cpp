@@ -72,9 +72,13 @@ TEST_F(DryRun, NamesTheFilesThatTheRunThenWrites) {
 }
 
 TEST_F(DryRun, SaysWhichStagesRunWhichAreKeptAndWhichAreStale) {
-  EXPECT_EQ(
-      actions(plan("verify")),
-      (Actions{{"calibrate", "run"}, {"tabulate", "run"}, {"export", "run"}, {"verify", "run"}}));
+  EXPECT_EQ(actions(plan("export")),
+            (Actions{{"calibrate", "run"}, {"tabulate", "run"}, {"export", "run"}}));
+  EXPECT_EQ(actions(plan("verify", 2)), (Actions{{"calibrate", "refuse"},
+                                                 {"tabulate", "refuse"},
+                                                 {"export", "refuse"},
+                                                 {"verify", "run"}}))
+      << "a gate makes nothing";
   ASSERT_EQ(frictab({"export", "-q"}).exit_code, 0);
   EXPECT_EQ(
       actions(plan("verify")),
