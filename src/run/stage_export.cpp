@@ -49,6 +49,18 @@ std::string export_directory(const Run& run, const std::string& target, const Ta
   return "export/" + target + (run.tables.size() > 1 ? "/" + table.model : "");
 }
 
+std::string source_directory(const Run& run, const codegen::Exporter& exporter,
+                             const Table& table) {
+  const std::string directory = export_directory(run, exporter.name, table);
+  return run.sources.count(directory)
+             ? directory
+             : run.workspace.earlier().source_directory(exporter.name, table.model);
+}
+
+bool is_of_law(const job::Job& job, const codegen::Exporter& exporter) {
+  return job.exports.form == codegen::ExportForm::direct || !exporter.is_routine();
+}
+
 codegen::ExportRequest export_request(const job::Job& job, const std::string& target,
                                       const Table& form) {
   return {form, job.exports.solver_units(), job.exports.inputs_for(target), job.exports.options};
@@ -68,8 +80,7 @@ void export_sources(Run& run) {
     std::optional<Table> direct; // made for the first target that takes the law itself
     for (const codegen::Exporter* exporter : targets) {
       if (refused.count(exporter)) continue; // every table would fail for the same reason
-      const bool of_law =
-          run.job.exports.form == codegen::ExportForm::direct || !exporter->is_routine();
+      const bool of_law = is_of_law(run.job, *exporter);
       if (of_law && !direct) direct = direct_with_tolerance(law_of(run, table), table);
       try {
         write_sources(run, *exporter,

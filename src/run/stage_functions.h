@@ -32,8 +32,19 @@ void write_calibration(Run& run);
 // Runs `work`. If memory runs out, the message gives the number of rows in memory.
 void with_rows_in_memory(const JobData& data, const std::function<void()>& work);
 
+// Makes the table of a law, without figures of its drift; with `grid` on its nodes, without a
+// search for better ones (table/build.h).
+table::Table sampled_table(const Run& run, const models::AssembledLaw& law,
+                           const table::Table* grid = nullptr);
+
 // Folder of a table's sources: "export/c", or "export/c/<model>" if there are several tables.
 std::string export_directory(const Run& run, const std::string& target, const table::Table& table);
+// Folder of sources that verify takes: of this command, otherwise of an earlier run, which may have
+// had more tables.
+std::string source_directory(const Run& run, const codegen::Exporter& exporter,
+                             const table::Table& table);
+// Whether a target's files are made from the law itself instead of its table.
+bool is_of_law(const job::Job& job, const codegen::Exporter& exporter);
 codegen::ExportRequest export_request(const job::Job& job, const std::string& target,
                                       const table::Table& form);
 

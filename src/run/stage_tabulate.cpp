@@ -32,20 +32,6 @@ Table staged_table(const Workspace& workspace, const std::string& model) {
   return table;
 }
 
-Table sampled_table(const Run& run, const models::AssembledLaw& law) {
-  const table::TableOptions options = table_options(run, law.model);
-  const data::Dataset& tests = fitted_tests(run, law.model);
-  const auto ranges = table::state_ranges(law, tests, options);
-  Table table = large_work("making the table of " + law.model.name(), 0,
-                           "fewer nodes in [table.axes], or a larger table.tolerance_MPa",
-                           [&] { return table::build_table(law, ranges, options); });
-  if (options.distance) table::add_distance(table, law, tests);
-  table.record.tool_version = tool_version();
-  table.record.data_hash = run.calibration->data_hash;
-  table.record.data_origin = run.calibration->synthetic ? "synthetic" : "measured";
-  return table;
-}
-
 // Measures the drift before the table is written, so that the file carries it.
 void measure_drift(Run& run, const models::AssembledLaw& law, Table& table) {
   const verify::DriftRecord drift =
@@ -120,6 +106,22 @@ void check_origin(Run& run, Table& table, bool to_verify) {
 }
 
 } // namespace
+
+Table sampled_table(const Run& run, const models::AssembledLaw& law, const Table* grid) {
+  const table::TableOptions options = table_options(run, law.model);
+  const data::Dataset& tests = fitted_tests(run, law.model);
+  const auto ranges = table::state_ranges(law, tests, options);
+  Table table = large_work("making the table of " + law.model.name(), 0,
+                           "fewer nodes in [table.axes], or a larger table.tolerance_MPa", [&] {
+                             return grid ? table::table_on_nodes(law, ranges, options, *grid)
+                                         : table::build_table(law, ranges, options);
+                           });
+  if (options.distance) table::add_distance(table, law, tests);
+  table.record.tool_version = tool_version();
+  table.record.data_hash = run.calibration->data_hash;
+  table.record.data_origin = run.calibration->synthetic ? "synthetic" : "measured";
+  return table;
+}
 
 void tabulate_laws(Run& run) {
   Workspace& workspace = run.workspace;

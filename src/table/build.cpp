@@ -68,6 +68,19 @@ AxisPlan plan_axis(const models::Law& law, const StateRange& range, const TableO
   return plan;
 }
 
+// One plan per axis; other inputs are not axes.
+std::vector<AxisPlan> plan_axes(const models::AssembledLaw& law,
+                                const std::vector<StateRange>& ranges,
+                                const TableOptions& options) {
+  std::vector<AxisPlan> plans;
+  for (std::size_t r = 0; r < ranges.size(); ++r)
+    if (law.piece_inputs.count(ranges[r].name)) {
+      plans.push_back(plan_axis(*law.model.law, ranges[r], options));
+      plans.back().input = r;
+    }
+  return plans;
+}
+
 void check_memory(const std::vector<TableAxis>& axes, const TableOptions& options) {
   if (fits_into_memory(count_nodes(axes))) return;
   std::vector<std::string> counts;
@@ -106,6 +119,23 @@ Table sampled_table(const models::AssembledLaw& law, const Pieces& pieces,
   return table;
 }
 
+// Whether the table interpolates in ln value, which is above 0 on these axes then.
+bool has_log_value(const models::AssembledLaw& law, const Pieces& pieces,
+                   const std::vector<StateRange>& ranges, const std::vector<TableAxis>& axes,
+                   const TableOptions& options) {
+  if (!law.model.law->log_value || options.coordinates != "law") return false;
+  const std::vector<double> values = sample(pieces, ranges, axes);
+  return *std::min_element(values.begin(), values.end()) > 0;
+}
+
+// Says in the record to what the table was made.
+void set_aim(TableRecord& record, const TableOptions& options) {
+  record.tolerance_MPa = options.tolerance_MPa.value_or(usual_tolerance_MPa);
+  if (!options.tolerance_from.empty()) record.tolerance_from = options.tolerance_from;
+  if (options.nodes) record.asked_nodes = static_cast<double>(*options.nodes);
+  if (options.max_bytes) record.asked_bytes = static_cast<double>(*options.max_bytes);
+}
+
 // Searches for the fewest nodes; build.h describes how.
 class Builder {
 public:
@@ -115,19 +145,12 @@ public:
         progress_("grids for " + law.model.name(), 0),
         tolerance_(options.tolerance_MPa.value_or(usual_tolerance_MPa)), limit_(0.96 * tolerance_),
         pieces_(law, ranges), tau_R_(law, pieces_.names) {
-    const models::Law& description = *law.model.law;
-    for (std::size_t r = 0; r < ranges.size(); ++r)
-      if (law.piece_inputs.count(ranges[r].name)) {
-        plans_.push_back(plan_axis(description, ranges[r], options));
-        plans_.back().input = r;
-      }
+    plans_ = plan_axes(law, ranges, options);
     Counts least;
     for (const AxisPlan& plan : plans_)
       least.push_back(plan.cells);
     check_memory(axes_with(least), options);
-    const std::vector<double> ends = sample(pieces_, ranges, axes_with(least));
-    log_value_ = description.log_value && options.coordinates == "law" &&
-                 *std::min_element(ends.begin(), ends.end()) > 0;
+    log_value_ = has_log_value(law, pieces_, ranges, axes_with(least), options);
     box_ = with_law(tau_R_, box_points(ranges, box_samples));
   }
 
@@ -151,9 +174,7 @@ private:
   static constexpr double most_linear_nodes = 20'000;
 
   Table finished() {
-    best_.table.record.tolerance_MPa = tolerance_;
-    if (!options_.tolerance_from.empty())
-      best_.table.record.tolerance_from = options_.tolerance_from;
+    set_aim(best_.table.record, options_);
     best_.table.record.refinement = trail_;
     return std::move(best_.table);
   }
@@ -284,9 +305,6 @@ private:
       if (closest.cells.empty() || best_.drift < closest.drift) closest = std::move(best_);
     }
     best_ = std::move(closest);
-    if (options_.nodes) best_.table.record.asked_nodes = static_cast<double>(*options_.nodes);
-    if (options_.max_bytes)
-      best_.table.record.asked_bytes = static_cast<double>(*options_.max_bytes);
     return finished();
   }
 
@@ -400,6 +418,30 @@ private:
 Table build_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                   const TableOptions& options) {
   return Builder(law, ranges, options).build();
+}
+
+Table table_on_nodes(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
+                     const TableOptions& options, const Table& grid) {
+  const Pieces pieces(law, ranges);
+  std::vector<TableAxis> least, axes;
+  for (const AxisPlan& plan : plan_axes(law, ranges, options)) {
+    least.push_back(axis_with(plan, plan.cells));
+    axes.push_back(least.back());
+    const auto own = std::find_if(grid.axes.begin(), grid.axes.end(), [&](const TableAxis& axis) {
+      return axis.name == plan.axis.name;
+    });
+    if (own == grid.axes.end()) continue;
+    axes.back().nodes = own->nodes;
+    axes.back().nodes.front() = plan.fixed.front();
+    axes.back().nodes.back() = plan.fixed.back();
+  }
+  check_memory(axes, options);
+  const bool log_value = has_log_value(law, pieces, ranges, least, options);
+  Table table = sampled_table(law, pieces, ranges, std::move(axes),
+                              options.interpolation.value_or(grid.interpolation), log_value);
+  set_aim(table.record, options);
+  table.record.refinement = grid.record.refinement;
+  return table;
 }
 
 } // namespace frictab::table

@@ -52,6 +52,12 @@ std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data
 Table build_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                   const TableOptions& options);
 
+// Makes a table again on the nodes of `grid`: the choice of nodes, its description in the record,
+// and an interpolation that the options leave open are those of `grid`; all else comes from the
+// law, the ranges and the options.
+Table table_on_nodes(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
+                     const TableOptions& options, const Table& grid);
+
 // Ranges that a table carries in its attributes. For a foreign table: those of its axes and, for
 // other inputs, those of `data` if it has the column. Throws InputError where neither is available.
 std::vector<StateRange> table_ranges(const Table& table, const data::Dataset* data,
