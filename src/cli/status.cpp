@@ -36,6 +36,15 @@ std::string law_without_table(const job::Job& job) {
   return "";
 }
 
+// Names a file that differs from its record. verify.xml is also written alone, by a verification
+// that met a fault (run/results.h).
+std::string change_of(const run::StageRecord& stages, const std::string& stage) {
+  const std::string changed = stages.changed_file(stage);
+  if (changed.empty()) return "";
+  return changed == "verify.xml" ? "the last `verify` met the fault that verify.xml names"
+                                 : changed + " was changed since";
+}
+
 std::vector<StageStatus> status_of(const job::Job& job) {
   io::finish_interrupted(job.directory);
   const run::JobData data = run::load_job_data(job);
@@ -51,15 +60,11 @@ std::vector<StageStatus> status_of(const job::Job& job) {
       if (name == "tabulate" && status.why.empty() && job.table.names_laws())
         if (const std::string law = law_without_table(job); !law.empty())
           status.why = "there is no table of " + law;
-      if (const std::string changed = stages.changed_file(name);
-          status.why.empty() && !changed.empty())
-        status.why = changed + " was changed since";
-      status.state = status.why.empty() ? "done" : "stale";
       for (const StageStatus& before : out)
-        if (status.why.empty() && before.state == "stale") {
-          status.state = "stale";
+        if (status.why.empty() && before.state == "stale")
           status.why = fmt::format("`{}` is stale", before.name);
-        }
+      if (status.why.empty()) status.why = change_of(stages, name);
+      status.state = status.why.empty() ? "done" : "stale";
     }
     out.push_back(status);
   }

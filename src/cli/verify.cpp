@@ -1,6 +1,9 @@
 // frictab verify: a job's tables and sources, one table alone for CI pipelines, or several laws in
 // one user file.
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -11,8 +14,10 @@
 #include "cli/job_commands.h"
 #include "core/error.h"
 #include "data/load.h"
+#include "run/results.h"
 #include "run/summary.h"
 #include "table/table_file.h"
+#include "verify/failure.h"
 #include "verify/verify.h"
 #include "words/drift.h"
 #include "words/render.h"
@@ -43,13 +48,80 @@ data::Dataset load_rows(const Options& options, const CommonOptions& common) {
   return data::load_dataset({options.data}, mapping);
 }
 
-void write_junit(const Options& options, const verify::Verification& verification) {
-  if (options.junit.empty()) return;
-  const fs::path file(options.junit);
+void write_one(const fs::path& file, const std::string& xml) {
   io::OutputFiles out(file.has_parent_path() ? file.parent_path() : fs::path("."),
                       io::OutputFiles::Claim::one_file);
-  out.write(file.filename().string(), verify::verification_junit(verification));
+  out.write(file.filename().string(), xml);
   out.commit();
+}
+
+void write_junit(const Options& options, const verify::Verification& verification) {
+  if (!options.junit.empty()) write_one(options.junit, verify::verification_junit(verification));
+}
+
+// Where a verification that cannot be carried out is told, besides standard error.
+struct FailurePlaces {
+  std::string junit;
+  std::string directory; // of the job's results, as soon as it is known; else empty
+  bool replaces_others = false;
+};
+
+// Writes what it can: the fault itself is the message that matters.
+void write_failure(const FailurePlaces& places, const std::vector<Fault>& faults,
+                   const CommonOptions& common) {
+  const std::string xml = verify::failure_junit(faults);
+  const auto attempt = [&](const std::function<void()>& write) {
+    try {
+      write();
+    } catch (const std::exception& error) {
+      note(common, std::string("no JUnit file: ") + error.what());
+    }
+  };
+  if (!places.junit.empty()) attempt([&] { write_one(places.junit, xml); });
+  if (!places.directory.empty())
+    attempt([&] { run::write_verify_xml(places.directory, xml, places.replaces_others); });
+}
+
+// Makes sure that a routine which ends the program, by exit or by STOP, does not look like success.
+class NoExit {
+public:
+  NoExit() {
+    static const bool registered = std::atexit(refuse) == 0;
+    running_ = registered;
+  }
+  ~NoExit() { running_ = false; }
+  NoExit(const NoExit&) = delete;
+  NoExit& operator=(const NoExit&) = delete;
+
+private:
+  static void refuse() {
+    if (!running_) return;
+    std::fputs("error: a routine has ended the program while it was verified\n", stderr);
+    std::_Exit(3);
+  }
+  static inline bool running_ = false;
+};
+
+// Runs `verify`. Whatever it throws is written as JUnit before it goes on. Until then the JUnit
+// file says that the verification has not ended, for a routine or a signal that ends this process.
+int with_failures_told(const FailurePlaces& places, const CommonOptions& common,
+                       const std::function<int()>& verify) {
+  if (!places.junit.empty() && !common.dry_run)
+    write_one(places.junit,
+              verify::failure_junit({{{},
+                                      "the verification has not ended: a routine or a signal ended "
+                                      "the process",
+                                      "frictab verify without --junit shows how it ends"}}));
+  try {
+    const NoExit guarded;
+    return verify();
+  } catch (const InputError& error) {
+    write_failure(places, error.faults(), common);
+    throw;
+  } catch (const std::exception& error) {
+    write_failure(places, {{{}, error.what(), ""}}, common);
+    throw;
+  }
 }
 
 // Returns the tolerance of the command line, otherwise that of the table; computes one for a table
@@ -91,8 +163,10 @@ int verify_together(const Options& options, const CommonOptions& common) {
   return verification.passed() ? 0 : 1;
 }
 
-int verify_job(const Options& options, const CommonOptions& common) {
+int verify_job(const Options& options, const CommonOptions& common, FailurePlaces& places) {
+  if (!common.dry_run) places.directory = common.output;
   job::Job job = read_job(job_file(options.job), common);
+  if (!common.dry_run) places.directory = job.directory;
   if (options.max_drift_MPa) job.verify.max_drift_MPa = options.max_drift_MPa;
   if (options.require_proof) job.verify.require_proof = true;
   if (options.require_run) job.verify.require_run = true;
@@ -105,6 +179,22 @@ int verify_job(const Options& options, const CommonOptions& common) {
   show(common.json ? run::summary_json(run)
                    : words::as_text(words::drift(*run.verification, words::Detail::full)));
   return run.verification->passed() ? 0 : 1;
+}
+
+int verify_any(const Options& options, const CommonOptions& common, FailurePlaces& places) {
+  if (!options.combined.empty()) {
+    if (!options.job.empty() || !options.table.empty() || !options.model.empty())
+      throw InputError({}, "--combined DIR stands alone", "without JOB, --table and --model");
+    return verify_together(options, common);
+  }
+  const bool alone = !options.table.empty() || !options.model.empty();
+  if (alone && (options.table.empty() || options.model.empty()))
+    throw InputError({}, "--table and --model belong together",
+                     "give both: --table tables/NAME.h5 --model models/NAME.json");
+  if (!alone && !has_job(options.job))
+    throw InputError({}, "nothing to verify",
+                     "give a JOB file, --table FILE --model FILE [--data FILE], or --combined DIR");
+  return alone ? verify_alone(options, common) : verify_job(options, common, places);
 }
 
 const Registered<Command> registered{[] {
@@ -132,20 +222,9 @@ const Registered<Command> registered{[] {
                  "A routine that cannot be compiled and run on this machine has failed");
     app.add_option("--junit", options->junit, "Write the result as JUnit XML")->type_name("FILE");
     return [options, &common]() -> int {
-      if (!options->combined.empty()) {
-        if (!options->job.empty() || !options->table.empty() || !options->model.empty())
-          throw InputError({}, "--combined DIR stands alone", "without JOB, --table and --model");
-        return verify_together(*options, common);
-      }
-      const bool alone = !options->table.empty() || !options->model.empty();
-      if (alone && (options->table.empty() || options->model.empty()))
-        throw InputError({}, "--table and --model belong together",
-                         "give both: --table tables/NAME.h5 --model models/NAME.json");
-      if (!alone && !has_job(options->job))
-        throw InputError({}, "nothing to verify",
-                         "give a JOB file, --table FILE --model FILE [--data FILE], or --combined "
-                         "DIR");
-      return alone ? verify_alone(*options, common) : verify_job(*options, common);
+      FailurePlaces places{options->junit, "", common.force};
+      return with_failures_told(places, common,
+                                [&] { return verify_any(*options, common, places); });
     };
   };
   command.uses = stage_uses;

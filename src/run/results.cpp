@@ -8,6 +8,7 @@
 
 #include "core/text.h"
 #include "data/file_list.h"
+#include "io/directory_lock.h"
 #include "run/stage.h"
 
 namespace frictab::run {
@@ -125,6 +126,16 @@ void commit_results(const job::Job& job, StageRecord& stages, io::OutputFiles& f
   record_files(stages, files);
   files.write(std::string(stages_file), stages.json());
   files.commit();
+}
+
+void write_verify_xml(const fs::path& directory, const std::string& xml, bool replaces_others) {
+  io::OutputFiles out(directory, io::OutputFiles::Claim::one_file);
+  const io::DirectoryLock lock(directory);
+  const fs::path file = directory / "verify.xml";
+  if (!replaces_others && !is_of_frictab(beginning_of(file)))
+    throw InputError({file.string(), 0, 0}, "was not written by frictab", to_mend);
+  out.write("verify.xml", xml);
+  out.commit();
 }
 
 } // namespace frictab::run

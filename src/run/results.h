@@ -21,4 +21,10 @@ void record_files(StageRecord& stages, const io::OutputFiles& files);
 // may replace files of others, one that frictab did not write.
 void commit_results(const job::Job& job, StageRecord& stages, io::OutputFiles& files);
 
+// Writes verify.xml alone, of a verification that could not be carried out: all other results stay
+// as they were. Throws InputError if another process writes in the directory, or, unless
+// `replaces_others`, if frictab did not write the verify.xml there.
+void write_verify_xml(const std::filesystem::path& directory, const std::string& xml,
+                      bool replaces_others);
+
 } // namespace frictab::run
