@@ -20,6 +20,7 @@
 #include "job/job.h"
 #include "table/table_file.h"
 #include "verify/combined.h"
+#include "verify/compare_text.h"
 #include "verify/options.h"
 
 namespace frictab::cli {
@@ -193,8 +194,15 @@ verify::Verification verify_combined(const std::string& directory,
   out.max_drift_MPa = max_drift_MPa.value_or(0);
   for (const fs::path& recipe : combined_recipes(directory)) {
     const Combined combined = read_combined(recipe);
-    const codegen::CombinedBundle fresh = combined.exporter->combine(
+    codegen::CombinedBundle fresh = combined.exporter->combine(
         requests(combined.laws, combined.options, combined.exporter->name), combined.laws.names);
+    std::string& wanted = fresh.files.at("recipe.json");
+    wanted = with_tables(wanted, combined.laws, recipe.parent_path());
+    for (verify::Finding& finding :
+         verify::compare_bundle(combined.files, fresh.files, recipe.parent_path().string())) {
+      if (finding.failed) finding.mend = "`frictab export --combine` makes it again";
+      out.findings.push_back(std::move(finding));
+    }
     const auto records = verify::verify_combined({combined.exporter, {combined.files, fresh.laws}},
                                                  max_drift_MPa, verify::VerifyOptions{}.samples);
     out.records.insert(out.records.end(), records.begin(), records.end());
@@ -213,8 +221,14 @@ std::string combined_drift_text(const verify::Verification& verification) {
                                          fmt::format("{:.3g}", r.max_vs_table_MPa),
                                          fmt::format("<= {:.3g}", r.worst_case_MPa),
                                          r.passed ? "ok" : "OVER TOLERANCE"}
-              : std::vector<std::string>{r.model, r.subject, "-", "-", "not run: " + r.why_not});
-  return "Drift over the whole range, MPa:\n" + text_table(rows, {false, false, true, true});
+              : std::vector<std::string>{r.model, r.subject, "-", "-",
+                                         (r.broken ? "BROKEN: " : "not run: ") + r.why_not});
+  std::string text =
+      "Drift over the whole range, MPa:\n" + text_table(rows, {false, false, true, true});
+  for (const verify::Finding& finding : verification.findings)
+    text += (finding.failed ? "" : "note: ") + finding.text() +
+            (finding.mend.empty() ? "" : "; " + finding.mend) + "\n";
+  return text;
 }
 
 } // namespace frictab::cli

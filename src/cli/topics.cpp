@@ -92,25 +92,24 @@ Explanation about_rules() {
 }
 
 Explanation about_exit_codes() {
-  return {"exit-codes",
-          "topic",
-          "what a command ends with",
-          {},
-          "codes",
-          {{"0", "done", {}},
-           {"1",
-            "a target was missed: drift over tolerance, a table over its tolerance, tables "
-            "further apart than `table diff --max-MPa`",
-            {}},
-           {"2",
-            "usage, job file or input data wrong; results that are stale. Nothing was written; by "
-            "`study run` all campaigns but those that failed",
-            {}},
-           {"3",
-            "anything else: a full disk, a compiler that fails, no memory, `doctor` that "
-            "misses something",
-            {}},
-           {"128 + n", "ended by signal n, for example 130 by Ctrl-C", {}}}};
+  return {
+      "exit-codes",
+      "topic",
+      "what a command ends with",
+      {},
+      "codes",
+      {{"0", "done", {}},
+       {"1",
+        "a target was missed: drift over tolerance, a file that was changed, a routine that does "
+        "not compile, a table over its tolerance, tables further apart than `table diff "
+        "--max-MPa`",
+        {}},
+       {"2",
+        "usage, job file or input data wrong; results stale or missing. Nothing was written (by "
+        "`verify` only `verify.xml`); by `study run` all campaigns but those that failed",
+        {}},
+       {"3", "anything else: a full disk, no memory, `doctor` that misses something", {}},
+       {"128 + n", "ended by signal n, for example 130 by Ctrl-C", {}}}};
 }
 
 struct Topic {

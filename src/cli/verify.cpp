@@ -14,6 +14,7 @@
 #include "cli/job_commands.h"
 #include "core/error.h"
 #include "data/load.h"
+#include "run/compare_alone.h"
 #include "run/results.h"
 #include "run/summary.h"
 #include "table/table_file.h"
@@ -59,7 +60,7 @@ void write_junit(const Options& options, const verify::Verification& verificatio
   if (!options.junit.empty()) write_one(options.junit, verify::verification_junit(verification));
 }
 
-// Where a verification that cannot be carried out is told, besides standard error.
+// Places, besides standard error, for the fault of a verification that cannot be carried out.
 struct FailurePlaces {
   std::string junit;
   std::string directory; // of the job's results, as soon as it is known; else empty
@@ -136,9 +137,10 @@ table::Tolerance tolerance_of(const Options& options, const models::AssembledLaw
 
 int verify_alone(const Options& options, const CommonOptions& common) {
   const table::Table table = table::read_table(options.table);
+  const calibrate::ModelFit fit =
+      calibrate::parse_model_fit(io::read_file(options.model), options.model);
   const models::AssembledLaw law(
-      calibrate::at_quantile(calibrate::parse_model(io::read_file(options.model), options.model),
-                             table.quantile(), {options.table, 0, 0}));
+      calibrate::at_quantile(fit.model, table.quantile(), {options.table, 0, 0}));
   std::optional<data::Dataset> rows;
   if (!options.data.empty()) rows = load_rows(options, common);
   verify::VerifyInput input{law, table, options.table, rows ? &*rows : nullptr};
@@ -147,6 +149,8 @@ int verify_alone(const Options& options, const CommonOptions& common) {
   input.allowed_from = allowed.from;
   verify::Verification verification{allowed.MPa, {}, options.require_proof};
   verification.records = verify::verify(input, {});
+  verification.findings =
+      run::compare_alone(options.table, options.model, fit, input, verification.records.front());
   write_junit(options, verification);
   if (common.json)
     show(verify::verification_json(verification));

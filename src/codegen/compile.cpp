@@ -1,8 +1,10 @@
 // Runs compilers and loads the libraries they make.
 #include "codegen/compile.h"
 
+#include <cerrno>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 
 #include <dlfcn.h>
 
@@ -22,7 +24,9 @@ void write_files(const SourceBundle& files, const fs::path& directory) {
     std::ofstream out(directory / path, std::ios::binary);
     out << content;
     out.close();
-    if (!out) throw std::runtime_error("cannot write " + (directory / path).string());
+    if (!out)
+      throw std::system_error(errno, std::generic_category(),
+                              "cannot write " + (directory / path).string());
   }
 }
 

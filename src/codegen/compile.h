@@ -41,7 +41,8 @@ private:
 // One bundle of a target, compiled in its own directory and called as its solver would.
 class CompiledTarget {
 public:
-  // Throws std::runtime_error with the compiler's output if it fails.
+  // Throws std::runtime_error with the compiler's output if it fails, std::system_error if its
+  // files cannot be written.
   CompiledTarget(const Exporter& exporter, const ExportRequest& request, const SourceBundle& bundle,
                  const BuildVariant& variant);
 

@@ -124,8 +124,8 @@ codegen::SourceBundle ResultDirectory::sources(const std::string& name) const {
     throw InputError({directory.string(), 0, 0}, "there are no generated sources",
                      "run `frictab export " + job_ + "` first");
   const std::string recipe = (directory / "recipe.json").string();
-  codegen::SourceBundle bundle;
-  for (const std::string& file : codegen::files_of_recipe(io::read_file(recipe), recipe))
+  codegen::SourceBundle bundle = {{"recipe.json", io::read_file(recipe)}};
+  for (const std::string& file : codegen::files_of_recipe(bundle.at("recipe.json"), recipe))
     bundle[file] = io::read_file(directory / file);
   return bundle;
 }

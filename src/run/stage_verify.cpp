@@ -8,6 +8,7 @@
 #include "codegen/recipe.h"
 #include "core/progress.h"
 #include "run/law_accuracy.h"
+#include "run/origins.h"
 #include "run/stage_functions.h"
 
 namespace frictab::run {
@@ -26,9 +27,7 @@ const codegen::SourceBundle& sources_in(Run& run, const std::string& directory) 
 std::vector<verify::GeneratedSource> sources_of(Run& run, const Table& table, const Table& direct) {
   std::vector<verify::GeneratedSource> sources;
   for (const codegen::Exporter* exporter : codegen::exporters_named(run.job.exports.targets)) {
-    std::string directory = export_directory(run, exporter->name, table);
-    if (!run.sources.count(directory)) // from an earlier run, which may have had more tables
-      directory = run.workspace.earlier().source_directory(exporter->name, table.model);
+    const std::string directory = source_directory(run, *exporter, table);
     const codegen::SourceBundle& bundle = sources_in(run, directory);
     const bool of_law =
         codegen::is_direct_recipe(bundle.at("recipe.json"), directory + "/recipe.json");
@@ -38,14 +37,27 @@ std::vector<verify::GeneratedSource> sources_of(Run& run, const Table& table, co
   return sources;
 }
 
-std::vector<verify::DriftRecord> records_of(Run& run, const Table& table) {
-  const models::AssembledLaw law = law_of(run, table);
+std::vector<verify::DriftRecord> records_of(Run& run, const Table& table,
+                                            const models::AssembledLaw& law) {
   const Table direct = direct_with_tolerance(law, table);
   verify::VerifyInput input =
       verify_input(run, law, table, run.job.directory + "/tables/" + table.model + ".h5");
   const auto known = run.drift_of_tables.find(table.model);
   if (known != run.drift_of_tables.end()) input.known = &known->second;
   return verify::verify(input, sources_of(run, table, direct));
+}
+
+// Compares what was loaded, not made by this command, with what it was made from.
+void compare_with_origins(Run& run, const Table& table, const models::AssembledLaw& law,
+                          const verify::DriftRecord& drift) {
+  std::vector<verify::Finding>& findings = run.verification->findings;
+  const auto add = [&](const std::vector<verify::Finding>& more) {
+    findings.insert(findings.end(), more.begin(), more.end());
+    return std::any_of(more.begin(), more.end(), [](const auto& one) { return one.failed; });
+  };
+  const bool differs =
+      run.made.count("tabulate") == 0 && add(compare_table(run, law, table, drift));
+  if (run.made.count("export") == 0) add(compare_sources(run, law, table, differs));
 }
 
 // Records of tables that a run that did not end had verified completely.
@@ -65,6 +77,10 @@ void verify_tables(Run& run) {
     verification.max_drift_MPa =
         std::max(verification.max_drift_MPa, drift_allowed(run, model_of(run, table)).MPa);
   workspace.begin("verify", run.data_fingerprint());
+  if (run.made.count("calibrate") == 0) {
+    check_all_there(run);
+    verification.findings = compare_models(run);
+  }
   const std::vector<verify::DriftRecord> kept = kept_records(run);
   Progress progress("verifying", run.tables.size());
   for (const Table& table : run.tables) {
@@ -72,7 +88,9 @@ void verify_tables(Run& run) {
     std::copy_if(kept.begin(), kept.end(), std::back_inserter(records),
                  [&](const verify::DriftRecord& r) { return r.model == table.model; });
     const bool is_kept = !records.empty();
-    if (!is_kept) records = records_of(run, table);
+    const models::AssembledLaw law = law_of(run, table);
+    if (!is_kept) records = records_of(run, table, law);
+    compare_with_origins(run, table, law, records.front());
     verification.records.insert(verification.records.end(), records.begin(), records.end());
     if (!is_kept) {
       workspace.write("verify.json", verify::verification_json(verification));

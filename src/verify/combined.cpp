@@ -9,6 +9,7 @@
 #include "table/build.h"
 #include "table/drift.h"
 #include "verify/answers.h"
+#include "verify/broken.h"
 
 namespace frictab::verify {
 
@@ -121,7 +122,9 @@ std::vector<DriftRecord> verify_combined(const CombinedSource& source,
     const Asked asked = ask_table(*source.exporter, law, samples);
     const double allowed = max_drift_MPa.value_or(law.table.record.tolerance_MPa.value_or(0.5));
     for (const codegen::BuildVariant& variant : source.exporter->variants(law))
-      records.push_back(verify_law(source, law, asked, variant, allowed));
+      records.push_back(or_broken(
+          law.law_name + ": " + law.table.model, source.exporter->name + "/" + variant.name,
+          allowed, [&] { return verify_law(source, law, asked, variant, allowed); }));
   }
   return records;
 }

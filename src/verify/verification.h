@@ -10,6 +10,7 @@
 #include "calibrate/calibration.h"
 #include "codegen/path_result.h"
 #include "table/table.h"
+#include "verify/finding.h"
 
 namespace frictab::verify {
 
@@ -76,6 +77,8 @@ struct DriftRecord {
   // Routines: driven over increments, all that they return and remember against an account of its
   // own; empty for what remembers nothing and for solvers' own tables.
   std::optional<codegen::PathResult> path = {};
+  // Not run although this machine has its compiler: it could not be compiled or called.
+  bool broken = false;
 };
 
 // True for a routine in single precision; its difference from the table is then a rounding error
@@ -99,24 +102,26 @@ std::string path_fault(const DriftRecord& record);
 struct Verification {
   double max_drift_MPa = 0; // largest limit of any record
   std::vector<DriftRecord> records;
-  bool require_proof = false; // tables pass only with a proof
-  bool require_run = false;   // subjects that could not be run have failed
+  bool require_proof = false;         // tables pass only with a proof
+  bool require_run = false;           // subjects that could not be run have failed
+  std::vector<Finding> findings = {}; // files that differ from what they were made from
 
   bool failed(const DriftRecord& record) const {
-    if (!record.ran) return require_run;
+    if (!record.ran) return require_run || record.broken;
     const bool proven = record.proven_MPa && !record.over_by_proof;
     return !record.passed || (require_proof && record.subject == "table" && !proven);
   }
   // Number of subjects that neither passed nor failed, because this machine lacks their compiler.
   std::size_t untested() const {
-    return static_cast<std::size_t>(
-        std::count_if(records.begin(), records.end(), [](const DriftRecord& r) { return !r.ran; }));
+    return static_cast<std::size_t>(std::count_if(
+        records.begin(), records.end(), [](const DriftRecord& r) { return !r.ran && !r.broken; }));
   }
   // True if nothing failed; subjects counted by untested() do not fail.
   bool passed() const {
-    for (const DriftRecord& record : records)
-      if (failed(record)) return false;
-    return true;
+    return std::none_of(records.begin(), records.end(),
+                        [&](const DriftRecord& record) { return failed(record); }) &&
+           std::none_of(findings.begin(), findings.end(),
+                        [](const Finding& finding) { return finding.failed; });
   }
 };
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "core/text.h"
 #include "core/version.h"
 #include "io/json_fields.h"
 #include "verify/verify.h"
@@ -94,6 +95,7 @@ static void describe(Fields& f, DriftRecord& r) {
   f("ran", r.ran);
   if (!r.ran) {
     f("why_not", r.why_not);
+    f.unless_default("broken", r.broken);
     return;
   }
   f("passed", r.passed);
@@ -135,6 +137,15 @@ static void describe(Fields& f, DriftRecord& r) {
   f.within("path", [&](Fields& inner) { describe_path(inner, *r.path); });
 }
 
+static void describe(Fields& f, Finding& finding) {
+  f.unless_default("model", finding.model);
+  f("file", finding.file);
+  f.unless_default("where", finding.where);
+  f("what", finding.what);
+  f.unless_default("mend", finding.mend);
+  f("failed", finding.failed);
+}
+
 static void describe(Fields& f, Verification& v) {
   f.known("max_drift_MPa", v.max_drift_MPa);
   const bool open = v.passed() && v.untested() > 0; // nothing failed, something was not tested
@@ -146,6 +157,7 @@ static void describe(Fields& f, Verification& v) {
     if (one.reads()) record.allowed_MPa = v.max_drift_MPa;
     describe(one, record);
   });
+  f.unless_default("findings", v.findings);
 }
 
 std::string verification_json(const Verification& verification) {
@@ -162,7 +174,7 @@ Verification parse_verification(std::string_view text, const std::string& file) 
 namespace {
 
 std::string why_failed(const DriftRecord& record) {
-  if (!record.ran) return "not run: " + record.why_not;
+  if (!record.ran) return (record.broken ? "" : "not run: ") + record.why_not;
   return record.passed ? proof_text(record) : failure_text(record);
 }
 
@@ -188,6 +200,19 @@ void add_figures(pugi::xml_node test, const DriftRecord& record) {
 
 } // namespace
 
+void add_finding(pugi::xml_node suite, const Finding& finding) {
+  pugi::xml_node test = suite.append_child("testcase");
+  const std::string name = printable(finding.where.empty() ? finding.what : finding.where);
+  const std::string text =
+      printable(finding.text() + (finding.mend.empty() ? "" : "; " + finding.mend));
+  test.append_attribute("classname") = printable(finding.file).c_str();
+  test.append_attribute("name") = name.c_str();
+  if (finding.failed)
+    test.append_child("failure").append_attribute("message") = text.c_str();
+  else
+    test.append_child("system-out").text() = text.c_str();
+}
+
 // Leaves out times, so that the same job gives the same bytes.
 std::string verification_junit(const Verification& verification) {
   pugi::xml_document document;
@@ -197,8 +222,11 @@ std::string verification_junit(const Verification& verification) {
     failures += verification.failed(record);
     skipped += !record.ran && !verification.failed(record);
   }
+  for (const Finding& finding : verification.findings)
+    failures += finding.failed;
   suite.append_attribute("name") = "frictab verify";
-  suite.append_attribute("tests") = static_cast<unsigned>(verification.records.size());
+  suite.append_attribute("tests") =
+      static_cast<unsigned>(verification.records.size() + verification.findings.size());
   suite.append_attribute("failures") = static_cast<unsigned>(failures);
   suite.append_attribute("skipped") = static_cast<unsigned>(skipped);
   pugi::xml_node of_all = suite.append_child("properties");
@@ -210,10 +238,13 @@ std::string verification_junit(const Verification& verification) {
     test.append_attribute("name") = record.subject.c_str();
     if (record.ran) add_figures(test, record);
     if (verification.failed(record))
-      test.append_child("failure").append_attribute("message") = why_failed(record).c_str();
+      test.append_child("failure").append_attribute("message") =
+          printable(why_failed(record)).c_str();
     else if (!record.ran)
       test.append_child("skipped").append_attribute("message") = record.why_not.c_str();
   }
+  for (const Finding& finding : verification.findings)
+    add_finding(suite, finding);
   std::ostringstream out;
   document.save(out, "  ");
   return out.str();

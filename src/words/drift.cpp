@@ -35,6 +35,8 @@ struct LawDrift {
   std::optional<double> proven_MPa;
   double routines = 0; // largest drift of any routine
   std::size_t count = 0, untested = 0;
+  bool broken = false;  // a routine cannot be compiled or called
+  bool differs = false; // a file is not what it was made from
   bool passed = true, found_passed = true, path_passed = true, over_by_proof = false,
        over_law_error = false;
   std::vector<std::string> notes; // subjects that did not run, or are over the tolerance
@@ -62,8 +64,10 @@ void add_notes(LawDrift& law, const DriftRecord& r) {
 
 void add_record(LawDrift& law, const Verification& verification, const DriftRecord& r) {
   if (!r.ran) {
-    law.notes.push_back(fmt::format("{} {} not run: {}", r.model, r.subject, r.why_not));
-    ++law.untested;
+    law.notes.push_back(fmt::format("{} {} {}{}", r.model, r.subject, r.broken ? "" : "not run: ",
+                                    replace_all(r.why_not, "\n", "\n    ")));
+    law.broken = law.broken || r.broken;
+    law.untested += !r.broken;
     return;
   }
   law.passed = law.passed && !verification.failed(r);
@@ -89,6 +93,8 @@ void add_record(LawDrift& law, const Verification& verification, const DriftReco
 Text result_of(const LawDrift& law) {
   if (!law.path_passed) return badge("WRONG OVER INCREMENTS", "fail");
   if (!law.found_passed) return badge("OVER TOLERANCE", "fail");
+  if (law.broken) return badge("ROUTINE BROKEN", "fail");
+  if (law.differs) return badge("FILE CHANGED", "fail");
   if (law.over_law_error) return badge("DRIFTS MORE THAN THE LAW ERRS", "fail");
   if (law.untested > 0 && law.passed)
     return badge(fmt::format("ok, {} UNTESTED", law.untested), "none");
@@ -109,6 +115,8 @@ LawDrift drift_of(const Verification& verification, const std::string& model) {
   LawDrift law;
   for (const DriftRecord& r : verification.records)
     if (r.model == model) add_record(law, verification, r);
+  for (const verify::Finding& finding : verification.findings)
+    law.differs = law.differs || (finding.failed && finding.model == model);
   return law;
 }
 
@@ -245,6 +253,23 @@ Section over_increments(const Verification& verification) {
   return section;
 }
 
+// Files that are handed on and differ from what they were made from; the mend of each kind once.
+Section changed_files(const Verification& verification) {
+  Section section{"", "", "Files that are not as they were made"};
+  List failed, notes;
+  std::vector<std::string> mends;
+  for (const verify::Finding& finding : verification.findings) {
+    (finding.failed ? failed : notes)
+        .items.push_back((finding.failed ? "" : "note: ") + finding.text());
+    if (std::find(mends.begin(), mends.end(), finding.mend) == mends.end() && finding.failed)
+      mends.push_back(finding.mend);
+  }
+  failed.items.insert(failed.items.end(), notes.items.begin(), notes.items.end());
+  failed.items.insert(failed.items.end(), mends.begin(), mends.end());
+  if (!failed.items.empty()) section.add(std::move(failed));
+  return section;
+}
+
 } // namespace
 
 Section drift(const Verification& verification, Detail detail) {
@@ -284,6 +309,7 @@ Section drift(const Verification& verification, Detail detail) {
     more.push_back(over_increments(verification));
   }
   more.push_back(fixed_states(verification));
+  more.push_back(changed_files(verification));
   for (Section& one : more)
     if (!one.blocks.empty()) section.add(std::move(one));
   return section;
@@ -312,6 +338,10 @@ Text drift_in_short(const Verification& verification) {
   if (all.count > 0)
     text += fmt::format("; {} compiled and run: {} MPa", count_of(all.count, "routine"),
                         drift_figures(all.routines));
+  const auto changed =
+      std::count_if(verification.findings.begin(), verification.findings.end(),
+                    [](const verify::Finding& f) { return f.failed && f.model.empty(); });
+  if (changed > 0) not_ok += "; " + badge("FILES CHANGED", "fail");
   return text + not_ok;
 }
 
@@ -361,7 +391,9 @@ Text result_of(const DriftRecord& r) {
 // `table`: the record of the table from which the source was made; most sources have their largest
 // drift at the same state.
 Row subject_row(const DriftRecord& r, const DriftRecord& table) {
-  if (!r.ran) return {{r.model, r.subject, badge("not run", "none") + " " + r.why_not}};
+  if (!r.ran)
+    return {{r.model, r.subject,
+             badge(r.broken ? "broken" : "not run", r.broken ? "fail" : "none") + " " + r.why_not}};
   const bool any_rows = r.n_rows > r.n_outside || r.rows.max_abs > 0; // the law answers outside
   const auto on_rows = [&](double value) { return any_rows ? drift_figures(value) : "\u2013"; };
   return {{r.model,

@@ -1,0 +1,17 @@
+// Routines that do not compile, or whose files cannot be read by their driver.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "verify/verification.h"
+
+namespace frictab::verify {
+
+// Returns the record of `verify`. If that throws because the routine itself is at fault, returns a
+// record of `subject` that has failed, with the beginning of the message. Lets pass what another
+// routine would meet as well: InputError, a full disk, no memory.
+DriftRecord or_broken(const std::string& model, const std::string& subject, double allowed_MPa,
+                      const std::function<DriftRecord()>& verify);
+
+} // namespace frictab::verify

@@ -1,0 +1,30 @@
+// Shortens texts.
+#include "verify/quoted.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+
+namespace frictab::verify {
+
+namespace {
+
+constexpr std::size_t most_characters = 60;
+
+} // namespace
+
+std::string quoted(const std::string& text, const std::string& other) {
+  if (text.size() <= most_characters) return "'" + text + "'";
+  const auto differs = static_cast<std::size_t>(
+      std::mismatch(text.begin(), text.end(), other.begin(), other.end()).first - text.begin());
+  std::size_t from = differs < most_characters / 2 ? 0 : differs - most_characters / 2;
+  while (from > 0 && (text[from] & 0xC0) == 0x80) // within a character of several bytes
+    --from;
+  const std::string_view part = utf8_start(std::string_view(text).substr(from), most_characters);
+  return fmt::format("'{}{}{}'", from > 0 ? "..." : "", part,
+                     from + part.size() < text.size() ? "..." : "");
+}
+
+} // namespace frictab::verify
