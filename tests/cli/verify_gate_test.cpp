@@ -248,14 +248,14 @@ TEST_F(VerifyGate, ATableAloneIsComparedWithItsModelAndItsClaims) {
   expect("out/tables/levanov.h5: was changed since it was written, says stages.json");
 }
 
-using SlowVerifyGate = VerifyGate;
+using LongVerifyGate = VerifyGate;
 
 // What no reader takes: HDF5's own links between datasets and scales.
 bool is_exempt(const std::string& name) {
   return name == "DIMENSION_LIST" || name == "REFERENCE_LIST";
 }
 
-TEST_F(SlowVerifyGate, EveryAttributeOfATableThatIsChangedOrLostFails) {
+TEST_F(LongVerifyGate, EveryAttributeOfATableThatIsChangedOrLostFails) {
   std::istringstream lines(test::run_command({FRICTAB_PYTHON, "-c", list_attributes,
                                               directory.path("out/tables/levanov.h5")})
                                .out);
@@ -279,7 +279,7 @@ TEST_F(SlowVerifyGate, EveryAttributeOfATableThatIsChangedOrLostFails) {
   EXPECT_GT(count, 50U);
 }
 
-TEST_F(SlowVerifyGate, EveryKeyOfARecipeThatIsChangedFails) {
+TEST_F(LongVerifyGate, EveryKeyOfARecipeThatIsChangedFails) {
   const std::string file = "out/export/abaqus_table/recipe.json";
   const auto recipe = test::parse_json(directory.read(file));
   const auto flat = recipe.flatten();
