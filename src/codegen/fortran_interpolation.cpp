@@ -73,9 +73,23 @@ Strings linear_names(std::size_t axes) {
   return out;
 }
 
+// Returns the sum along axis `axis` of its support's coefficients, as in ft_rows: in pairs.
+std::string rows(const Table& table, const std::vector<long>& stride, std::size_t axis,
+                 const std::string& at, long offset) {
+  const std::size_t n = table.axes[axis].nodes.size();
+  const auto term = [&](long j) {
+    return fmt::format("w({},{})*tv({}+l{:+})", j + 1, axis + 1, at, offset + j * stride[axis] - 1);
+  };
+  const std::string pair = term(0) + " + " + term(1);
+  if (n == 2) return pair;
+  if (n == 3) return fmt::format("({}) + {}", pair, term(2));
+  return fmt::format("({}) + ({} + {})", pair, term(2), term(3));
+}
+
 // Writes the statements of ft_sum_N for axis `axis` and all further ones, into r(1..4), with the
 // first coefficient at `at`. As in ft_sum_N, rows are added in pairs, further axes one coefficient
-// after the other.
+// after the other, and the last three axes are written out: gfortran makes the same vectors of the
+// loop as of the C kernel, where a directive unrolls it.
 void sums(const Table& table, const std::vector<long>& stride, std::size_t axis,
           const std::string& at, const std::string& indent, Strings& out) {
   const std::size_t n = table.axes[axis].nodes.size(), support = std::min<std::size_t>(n, 4);
@@ -87,14 +101,16 @@ void sums(const Table& table, const std::vector<long>& stride, std::size_t axis,
     line("end do");
     return;
   }
-  if (axis + 2 == stride.size()) {
-    const auto term = [&](long j) {
-      return fmt::format("w({},{})*tv({}+l{:+})", j + 1, number, at, j * stride[axis] - 1);
-    };
+  if (axis + 3 >= stride.size()) {
+    line("!GCC$ unroll 2");
     line("do l = 1, 4");
-    line(fmt::format("  r(l) = {} + {}", term(0), term(1)));
-    if (n == 3) line(fmt::format("  r(l) = r(l) + {}", term(2)));
-    if (n > 3) line(fmt::format("  r(l) = r(l) + ({} + {})", term(2), term(3)));
+    if (axis + 2 == stride.size())
+      line("  r(l) = " + rows(table, stride, axis, at, 0));
+    else
+      for (std::size_t j = 0; j < support; ++j)
+        line(fmt::format("  acc = {} + w({},{})*({})", j == 0 ? "0.0D0" : "acc", j + 1, number,
+                         rows(table, stride, axis + 1, at, static_cast<long>(j) * stride[axis])));
+    if (axis + 3 == stride.size()) line("  r(l) = acc");
     line("end do");
     return;
   }
@@ -126,14 +142,16 @@ Strings cubic_steps(const Table& table, const std::vector<long>& stride,
 // Declarations for the value alone; the derivatives need `counters` as well.
 Strings cubic_names(std::size_t axes) {
   Strings out{"double precision r(4)"};
-  for (std::size_t d = 1; d + 2 <= axes; ++d)
+  if (axes > 2) out.emplace_back("double precision acc");
+  for (std::size_t d = 1; d + 3 <= axes; ++d)
     out.push_back(fmt::format("double precision s{}(4)", d));
   return out;
 }
 
-Strings counters(std::size_t axes) {
+// `written_out`: number of last axes without a loop of their own.
+Strings counters(std::size_t axes, std::size_t written_out) {
   Strings out;
-  for (std::size_t d = 1; d + 2 <= axes; ++d)
+  for (std::size_t d = 1; d + written_out <= axes; ++d)
     out.push_back(fmt::format("integer(8) i{0}, j{0}", d));
   return out;
 }
@@ -142,7 +160,8 @@ std::vector<TemplateValues> statements(const Strings& lines) {
   std::vector<TemplateValues> out;
   for (const std::string& line : lines) {
     TemplateValues one;
-    one.text["text"] = fixed_form(line);
+    const std::size_t directive = line.find("!GCC$"); // stands in the first column
+    one.text["text"] = directive == std::string::npos ? fixed_form(line) : line.substr(directive);
     out.push_back(one);
   }
   return out;
@@ -240,7 +259,7 @@ void add_steps(TemplateValues& values, const Table& table, const std::vector<lon
     to.insert(to.end(), from.begin(), from.end());
   };
   if (!cubic || unit.value) append(names, cubic ? cubic_names(axes) : linear_names(axes));
-  if (cubic) append(names, counters(axes));
+  if (cubic) append(names, counters(axes, unit.slopes ? 2 : 3));
   if (unit.value) steps = cubic ? cubic_steps(table, stride, result) : linear_steps(stride, result);
   if (unit.slopes) {
     const Slopes all = cubic ? cubic_slopes(table, stride) : linear_slopes(stride);

@@ -34,6 +34,10 @@ std::string free_form(const std::string& fixed) {
       out += line.size() < 7 ? "\n" : indent + "! " + line.substr(6) + "\n";
       continue;
     }
+    if (line[0] == '!') { // a directive for the compiler
+      out += indent + line + "\n";
+      continue;
+    }
     // Both ends are marked, so that the statement continues exactly where it was cut.
     if (line[5] == '&') {
       out.back() = '&';
