@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Draws sliding.svg from what `slide` has written. Usage: plot.py FOLDER LAW..."""
 import csv
 import sys

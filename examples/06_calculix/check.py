@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Compares the shear stress at every contact point of CalculiX with tau_R of the generated routine.
 
 Usage: check.py sliding.dat libfrictab.so TOLERANCE [psi T sigma_f]

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Writes sliding.inp: three pairs of blocks, pressed together at 500, 1000 and 2000 MPa and slid.
 
 Each lower block (20 x 4 x 4 mm) stands on its base; the upper one (8 x 3.6 x 4 mm) is pressed by a

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """How each calibrated law errs in ring and rod, beside its rank on tau_R. SYNTHETIC data.
 
 Usage: compare.py FOLDER TRUTH; FOLDER holds what `run` has written for one truth. The measured
@@ -124,6 +124,30 @@ def table(folder, name):
         beyond, each = outside(folder / process / "routine_contact.csv")
         print(f"| {process} | {100 * beyond:.0f} % | " +
               " | ".join(f"{100 * share:.0f} %" for share in each.values()) + " |")
+    print()
+    say(laws, mae, found, place)
+
+
+def say(laws, mae, found, place):
+    """The table in words, so that no sentence outlives its figures."""
+    def process(law):
+        ring, rod = found["ring"][law], found["rod"][law]
+        return (f"{ring['force']:+.1f} % of the ring's force, {ring['diameter']:+.2f} mm of its "
+                f"diameter, {rod['force']:+.1f} % of the rod's force")
+
+    best = laws[0]
+    print(f"* Best on tau_R: `{best}`, {mae[best]:.2f} MPa. It errs by {process(best)}.")
+    winners = {key: laws[values.index(min(values))] for key, values in place.items()}
+    print("* Least error: " + ", ".join(f"{key} `{law}` ({laws.index(law) + 1} on tau_R)"
+                                        for key, law in winners.items()) + ".")
+    fitted = [law for law in laws if law not in CONSTANTS]
+    near = [(abs(found["rod"][a]["force"] - found["rod"][b]["force"]), a, b)
+            for i, a in enumerate(fitted) for b in fitted[i + 1:] if abs(mae[a] - mae[b]) < 0.5]
+    if near:
+        _, a, b = max(near)
+        print(f"* A small step on tau_R can be a large one in the process: `{a}` and `{b}` are "
+              f"{abs(mae[a] - mae[b]):.2f} MPa apart, and err by {process(a)}; and by "
+              f"{process(b)}.")
     print()
 
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Draws process.svg from what `run` has written for one truth. SYNTHETIC data.
 
 Usage: plot.py FOLDER CURVES; CURVES holds the rings with constant friction factors m.

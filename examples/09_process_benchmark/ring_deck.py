@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The ring of this example for stock CalculiX, and what it printed.
 
 ring_deck.py deck MU > ring.inp      the deck: upper half of the ring 18:9:6 mm, reduced by 50 %

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The constant of a friction law from a ring test: inverse analysis on top of this example.
 
 Usage: ring_test.py PROGRAM FOLDER     demonstration on SYNTHETIC rings with known constants

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Fits of the closed-form laws against scipy.optimize.least_squares, in turns, on the same rows.
 
 usage: calibration_against_scipy.py BENCH_PROGRAM [ROUNDS]   (built from calibration_times.cpp)

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Rows per second of frictab's reader against pandas.read_csv, in turns, on the same files.
 
 usage: csv_reader.py BENCH_PROGRAM [ROUNDS]      (BENCH_PROGRAM: built from csv_reader.cpp)

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """SYNTHETIC data: what the network owes to the seed of its training, and how far it follows tests.
 
 usage: network_seeds.py FRICTAB [SEED ...]
