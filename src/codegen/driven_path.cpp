@@ -78,7 +78,7 @@ double DrivenPath::beyond(const std::string& name, bool above) {
   const auto [low, high] = range(name);
   const double share = random.uniform(0.05, 0.4);
   if (above) return high + share * std::max(high - low, std::abs(high));
-  const bool positive = name == "sigma_n_MPa" || name == "v_rel_mm_s" || name == "s_mm" || low > 0;
+  const bool positive = low >= 0; // such states are never negative
   return positive ? low * (1 - share) : low - share * std::max(high - low, 1.0);
 }
 

@@ -1,4 +1,4 @@
-// Puts the curve into a table's formula, and finds the strain for a flow stress.
+// Puts curve and factor into a table's formula, and finds the strain for a flow stress.
 #include "codegen/flow_curve.h"
 
 #include <algorithm>
@@ -129,23 +129,44 @@ private:
 
 CurvedRequest::CurvedRequest(const ExportRequest& request, const SolverGives& gives)
     : original_(request) {
-  const auto said = request.inputs.find(stress_name);
-  if (said == request.inputs.end() || !said->second.starts_with(curve_choice)) return;
+  const auto said = [&](const char* name) {
+    const auto found = request.inputs.find(name);
+    return found == request.inputs.end() ? "" : found->second;
+  };
   const std::vector<std::string> needed = request.table.inputs();
-  if (std::find(needed.begin(), needed.end(), stress_name) == needed.end()) return;
-  if (gives.find(stress_name))
+  const bool needs_stress = std::find(needed.begin(), needed.end(), stress_name) != needed.end();
+  has_curve_ = needs_stress && said(stress_name).starts_with(curve_choice);
+  if (!has_curve_ && said(zone_name).empty()) return;
+  if (has_curve_ && gives.find(stress_name))
     throw InputError(curve_place, "the solver gives this state itself",
                      "\"solver\", or the curve for other targets: [export.TARGET.inputs]");
-  curve_ = expr::parse_expr(std::string_view(said->second).substr(curve_choice.size()),
-                            format_place(curve_place));
-  check_curve(curve_, request.table);
   table_ = request.table;
-  table_.combine = substitute(table_.combine, {{stress_name, curve_}});
-  set_range();
   curved_.emplace(ExportRequest{table_, request.units, request.inputs, request.options});
   curved_->law_name = request.law_name;
   curved_->law_stem = request.law_stem;
+  if (has_curve_) add_curve(said(stress_name).substr(curve_choice.size()));
+  if (!said(zone_name).empty()) add_zones(said(zone_name));
+}
+
+void CurvedRequest::add_curve(const std::string& text) {
+  curve_ = expr::parse_expr(text, format_place(curve_place));
+  check_curve(curve_, original_.table);
+  table_.combine = substitute(table_.combine, {{stress_name, curve_}});
+  set_range();
   curved_->inputs.erase(stress_name);
+}
+
+void CurvedRequest::add_zones(const std::string& choice) {
+  if (choice != "property" && !choice.starts_with("field:"))
+    throw InputError(input_place(zone_name), "a factor by zones is a field or a property",
+                     "\"field:1\", or \"property\" for one factor of an interface");
+  const expr::Expr value = expr::Expr::symbol("value");
+  table_.combine = substitute(table_.combine, {{"value", value * expr::Expr::symbol(zone_name)}});
+  table::InputRecord& record = table_.record.inputs[zone_name];
+  record.low = 0;
+  record.high = 2; // its middle stands where the deck gives none
+  record.long_name = "factor of friction by zones of the surface";
+  record.unit = "1";
 }
 
 // Sets the range of strains in which the curve stays within the tested flow stresses.
@@ -196,14 +217,19 @@ std::vector<double> CurvedRequest::strains(std::size_t rows,
 void CurvedRequest::drive(std::size_t rows, std::span<const double* const> columns,
                           std::span<double> tau, const Drive& drive) const {
   if (!curved_) return drive(rows, columns, tau);
-  const std::vector<double> strain_of = strains(rows, columns);
+  const std::vector<double> strain_of =
+      has_curve_ ? strains(rows, columns) : std::vector<double>(rows);
+  const std::vector<double> no_zones(rows, 1.0);
   std::vector<std::size_t> asked;
   for (std::size_t row = 0; row < rows; ++row)
     if (!std::isnan(strain_of[row])) asked.push_back(row);
   std::vector<std::vector<double>> states;
   for (const std::string& name : table_.inputs())
-    states.push_back(picked(
-        name == strain_name ? strain_of : column_of(original_.table, name, rows, columns), asked));
+    states.push_back(picked(name == zone_name ? no_zones
+                            : has_curve_ && name == strain_name
+                                ? strain_of
+                                : column_of(original_.table, name, rows, columns),
+                            asked));
   std::vector<const double*> pointers;
   for (const std::vector<double>& one : states)
     pointers.push_back(one.data());

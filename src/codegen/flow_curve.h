@@ -10,6 +10,14 @@
 // source follow from it as from any formula. Verification evaluates a row at the smallest strain at
 // which the curve has the row's flow stress; rows without such a strain up to `most_strain` cannot
 // be represented.
+//
+// Likewise a factor by which friction differs between zones of the surface (a polished or a worn
+// part of a tool),
+//
+//   zone_factor = "field:2"      or "property"
+//
+// multiplies the law's own value (mu, or tau_R) ahead of its shear limit. Where the deck gives none
+// it is 1, and so it is in verification.
 #pragma once
 
 #include <functional>
@@ -26,8 +34,9 @@ namespace frictab::codegen {
 // Name in the curve and in [export.inputs].
 inline constexpr const char* strain_name = "strain";
 inline constexpr double most_strain = 5;
+inline constexpr const char* zone_name = "zone_factor";
 
-// The request that the target fills: with the curve in its table, if the job has one.
+// The request that the target fills: with curve and factor in its table, if the job has them.
 class CurvedRequest {
 public:
   // Throws InputError if the solver gives a flow stress itself or the flow stress is an axis of the
@@ -44,10 +53,13 @@ public:
              const Drive& drive) const;
 
 private:
+  void add_curve(const std::string& text);
+  void add_zones(const std::string& choice);
   void set_range();
   std::vector<double> strains(std::size_t rows, std::span<const double* const> columns) const;
 
   const ExportRequest& original_;
+  bool has_curve_ = false;
   expr::Expr curve_;
   table::Table table_; // table of the curved request
   std::optional<ExportRequest> curved_;

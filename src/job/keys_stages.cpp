@@ -346,7 +346,8 @@ std::vector<KeyRule> export_keys() {
           "psi = \"area_ratio\" (area of contact over that at first contact), v_rel_mm_s = "
           "\"smoothed:20\" (over increments). Routines of solvers without a flow stress: "
           "sigma_f_MPa = "
-          "\"curve:760*(0.002 + strain)**0.21\"",
+          "\"curve:760*(0.002 + strain)**0.21\". zone_factor = \"field:2\" or \"property\": a "
+          "factor of friction that differs between zones of the surface",
           "what the target offers", "\"constant:1.0\"") |
           input_problem,
       named<std::string>(

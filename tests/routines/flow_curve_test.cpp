@@ -118,6 +118,66 @@ TEST(FlowCurve, HasTheRangeOfStrainsOverWhichTheLawWasTested) {
   EXPECT_NEAR(range->second, 1.9, 0.025); // 960 MPa
 }
 
+// mu = 0.08 times the factor, also where a limit follows.
+TEST(FrictionZones, ScaleTheLawsValueAheadOfItsLimit) {
+  table::Table table = test::constant_table();
+  table.combine = minimum(table.combine, expr::Expr(40));
+  const std::map<std::string, std::string> choices = {{"zone_factor", "field:2"}};
+  const codegen::CurvedRequest zoned({table, "mm-t-s", choices, {}}, {});
+  const table::TableFunction tau(zoned.get().table);
+  EXPECT_EQ(tau.inputs(), (std::vector<std::string>{"sigma_n_MPa", "zone_factor"}));
+  EXPECT_DOUBLE_EQ(tau(std::vector{100.0, 1.0}), 8);
+  EXPECT_DOUBLE_EQ(tau(std::vector{100.0, 1.5}), 12);
+  EXPECT_DOUBLE_EQ(tau(std::vector{1000.0, 1.5}), 40);
+}
+
+TEST(FrictionZones, ReachEveryRoutineThatHasFieldsOrProperties) {
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  const table::Table table = test::history_table();
+  for (const auto& [target, source] :
+       std::map<std::string, std::string>{{"abaqus_vfric", "field:2"},
+                                          {"abaqus_vfriction", "field:1"},
+                                          {"abaqus_vfric_coef", "field:1"},
+                                          {"abaqus_fric", "field:3"},
+                                          {"abaqus_fric_coef", "field:1"},
+                                          {"deform_usrbcc", "field:9"},
+                                          {"lsdyna_usrfrc", "property"}}) {
+    SCOPED_TRACE(target);
+    const Exporter& exporter = *find_exporter(target);
+    std::map<std::string, std::string> choices = test::sample_inputs(exporter);
+    choices["zone_factor"] = source;
+    const ExportRequest request{table, "mm-t-s", choices, {}};
+    const codegen::CompiledTarget routine(exporter, request, exporter.generate(request),
+                                          exporter.variants(request).front());
+    // The account takes the factor from the field or the property.
+    const auto path = routine.drive_path({});
+    ASSERT_TRUE(path);
+    EXPECT_TRUE(path->passed());
+    // Without one it is 1.
+    const test::States states(table, 500, 7, 0.0);
+    std::vector<double> answers(states.rows(), -1);
+    routine.drive(states.rows(), states.columns(), answers);
+    const table::TableFunction law(table);
+    std::size_t asked = 0;
+    for (std::size_t row = 0; row < states.rows(); ++row) {
+      if (answers[row] == -1) continue;
+      std::vector<double> x;
+      for (const double* column : states.columns())
+        x.push_back(column[row]);
+      EXPECT_NEAR(answers[row], law(x), 1e-9 * law(x));
+      ++asked;
+    }
+    EXPECT_GT(asked, 20u);
+  }
+}
+
+TEST(FrictionZones, AreFieldsOrProperties) {
+  EXPECT_THAT(said("abaqus_vfric", {{"zone_factor", "constant:0.8"}}),
+              testing::HasSubstr("a factor by zones is a field or a property"));
+  EXPECT_THAT(said("marc_ufric", {{"zone_factor", "field:1"}}),
+              testing::HasSubstr("'field:1' is not a source of a state"));
+}
+
 } // namespace
 
 } // namespace frictab::flow_curve_test
