@@ -104,12 +104,13 @@ DriftRecord verify_law(const CombinedSource& source, const codegen::ExportReques
     return record;
   }
   std::vector<double> tau(asked.tau.size(), not_representable);
-  codegen::CompiledTarget(*source.exporter, law, source.bundle.files, variant)
-      .drive(tau.size(), asked.columns(), tau);
+  const codegen::CompiledTarget target(*source.exporter, law, source.bundle.files, variant);
+  record.path = target.drive_path({}); // first: later calls may set the routine's constants
+  target.drive(tau.size(), asked.columns(), tau);
   compare(record, asked, tau);
   record.worst_case_MPa = record.max_vs_table_MPa + law.table.record.worst_case_MPa.value_or(0);
   record.allowed_MPa = allowed;
-  record.passed = record.worst_case_MPa <= allowed;
+  record.passed = record.worst_case_MPa <= allowed && path_fault(record).empty();
   return record;
 }
 

@@ -384,7 +384,7 @@ DriftRecord compare_reduced(const VerifyInput& input, const Subjects& s, const S
 // A routine whose answers do not drift may still remember or return the wrong things.
 void add_path(DriftRecord& record, std::optional<codegen::PathResult> path) {
   record.path = std::move(path);
-  if (record.path && !record.path->passed()) record.passed = false;
+  record.passed = record.passed && path_fault(record).empty();
 }
 
 DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
