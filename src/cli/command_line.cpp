@@ -16,12 +16,12 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "cli/command.h"
 #include "cli/help_format.h"
 #include "core/error.h"
 #include "core/large_work.h"
+#include "core/os/machine.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/text.h"
@@ -132,7 +132,7 @@ using Runners = std::vector<std::pair<CLI::App*, std::function<int()>>>;
 ProgressStyle progress_style(const CommonOptions& common) {
   const char* const terminal = std::getenv("TERM");
   const bool draws =
-      isatty(STDERR_FILENO) != 0 && terminal && *terminal && terminal != std::string_view("dumb");
+      os::is_terminal(stderr) && terminal && *terminal && terminal != std::string_view("dumb");
   if (common.quiet || !common.progress.value_or(draws)) return ProgressStyle::off;
   return draws ? ProgressStyle::line : ProgressStyle::lines;
 }

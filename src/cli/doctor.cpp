@@ -12,10 +12,10 @@
 #include <hdf5.h>
 #include <nlohmann/json.hpp>
 #include <nlopt.h>
-#include <unistd.h>
 
 #include "cli/command.h"
 #include "codegen/exporter.h"
+#include "core/os/files.h"
 #include "core/program.h"
 #include "core/text.h"
 #include "core/version.h"
@@ -47,7 +47,7 @@ std::string on_path(const std::string& program) {
     const fs::path directory = rest.substr(0, colon);
     const fs::path file = directory.empty() ? fs::path(".") / program : directory / program;
     std::error_code error;
-    if (fs::is_regular_file(file, error) && ::access(file.c_str(), X_OK) == 0) return file.string();
+    if (fs::is_regular_file(file, error) && os::may_run(file)) return file.string();
     if (colon == rest.npos) return "";
     rest.erase(0, colon + 1);
   }
@@ -139,7 +139,7 @@ Finding temporary_finding() {
   const fs::path directory = temporary_place();
   std::error_code error;
   const bool ok =
-      fs::is_directory(directory, error) && ::access(directory.c_str(), W_OK | X_OK) == 0;
+      fs::is_directory(directory, error) && os::may_write(directory) && os::may_run(directory);
   return {"machine",
           "temporary directory",
           ok,

@@ -3,15 +3,14 @@
 #include <filesystem>
 #include <memory>
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/colour.h"
 #include "cli/job_commands.h"
 #include "core/error.h"
-#include "core/interrupt.h"
+#include "core/os/interrupt.h"
+#include "core/os/machine.h"
 #include "core/text.h"
 #include "run/plan.h"
 #include "run/summary.h"
@@ -65,7 +64,7 @@ void print_notes(const run::Run& run, const CommonOptions& common) {
 namespace {
 
 void show_summary(const std::string& text) {
-  const bool terminal = isatty(STDOUT_FILENO) != 0;
+  const bool terminal = os::is_terminal(stdout);
   const bool colours = colour_wanted(terminal, std::getenv("NO_COLOR"), std::getenv("TERM"));
   if (colours)
     fmt::print("{}", coloured(printable(text)));
@@ -91,7 +90,7 @@ int run_stage_command(const std::string& file, const CommonOptions& common,
     if (const std::string kept = run.workspace.checkpoint_text(); !kept.empty()) note(common, kept);
   };
   try {
-    const WhenInterrupted interrupted(print_checkpoint);
+    const os::WhenInterrupted interrupted(print_checkpoint);
     if (command == "run")
       run_all(run);
     else

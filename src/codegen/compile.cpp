@@ -6,8 +6,6 @@
 #include <stdexcept>
 #include <system_error>
 
-#include <dlfcn.h>
-
 #include "codegen/prefix.h"
 #include "core/program.h"
 #include "core/text.h"
@@ -48,22 +46,8 @@ fs::path compile_library(const SourceBundle& bundle, const BuildVariant& variant
   return library;
 }
 
-Library::Library(const fs::path& file) : handle_(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
-  if (!handle_) throw std::runtime_error(dlerror());
-}
-
-Library::~Library() {
-  dlclose(handle_);
-}
-
-void* Library::address(void* handle, const std::string& symbol) {
-  void* found = dlsym(handle, symbol.c_str());
-  if (!found) throw std::runtime_error("no symbol '" + symbol + "' in the compiled library");
-  return found;
-}
-
-void Library::pass_directory(const fs::path& directory, const std::string& symbol) const {
-  if (void* tell = dlsym(handle_, symbol.c_str()))
+void pass_directory(const Library& library, const fs::path& directory, const std::string& symbol) {
+  if (void* const tell = Library::address_or_null(library.handle(), symbol))
     reinterpret_cast<void (*)(const char*)>(tell)(directory.c_str());
 }
 
@@ -78,7 +62,7 @@ CompiledTarget::CompiledTarget(const Exporter& exporter, const ExportRequest& re
   // The prefix option exists for all targets of a job, but not all of them use it.
   for (const std::string& symbol :
        {std::string("frictab_directory"), prefixed(request, "frictab_directory")})
-    library_->pass_directory(directory_.path(), symbol);
+    pass_directory(*library_, directory_.path(), symbol);
 }
 
 } // namespace frictab::codegen

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "codegen/exporter.h"
+#include "core/os/library.h"
 #include "core/program.h"
 
 namespace frictab::codegen {
@@ -15,28 +16,12 @@ namespace frictab::codegen {
 std::filesystem::path compile_library(const SourceBundle& bundle, const BuildVariant& variant,
                                       const std::filesystem::path& work_dir);
 
-// A loaded shared library; the destructor closes it.
-class Library {
-public:
-  explicit Library(const std::filesystem::path& file); // throws std::runtime_error
-  ~Library();
-  Library(const Library&) = delete;
-  Library& operator=(const Library&) = delete;
+using os::Library; // loads what compile_library has made
 
-  void* handle() const { return handle_; }
-  // Throws std::runtime_error if the library does not have the symbol.
-  template <class Function> Function* find(const std::string& symbol) const {
-    return reinterpret_cast<Function*>(address(handle_, symbol));
-  }
-  static void* address(void* handle, const std::string& symbol);
-  // Passes the directory of the values file to generated code that reads one, through the C
-  // function `symbol`. Does nothing if the code has no such function.
-  void pass_directory(const std::filesystem::path& directory,
-                      const std::string& symbol = "frictab_directory") const;
-
-private:
-  void* handle_;
-};
+// Passes the directory of the values file to generated code that reads one, through the C function
+// `symbol`. Does nothing if the code has no such function.
+void pass_directory(const Library& library, const std::filesystem::path& directory,
+                    const std::string& symbol = "frictab_directory");
 
 // One bundle of a target, compiled in its own directory and called as its solver would.
 class CompiledTarget {

@@ -7,8 +7,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <dlfcn.h>
-
 #include "codegen/compile.h"
 #include "codegen/entry_arguments.h"
 #include "core/hash.h"

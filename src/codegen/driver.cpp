@@ -8,8 +8,6 @@
 #include <limits>
 #include <numbers>
 
-#include <dlfcn.h>
-
 #include "codegen/combine.h"
 #include "codegen/compile.h"
 #include "codegen/histories.h"
@@ -42,7 +40,8 @@ public:
       : driver_(driver), inputs_(inputs), columns_(columns),
         stress_(solver_unit("MPa", request.units)),
         call_(reinterpret_cast<Ftdriv*>(Library::address(built.library, "ftdriv_"))),
-        constants_(static_cast<double*>(dlsym(built.library, (stem(request) + "cons_").c_str()))) {
+        constants_(static_cast<double*>(
+            Library::address_or_null(built.library, stem(request) + "cons_"))) {
     for (const SolverInput& input : inputs_)
       fields_ = std::max(fields_, input.field);
     for (const GivenState& state : driver.gives.states)

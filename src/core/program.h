@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/interrupt.h"
+#include "core/os/interrupt.h"
 
 namespace frictab {
 
@@ -37,7 +37,7 @@ public:
 
 private:
   std::filesystem::path path_;
-  std::optional<WhenInterrupted> when_interrupted_;
+  std::optional<os::WhenInterrupted> when_interrupted_;
 };
 
 } // namespace frictab

@@ -12,10 +12,9 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
-#include "core/interrupt.h"
+#include "core/os/interrupt.h"
+#include "core/os/machine.h"
 
 namespace frictab {
 
@@ -36,13 +35,6 @@ struct Progress::Work {
 namespace {
 
 std::atomic<ProgressStyle> style{ProgressStyle::off};
-
-std::size_t terminal_width() {
-  constexpr std::size_t usual = 80;
-  winsize size{};
-  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return usual;
-  return size.ws_col;
-}
 
 // All current work, and the thread that displays it.
 class Display {
@@ -88,7 +80,7 @@ private:
     std::vector<ProgressState> states{works_.front()->state()};
     if (works_.size() > 1) states.push_back(works_.back()->state());
     // Most terminals wrap a line that fills the last column.
-    const std::string text = progress_text(states, terminal_width() - 1);
+    const std::string text = progress_text(states, os::terminal_width() - 1);
     if (in_place)
       fmt::print(stderr, "\r\x1b[K{}", text);
     else
@@ -115,7 +107,7 @@ private:
   std::mutex mutex_; // guards the members below; its owner never blocks
   std::condition_variable wake_;
   std::vector<std::shared_ptr<Progress::Work>> works_; // outermost first
-  std::optional<WhenInterrupted> tidy_;
+  std::optional<os::WhenInterrupted> tidy_;
   std::thread thread_;
   bool stop_ = false, drawn_ = false;
 };

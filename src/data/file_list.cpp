@@ -1,4 +1,4 @@
-// Globs and folders by the C library, names by regular expressions.
+// Expands globs and folders; names are read by regular expressions.
 #include "data/file_list.h"
 
 #include <algorithm>
@@ -6,10 +6,9 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <fnmatch.h>
-#include <glob.h>
 
 #include "core/no_value.h"
+#include "core/os/files.h"
 #include "core/pattern.h"
 #include "core/text.h"
 #include "data/quantity.h"
@@ -41,15 +40,12 @@ std::vector<std::string> matching(const std::string& pattern, const std::string&
   const std::string whole = fs::path(pattern).is_absolute() || base.empty()
                                 ? pattern
                                 : without_signs(base) + "/" + pattern;
-  glob_t found{};
   std::vector<std::string> names;
-  if (glob(whole.c_str(), GLOB_NOSORT, nullptr, &found) == 0)
-    for (std::size_t i = 0; i < found.gl_pathc; ++i)
-      if (const fs::path path = found.gl_pathv[i]; fs::is_regular_file(path))
-        names.push_back(base.empty() || fs::path(pattern).is_absolute()
-                            ? path.string()
-                            : path.lexically_relative(base).string());
-  globfree(&found);
+  for (const fs::path path : os::paths_like(whole))
+    if (fs::is_regular_file(path))
+      names.push_back(base.empty() || fs::path(pattern).is_absolute()
+                          ? path.string()
+                          : path.lexically_relative(base).string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -70,7 +66,7 @@ std::vector<std::string> files_in(const std::string& folder, const std::string& 
 bool fits(const FileRule& rule, const std::string& file) {
   const bool with_folder = rule.match.find('/') != std::string::npos;
   const std::string name = with_folder ? file : fs::path(file).filename().string();
-  return fnmatch(rule.match.c_str(), name.c_str(), FNM_PATHNAME) == 0;
+  return os::is_like(name, rule.match);
 }
 
 // Index of the first matching rule; number of rules if none matches.

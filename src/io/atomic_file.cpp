@@ -4,18 +4,16 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/os/files.h"
 
 namespace frictab::io {
 
@@ -28,25 +26,15 @@ const std::string staging_prefix = ".frictab-", one_file_prefix = ".frictab-file
 const std::string new_files = "new", old_files = "old", journal_name = "journal",
                   keep_name = "keep";
 
-[[noreturn]] void cannot(const std::string& what, const fs::path& file) {
-  throw std::runtime_error(
-      fmt::format("cannot {} {}: {}", what, file.string(), std::strerror(errno)));
-}
-
-// Flushes a file's content, or the entries of a directory, to disk.
-void sync(const fs::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) cannot("open", path);
-  // Some file systems cannot sync directories and fail with EINVAL or ENOTSUP.
-  const bool done = ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP;
-  const int error = errno;
-  const bool closed = ::close(file) == 0;
-  if (!done) errno = error;
-  if (!done || !closed) cannot("write", path);
+[[noreturn]] void cannot_write(const fs::path& file,
+                               std::error_code why = {errno, std::generic_category()}) {
+  throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), why.message()));
 }
 
 void rename_file(const fs::path& from, const fs::path& to) {
-  if (::rename(from.c_str(), to.c_str()) != 0) cannot("write", to);
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) cannot_write(to, error);
 }
 
 // Requires a relative path inside the directory; no folder on its way may be a symbolic link.
@@ -115,10 +103,10 @@ void write_journal(const fs::path& staging, const Journal& journal) {
   std::ofstream out(draft, std::ios::binary);
   out << journal.text();
   out.close();
-  if (!out) cannot("write", draft);
-  sync(draft);
+  if (!out) cannot_write(draft);
+  os::flush_to_disk(draft);
   rename_file(draft, staging / journal_name);
-  sync(staging);
+  os::flush_to_disk(staging);
 }
 
 // Keeps the existing file until the commit is complete.
@@ -180,7 +168,7 @@ public:
     std::error_code ignored;
     for (const Rename& one : journal_.renames)
       if (fs::is_directory((directory_ / one.to).parent_path(), ignored))
-        sync((directory_ / one.to).parent_path());
+        os::flush_to_disk((directory_ / one.to).parent_path());
     for (const std::string& path : journal_.remove)
       remove_empty(directory_, path);
   }
@@ -208,7 +196,7 @@ void write_text(const fs::path& file, std::string_view content) {
   std::ofstream out(file, std::ios::binary);
   out.write(content.data(), static_cast<std::streamsize>(content.size()));
   out.close();
-  if (!out) cannot("write", file);
+  if (!out) cannot_write(file);
 }
 
 // ---- leftovers of earlier processes ----
@@ -262,9 +250,10 @@ void clear_abandoned(const fs::path& directory, bool locked) {
 }
 
 fs::path make_staging(const fs::path& directory, const std::string& prefix) {
-  std::string name = (directory / (prefix + "XXXXXX")).string();
-  if (::mkdtemp(name.data()) == nullptr) cannot_write_here(directory, std::strerror(errno));
-  return name;
+  std::error_code error;
+  const fs::path made = os::make_unique_directory(directory / prefix, error);
+  if (error) cannot_write_here(directory, error.message());
+  return made;
 }
 
 } // namespace
@@ -352,7 +341,7 @@ void OutputFiles::commit() {
   for (const std::string& path : paths_) {
     const fs::path from = staged(path);
     const auto hash = hashes_.find(path);
-    sync(from);
+    os::flush_to_disk(from);
     if (hash != hashes_.end() && hash_of(read_file(from)) != hash->second)
       throw std::runtime_error("the disk gives back something else than was written to " +
                                (directory_ / path).string());
@@ -365,7 +354,7 @@ void OutputFiles::commit() {
   for (const std::string& path : old_)
     if (std::find(paths_.begin(), paths_.end(), path) == paths_.end())
       journal.remove.push_back(path);
-  const Uninterrupted whole;
+  const os::Uninterrupted whole;
   Commit commit(directory_, staging_, journal);
   write_journal(staging_, journal);
   try {
@@ -402,7 +391,7 @@ void finish_interrupted(const fs::path& directory) {
         return fs::exists(staging / journal_name, ignored);
       }))
     return;
-  if (::access(directory.c_str(), W_OK) != 0)
+  if (!os::may_write(directory))
     throw InputError({directory.string(), 0, 0},
                      "a command died while it put its results in place, and nothing can be written "
                      "here to finish that",

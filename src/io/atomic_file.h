@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/interrupt.h"
+#include "core/os/interrupt.h"
 #include "io/directory_lock.h"
 
 namespace frictab::io {
@@ -66,7 +66,7 @@ private:
   std::optional<DirectoryLock> lock_;
   std::filesystem::path staging_;
   // Constructed before the lock, because the lock has to go before the directory can.
-  std::optional<WhenInterrupted> directory_when_interrupted_, when_interrupted_;
+  std::optional<os::WhenInterrupted> directory_when_interrupted_, when_interrupted_;
   std::vector<std::string> paths_;
   std::map<std::string, std::uint64_t> hashes_; // of texts, by path
   std::vector<std::string> old_;

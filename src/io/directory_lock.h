@@ -5,16 +5,16 @@
 #include <optional>
 #include <string>
 
-#include "core/interrupt.h"
+#include "core/os/interrupt.h"
+#include "core/os/lock_file.h"
 
 namespace frictab::io {
 
 // Throws InputError: the directory cannot be written to, and why.
 [[noreturn]] void cannot_write_here(const std::filesystem::path& directory, const std::string& why);
 
-// Locks DIRECTORY/.frictab.lock by flock(2), which ends with the process in every case; the file
-// names its owner and is removed afterwards. If the file system has no locks (some network file
-// systems), nothing is locked.
+// Locks DIRECTORY/.frictab.lock; the file names its owner and is removed afterwards. If the file
+// system has no locks (some network file systems), nothing is locked.
 class DirectoryLock {
 public:
   // must: waits a few seconds for the current owner; throws InputError that names an owner who
@@ -22,19 +22,17 @@ public:
   // returns whether the lock was free.
   enum class Wish { must, if_free };
   explicit DirectoryLock(const std::filesystem::path& directory, Wish wish = Wish::must);
-  ~DirectoryLock();
   DirectoryLock(const DirectoryLock&) = delete;
   DirectoryLock& operator=(const DirectoryLock&) = delete;
 
   bool is_locked() const { return locked_; }
 
 private:
-  bool open_and_lock(const std::filesystem::path& directory, Wish wish);
+  bool lock(const std::filesystem::path& directory, Wish wish);
 
-  std::filesystem::path file_;
-  int open_ = -1;
+  std::optional<os::WhenInterrupted> when_interrupted_;
+  os::LockFile file_;
   bool locked_;
-  std::optional<WhenInterrupted> when_interrupted_;
 };
 
 } // namespace frictab::io

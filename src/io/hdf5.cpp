@@ -36,17 +36,17 @@ struct Hdf5Reader::Data {
   }
 
   // Runs the library on the file in a child process.
-  void ask(const std::function<void(ByteSink&)>& work,
-           const std::function<bool(ByteSource&)>& take) const {
+  void ask(const std::function<void(os::ByteSink&)>& work,
+           const std::function<bool(os::ByteSource&)>& take) const {
     // no other thread uses the library during the fork
     const std::lock_guard lock(hdf5::library());
-    ChildLimits limits;
+    os::ChildLimits limits;
     limits.cpu_seconds += static_cast<unsigned>(file_bytes >> 22);
-    const auto of_child = [&](ByteSink& out) {
+    const auto of_child = [&](os::ByteSink& out) {
       hdf5::library(true);
       work(out);
     };
-    if (!run_isolated(limits, of_child, take))
+    if (!os::run_isolated(limits, of_child, take))
       fail("is damaged: the HDF5 library crashes on it or comes to no end",
            "write it again from its source");
   }
@@ -59,8 +59,9 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, std::string named)
   data_->named = std::move(named);
   const auto bytes = std::filesystem::file_size(file, ignored);
   data_->file_bytes = ignored ? 0 : bytes;
-  data_->ask([&](ByteSink& out) { scan_hdf5(file, out); },
-             [&](ByteSource& in) { return take_contents(in, data_->file_bytes, data_->contents); });
+  data_->ask(
+      [&](os::ByteSink& out) { scan_hdf5(file, out); },
+      [&](os::ByteSource& in) { return take_contents(in, data_->file_bytes, data_->contents); });
   if (!data_->contents.fault.empty()) data_->fail(data_->contents.fault, data_->contents.hint);
 }
 
@@ -137,8 +138,9 @@ void Hdf5Reader::blocks(
     return;
   }
   std::string fault, hint;
-  data_->ask([&](ByteSink& out) { scan_values(data_->file, dataset, most, out); },
-             [&](ByteSource& in) { return take_values(in, set.count(), most, take, fault, hint); });
+  data_->ask(
+      [&](os::ByteSink& out) { scan_values(data_->file, dataset, most, out); },
+      [&](os::ByteSource& in) { return take_values(in, set.count(), most, take, fault, hint); });
   if (!fault.empty()) data_->fail(fault, hint);
 }
 
@@ -161,8 +163,8 @@ std::vector<Hdf5Values> Hdf5Reader::slices(std::span<const Hdf5Slice> wanted) co
   std::vector<Hdf5Values> read;
   std::string fault, hint;
   if (!not_held.empty())
-    data_->ask([&](ByteSink& out) { scan_slices(data_->file, not_held, out); },
-               [&](ByteSource& in) {
+    data_->ask([&](os::ByteSink& out) { scan_slices(data_->file, not_held, out); },
+               [&](os::ByteSource& in) {
                  return take_slices(in, data_->file_bytes, not_held, read, fault, hint);
                });
   if (!fault.empty()) data_->fail(fault, hint);

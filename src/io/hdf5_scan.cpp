@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 #include <hdf5_hl.h>
-#include <unistd.h>
 
+#include "core/os/files.h"
 #include "io/hdf5_handle.h"
 
 namespace frictab::io {
@@ -319,7 +319,7 @@ Unreadable not_opened(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return {"no such file", ""};
   if (std::filesystem::is_directory(file, error)) return {"is a directory, a file is needed", ""};
-  if (::access(file.c_str(), R_OK) != 0) return {"cannot be read", "check its permissions"};
+  if (!os::may_read(file)) return {"cannot be read", "check its permissions"};
   return {"cannot be opened as HDF5",
           "it may be cut short or of another format; write it again, or give a CSV file"};
 }
@@ -340,7 +340,7 @@ public:
     return all;
   }
 
-  void values(const std::string& name, std::size_t most, ByteSink& out) const {
+  void values(const std::string& name, std::size_t most, os::ByteSink& out) const {
     const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     // for chunks that span several blocks
     H5Pset_chunk_cache(access, 12421, std::size_t{1} << 26, 1);
@@ -351,7 +351,7 @@ public:
     });
   }
 
-  void slice(const Hdf5Slice& wanted, ByteSink& out) const {
+  void slice(const Hdf5Slice& wanted, os::ByteSink& out) const {
     const Handle set(opened(wanted.dataset, H5P_DEFAULT), H5Dclose);
     const Handle type(H5Dget_type(set), H5Tclose);
     const std::vector<std::size_t> shape = shape_of(wanted.dataset, set);
@@ -461,7 +461,7 @@ private:
 
 // ---- as bytes ----
 
-void put(ByteSink& out, const Hdf5Attributes& attributes) {
+void put(os::ByteSink& out, const Hdf5Attributes& attributes) {
   out.number(attributes.size());
   for (const auto& [name, value] : attributes) {
     out.text(name);
@@ -474,19 +474,19 @@ void put(ByteSink& out, const Hdf5Attributes& attributes) {
   }
 }
 
-void put(ByteSink& out, const std::vector<std::size_t>& numbers) {
+void put(os::ByteSink& out, const std::vector<std::size_t>& numbers) {
   out.number(numbers.size());
   for (const std::size_t number : numbers)
     out.number(number);
 }
 
-void put(ByteSink& out, const std::vector<std::string>& texts) {
+void put(os::ByteSink& out, const std::vector<std::string>& texts) {
   out.number(texts.size());
   for (const std::string& text : texts)
     out.text(text);
 }
 
-void put(ByteSink& out, const Hdf5Dataset& set) {
+void put(os::ByteSink& out, const Hdf5Dataset& set) {
   put(out, set.attributes);
   put(out, set.shape);
   out.number(set.scales.size());
@@ -507,7 +507,7 @@ void put(ByteSink& out, const Hdf5Dataset& set) {
   out.text(set.other_type);
 }
 
-void put(ByteSink& out, const std::vector<Hdf5Other>& others) {
+void put(os::ByteSink& out, const std::vector<Hdf5Other>& others) {
   out.number(others.size());
   for (const Hdf5Other& other : others) {
     out.text(other.name);
@@ -518,7 +518,7 @@ void put(ByteSink& out, const std::vector<Hdf5Other>& others) {
 // Parses the output of `put`; refuses any size that a file of these bytes cannot contain.
 class Taker {
 public:
-  Taker(ByteSource& in, std::uint64_t file_bytes)
+  Taker(os::ByteSource& in, std::uint64_t file_bytes)
       : in_(in), most_(file_bytes * best_ratio + 65536) {}
 
   bool take(Hdf5Contents& all) {
@@ -612,7 +612,7 @@ private:
            (set.is_text ? set.texts.size() : set.values.size()) == wanted;
   }
 
-  ByteSource& in_;
+  os::ByteSource& in_;
   std::uint64_t most_;
 };
 
@@ -625,7 +625,7 @@ std::size_t Hdf5Dataset::count() const {
   return count;
 }
 
-void scan_hdf5(const std::filesystem::path& file, ByteSink& out) {
+void scan_hdf5(const std::filesystem::path& file, os::ByteSink& out) {
   silence();
   Hdf5Contents all;
   try {
@@ -651,7 +651,7 @@ void scan_hdf5(const std::filesystem::path& file, ByteSink& out) {
 }
 
 void scan_values(const std::filesystem::path& file, const std::string& dataset, std::size_t most,
-                 ByteSink& out) {
+                 os::ByteSink& out) {
   silence();
   Unreadable fault;
   try {
@@ -665,7 +665,7 @@ void scan_values(const std::filesystem::path& file, const std::string& dataset, 
 }
 
 void scan_slices(const std::filesystem::path& file, std::span<const Hdf5Slice> wanted,
-                 ByteSink& out) {
+                 os::ByteSink& out) {
   silence();
   try {
     const Scan scan(file);
@@ -678,11 +678,11 @@ void scan_slices(const std::filesystem::path& file, std::span<const Hdf5Slice> w
   }
 }
 
-bool take_contents(ByteSource& in, std::uint64_t file_bytes, Hdf5Contents& contents) {
+bool take_contents(os::ByteSource& in, std::uint64_t file_bytes, Hdf5Contents& contents) {
   return Taker(in, file_bytes).take(contents);
 }
 
-bool take_values(ByteSource& in, std::size_t count, std::size_t most,
+bool take_values(os::ByteSource& in, std::size_t count, std::size_t most,
                  const std::function<void(std::size_t, std::span<const double>)>& take,
                  std::string& fault, std::string& hint) {
   std::vector<double> values;
@@ -701,7 +701,7 @@ bool take_values(ByteSource& in, std::size_t count, std::size_t most,
   return false;
 }
 
-bool take_slices(ByteSource& in, std::uint64_t file_bytes, std::span<const Hdf5Slice> wanted,
+bool take_slices(os::ByteSource& in, std::uint64_t file_bytes, std::span<const Hdf5Slice> wanted,
                  std::vector<Hdf5Values>& slices, std::string& fault, std::string& hint) {
   const std::uint64_t longest = file_bytes * best_ratio + 65536;
   for (const Hdf5Slice& slice : wanted) {

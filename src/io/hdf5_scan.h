@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/os/isolated.h"
 #include "io/hdf5.h"
-#include "io/isolated.h"
 
 namespace frictab::io {
 
@@ -41,23 +41,23 @@ struct Hdf5Contents {
 };
 
 // Writers that run in the child.
-void scan_hdf5(const std::filesystem::path& file, ByteSink& out);
+void scan_hdf5(const std::filesystem::path& file, os::ByteSink& out);
 // Writes the values of one dataset, at most `most` at a time.
 void scan_values(const std::filesystem::path& file, const std::string& dataset, std::size_t most,
-                 ByteSink& out);
+                 os::ByteSink& out);
 void scan_slices(const std::filesystem::path& file, std::span<const Hdf5Slice> wanted,
-                 ByteSink& out);
+                 os::ByteSink& out);
 
 // Readers that run in the parent. They return false if the bytes cannot come from a scan of a file
 // of `file_bytes`.
-bool take_contents(ByteSource& in, std::uint64_t file_bytes, Hdf5Contents& contents);
+bool take_contents(os::ByteSource& in, std::uint64_t file_bytes, Hdf5Contents& contents);
 // Calls take(first, values) for the output of scan_values; if that is an error, sets `fault` and
 // `hint`.
-bool take_values(ByteSource& in, std::size_t count, std::size_t most,
+bool take_values(os::ByteSource& in, std::size_t count, std::size_t most,
                  const std::function<void(std::size_t, std::span<const double>)>& take,
                  std::string& fault, std::string& hint);
 // Reads the output of scan_slices for slices within datasets of `file_bytes`.
-bool take_slices(ByteSource& in, std::uint64_t file_bytes, std::span<const Hdf5Slice> wanted,
+bool take_slices(os::ByteSource& in, std::uint64_t file_bytes, std::span<const Hdf5Slice> wanted,
                  std::vector<Hdf5Values>& slices, std::string& fault, std::string& hint);
 
 } // namespace frictab::io

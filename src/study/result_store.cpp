@@ -83,7 +83,7 @@ WorkDirectory::~WorkDirectory() {
 }
 
 bool WorkDirectory::publish() {
-  const Uninterrupted whole;
+  const os::Uninterrupted whole;
   if (std::rename(path_.c_str(), final_.c_str()) == 0) {
     path_.clear();
     return true;

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/interrupt.h"
+#include "core/os/interrupt.h"
 
 namespace frictab::study {
 
@@ -42,7 +42,7 @@ public:
 
 private:
   std::filesystem::path final_, path_;
-  std::optional<WhenInterrupted> when_interrupted_;
+  std::optional<os::WhenInterrupted> when_interrupted_;
 };
 
 } // namespace frictab::study

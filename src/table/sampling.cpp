@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include "core/os/machine.h"
 #include "core/text.h"
 #include "data/meaning.h"
 #include "table/direct.h"
@@ -23,9 +23,7 @@ std::size_t count_nodes(const std::vector<TableAxis>& axes) {
 }
 
 bool fits_into_memory(std::size_t nodes) {
-  const double memory =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  return sizeof(double) * static_cast<double>(nodes) < 0.5 * memory;
+  return sizeof(double) * static_cast<double>(nodes) < 0.5 * os::machine_memory();
 }
 
 namespace {

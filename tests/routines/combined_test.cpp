@@ -54,7 +54,7 @@ void expect_both_in_one_library(const codegen::Exporter& exporter, const std::st
   const TemporaryDirectory work;
   const Library library(codegen::compile_library(all, build, work.path()));
   for (const auto& [prefix, table] : laws) {
-    library.pass_directory(work.path(), prefix + "_directory");
+    codegen::pass_directory(library, work.path(), prefix + "_directory");
     const ExportRequest request = prefixed(table, prefix);
     const test::States states(table, 500, 3);
     std::vector<double> tau(states.rows());

@@ -188,7 +188,7 @@ TEST(ValuesFile, IsReadOnceByThreadsThatCallTogether) {
         made[target] = codegen::compile_library(bundle, variant, kept.path() / target);
       std::filesystem::copy_file(made[target], own);
       const codegen::Library library(own);
-      library.pass_directory(kept.path() / target);
+      codegen::pass_directory(library, kept.path() / target);
       std::atomic<int> waiting = 0, wrong = 0;
       std::vector<std::thread> threads;
       for (int t = 0; t < 8; ++t)

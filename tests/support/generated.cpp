@@ -74,7 +74,7 @@ std::unique_ptr<Library> library_of(const SourceBundle& bundle, const BuildVaria
     fs::rename(own, kept); // whole or not at all, whoever else makes it
   }
   auto library = std::make_unique<Library>(kept);
-  library->pass_directory(fs::path(kept).replace_extension());
+  codegen::pass_directory(*library, fs::path(kept).replace_extension());
   return library;
 }
 

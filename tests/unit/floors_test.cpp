@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 
 // From the ground up; ARCHITECTURE.md draws them.
 const std::vector<std::string> floors = {
-    "core",      "io",     "expr",  "data",    "stats",     "models", "effects",
-    "calibrate", "table",  "proof", "codegen", "exporters", "verify", "trace",
-    "words",     "report", "job",   "twin",    "run",       "study",  "cli"};
+    "core/os",   "core",  "io",    "expr",    "data",      "stats",  "models", "effects",
+    "calibrate", "table", "proof", "codegen", "exporters", "verify", "trace",  "words",
+    "report",    "job",   "twin",  "run",     "study",     "cli"};
 
 // 0 is the ground. main.cpp stands on top; what is no folder of src is one of exporters.
 std::size_t floor_of(const std::string& folder) {
@@ -32,16 +32,22 @@ std::size_t floor_of(const std::string& folder) {
       floors.begin());
 }
 
+// The floor's name, of a file of src as other files include it.
+std::string folder_of(const fs::path& file) {
+  return file.parent_path() == "core/os" ? "core/os" : file.begin()->string();
+}
+
 std::size_t floor_of_file(const fs::path& root, const fs::path& file) {
   const fs::path inside = fs::relative(file, root);
   if (root.filename() == "exporters") return floor_of("exporters");
-  return inside.has_parent_path() ? floor_of(inside.begin()->string()) : floors.size();
+  return inside.has_parent_path() ? floor_of(folder_of(inside)) : floors.size();
 }
 
-// Calls take(file, number of the line, what it includes) for every include in quotes below a
-// folder.
-template <class Take> void for_includes(const fs::path& folder, const Take& take) {
-  const std::regex include("#include \"([^\"]+)\".*");
+// Calls take(file, number of the line, what it includes) for every include in quotes, or for those
+// of another form, below a folder.
+template <class Take>
+void for_includes(const fs::path& folder, const Take& take,
+                  const std::regex& include = std::regex("#include \"([^\"]+)\".*")) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
     std::ifstream in(entry.path());
@@ -66,7 +72,7 @@ std::vector<std::string> includes_from_above() {
   for (const fs::path& root : {source / "src", source / "exporters"})
     for_includes(root, [&](const fs::path& file, int number, const fs::path& included) {
       const std::size_t own = floor_of_file(root, file);
-      if (included.has_parent_path() && floor_of(included.begin()->string()) > own)
+      if (included.has_parent_path() && floor_of(folder_of(included)) > own)
         faults.push_back(fault(file, number, included, floors[own]));
     });
   std::sort(faults.begin(), faults.end());
@@ -75,6 +81,29 @@ std::vector<std::string> includes_from_above() {
 
 TEST(Floors, NothingIncludesWhatStandsAboveIt) {
   EXPECT_EQ(fmt::format("{}", fmt::join(includes_from_above(), "\n")), "");
+}
+
+TEST(Floors, OnlyCoreOsIncludesHeadersOfPosix) {
+  const fs::path source = FRICTAB_SOURCE_DIR;
+  const std::regex posix("#\\s*include\\s*<((?:sys/.+|unistd|fcntl|fnmatch|signal|dlfcn|poll|spawn|"
+                         "termios|dirent|pwd|grp|glob|pthread|sched|netdb|syslog|langinfo|ftw)\\.h"
+                         "|csignal)>.*");
+  std::vector<std::string> faults;
+  std::set<std::string> allowed;
+  for (const fs::path& root : {source / "src", source / "exporters"})
+    for_includes(
+        root,
+        [&](const fs::path& file, int number, const fs::path& included) {
+          const fs::path inside = fs::relative(file, source);
+          if (inside.parent_path() == "src/core/os")
+            allowed.insert(included);
+          else
+            faults.push_back(fmt::format("{}:{}: includes {}, which is left to src/core/os",
+                                         inside.string(), number, included.string()));
+        },
+        posix);
+  EXPECT_EQ(fmt::format("{}", fmt::join(faults, "\n")), "");
+  EXPECT_THAT(allowed, testing::IsSupersetOf({"unistd.h", "sys/wait.h", "csignal", "glob.h"}));
 }
 
 // From the ground up. What all of them share are the headers of the folder itself; its .cpp files
@@ -112,8 +141,10 @@ std::vector<std::string> foreign_namespaces() {
   for (const auto& entry : fs::recursive_directory_iterator(source / "src")) {
     const fs::path inside = fs::relative(entry.path(), source / "src");
     if (!inside.has_parent_path()) continue; // main.cpp and folders
-    const std::string folder = inside.begin()->string();
-    const std::string own = folder == "core" ? "frictab" : "frictab::" + folder;
+    const std::string folder = folder_of(inside);
+    const std::string own = folder == "core"      ? "frictab"
+                            : folder == "core/os" ? "frictab::os"
+                                                  : "frictab::" + folder;
     std::ifstream in(entry.path());
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {

@@ -1,5 +1,5 @@
 // Work in a child process: however it ends, this one goes on and is told.
-#include "io/isolated.h"
+#include "core/os/isolated.h"
 
 #include <array>
 #include <cstdint>
@@ -12,10 +12,10 @@
 namespace frictab::isolated_test {
 namespace {
 
-using io::ByteSink;
-using io::ByteSource;
-using io::ChildLimits;
-using io::run_isolated;
+using os::ByteSink;
+using os::ByteSource;
+using os::ChildLimits;
+using os::run_isolated;
 
 bool take_all(ByteSource&) {
   return true;

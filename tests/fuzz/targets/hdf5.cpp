@@ -111,7 +111,7 @@ void read_scan(std::string_view bytes) {
   promise(file >= 0 && ::write(file, bytes.data(), bytes.size()) == ssize_t(bytes.size()) &&
               ::lseek(file, 0, SEEK_SET) == 0,
           "there is memory for the scan");
-  io::ByteSource source(file);
+  os::ByteSource source(file);
   io::Hdf5Contents contents;
   const bool taken = io::take_contents(source, bytes.size(), contents);
   ::close(file);

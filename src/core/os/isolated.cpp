@@ -1,5 +1,5 @@
 // A child process with a pipe and resource limits.
-#include "io/isolated.h"
+#include "core/os/isolated.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -14,7 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace frictab::io {
+namespace frictab::os {
 
 namespace {
 
@@ -179,4 +179,4 @@ bool run_isolated(const ChildLimits& limits, const std::function<void(ByteSink&)
   return child.end() && taken;
 }
 
-} // namespace frictab::io
+} // namespace frictab::os

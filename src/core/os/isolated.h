@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace frictab::io {
+namespace frictab::os {
 
 // Output of the child.
 class ByteSink {
@@ -51,4 +51,4 @@ struct ChildLimits {
 bool run_isolated(const ChildLimits& limits, const std::function<void(ByteSink&)>& work,
                   const std::function<bool(ByteSource&)>& take);
 
-} // namespace frictab::io
+} // namespace frictab::os

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-namespace frictab {
+namespace frictab::os {
 
 // Starts the waiting thread; call once, before any other thread starts. Without it WhenInterrupted
 // does nothing.
@@ -31,4 +31,4 @@ public:
   Uninterrupted& operator=(const Uninterrupted&) = delete;
 };
 
-} // namespace frictab
+} // namespace frictab::os

@@ -1,5 +1,5 @@
 // The list of undo functions, and the thread that waits for signals.
-#include "core/interrupt.h"
+#include "core/os/interrupt.h"
 
 #include <algorithm>
 #include <csignal>
@@ -11,7 +11,7 @@
 
 #include <unistd.h>
 
-namespace frictab {
+namespace frictab::os {
 
 namespace {
 
@@ -44,7 +44,7 @@ sigset_t interruptions() {
 }
 
 // Lets a fork wait until the thread runs: a starting thread allocates, and in a process forked
-// meanwhile (io/isolated) the allocator's lock would stay locked forever unless the allocator
+// meanwhile (isolated.h) the allocator's lock would stay locked forever unless the allocator
 // releases it in the child. glibc's does; that of AddressSanitizer (GCC 12) does not.
 std::latch& thread_has_started() {
   static std::latch started(1); // outlives the threads that wait on it or count it down
@@ -98,4 +98,4 @@ Uninterrupted::~Uninterrupted() {
   to_undo().mutex.unlock();
 }
 
-} // namespace frictab
+} // namespace frictab::os
