@@ -1,7 +1,6 @@
 // frictab doctor: checks this machine for libraries, compilers and targets, with advice on missing
 // ones.
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <thread>
@@ -16,6 +15,7 @@
 #include "cli/command.h"
 #include "codegen/exporter.h"
 #include "core/os/files.h"
+#include "core/os/process.h"
 #include "core/program.h"
 #include "core/text.h"
 #include "core/version.h"
@@ -37,21 +37,6 @@ struct Finding {
   std::string text;
   std::string mend;
 };
-
-// Returns the first executable of that name on PATH, as a shell finds it; "" without one.
-std::string on_path(const std::string& program) {
-  const char* path = std::getenv("PATH");
-  std::string rest = path ? path : "";
-  while (true) {
-    const std::size_t colon = rest.find(':');
-    const fs::path directory = rest.substr(0, colon);
-    const fs::path file = directory.empty() ? fs::path(".") / program : directory / program;
-    std::error_code error;
-    if (fs::is_regular_file(file, error) && os::may_run(file)) return file.string();
-    if (colon == rest.npos) return "";
-    rest.erase(0, colon + 1);
-  }
-}
 
 struct Compiler {
   const char* name;
@@ -91,7 +76,7 @@ void add_libraries(std::vector<Finding>& out) {
 
 void add_compilers(std::vector<Finding>& out) {
   for (const Compiler& compiler : compilers) {
-    const std::string file = on_path(compiler.name);
+    const std::string file = os::on_path(compiler.name);
     out.push_back({"compiler", compiler.name, !file.empty(), compiler.needed,
                    file.empty() ? std::string("not found; ") + compiler.purpose : file,
                    file.empty() ? std::string("apt install ") + compiler.package : ""});
@@ -121,7 +106,7 @@ Finding target_finding(const codegen::Exporter& target) {
     for (const codegen::BuildVariant& variant : variants) {
       const std::string& program = variant.program();
       const bool there =
-          program.empty() || (program.find('/') == program.npos && !on_path(program).empty());
+          program.empty() || (program.find('/') == program.npos && !os::on_path(program).empty());
       if (!there && std::count(lacking.begin(), lacking.end(), program) == 0)
         lacking.push_back(program);
     }

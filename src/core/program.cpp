@@ -3,7 +3,6 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -42,11 +41,7 @@ std::string beginning_and_end(const fs::path& file) {
 bool have_program(const std::string& name) {
   if (name.empty()) return true;
   if (name.find('/') != std::string::npos) return os::may_run(name);
-  const char* path = std::getenv("PATH");
-  std::istringstream directories(path ? path : "/usr/bin:/bin");
-  for (std::string directory; std::getline(directories, directory, ':');)
-    if (os::may_run(directory + "/" + name)) return true;
-  return false;
+  return !os::on_path(name).empty();
 }
 
 void run_program(const std::vector<std::string>& command, const fs::path& log,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <stdexcept>
@@ -14,11 +15,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/os/files.h"
 #include "core/os/interrupt.h"
 
 extern char** environ;
 
 namespace frictab::os {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -26,7 +30,7 @@ constexpr std::chrono::milliseconds longest_pause{5};
 
 class SpawnSettings {
 public:
-  explicit SpawnSettings(const std::filesystem::path& log) {
+  explicit SpawnSettings(const fs::path& log) {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
@@ -64,7 +68,21 @@ std::optional<int> wait_for(pid_t child, std::chrono::seconds patience) {
 
 } // namespace
 
-Ended run_process(const std::vector<std::string>& command, const std::filesystem::path& log,
+std::string on_path(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::string rest = path ? path : "/bin:/usr/bin";
+  while (true) {
+    const std::size_t colon = rest.find(':');
+    const fs::path directory = rest.substr(0, colon);
+    const fs::path file = directory.empty() ? fs::path(".") / program : directory / program;
+    std::error_code error;
+    if (fs::is_regular_file(file, error) && may_run(file)) return file.string();
+    if (colon == rest.npos) return "";
+    rest.erase(0, colon + 1);
+  }
+}
+
+Ended run_process(const std::vector<std::string>& command, const fs::path& log,
                   std::chrono::seconds patience) {
   std::vector<char*> argv;
   for (const std::string& word : command)

@@ -8,6 +8,9 @@
 
 namespace frictab::os {
 
+// Returns the first executable file of that name on PATH, as run_process finds it; "" without one.
+std::string on_path(const std::string& program);
+
 enum class Ended { well, badly, too_late };
 
 // Runs a program without a shell; it reads nothing, its output goes to `log`. When it ends or
