@@ -324,6 +324,9 @@ void ForceTarget::follow(DrivenPath& path) const {
       one.increment(i);
   };
   drive(all, 1, path.increments());
+  path.pace = 12;
+  drive(all, 1, path.increments() / 3);
+  path.pace = 1;
   if (edges) drive(all, 4, path.increments() / 4);
   for (const std::size_t fewer :
        {all - shown_states, std::size_t{4}, std::size_t{2}, std::size_t{0}})

@@ -75,6 +75,8 @@ public:
 
   std::size_t increments() const { return options_.increments; }
   double held(double value) const; // as the solver's precision holds it
+  // Multiplies all times: at a higher pace every history passes the end of its range.
+  double pace = 1;
 
   // States for a point in increment `i`: inside the range mostly, beyond each end in turn.
   WantedStates wanted(std::size_t point, std::size_t i);

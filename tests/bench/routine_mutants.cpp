@@ -179,7 +179,7 @@ struct Outcome {
 
 // Other paths than the one that verify takes, to see whether a mutant differs anywhere.
 constexpr std::array<codegen::PathOptions, 3> others = {
-    codegen::PathOptions{1, 240}, codegen::PathOptions{2, 600}, codegen::PathOptions{3, 600}};
+    codegen::PathOptions{1, 240}, codegen::PathOptions{2, 300}, codegen::PathOptions{3, 480}};
 
 Outcome outcome_of(const codegen::CompiledTarget& routine) {
   Outcome out;

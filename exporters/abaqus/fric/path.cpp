@@ -376,6 +376,9 @@ void follow(DrivenPath& path) {
       one.increment(i);
   };
   drive(true, path.increments());
+  path.pace = 12;
+  drive(true, path.increments() / 3);
+  path.pace = 1;
   drive(false, path.increments() / 4);
 }
 

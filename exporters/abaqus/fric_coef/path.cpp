@@ -257,6 +257,9 @@ void follow(DrivenPath& path) {
   };
   if (is_2024(path.request)) {
     drive(1, true, path.increments());
+    path.pace = 12;
+    drive(1, true, path.increments() / 3);
+    path.pace = 1;
     drive(1, false, path.increments() / 8);
   }
   drive(3, false, path.increments() / 2);

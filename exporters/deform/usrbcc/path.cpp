@@ -204,6 +204,9 @@ void follow(DrivenPath& path) {
       one.step(i);
   };
   drive(all, path.increments());
+  path.pace = 12;
+  drive(all, path.increments() / 3);
+  path.pace = 1;
   drive(std::min<std::size_t>(all, 2), path.increments() / 8);
 }
 

@@ -319,6 +319,9 @@ void follow(DrivenPath& path) {
       one.cycle(i);
   };
   drive(all, path.increments());
+  path.pace = 12;
+  drive(all, path.increments() / 3);
+  path.pace = 1;
   for (const std::size_t fewer : {all - 2, std::size_t{4}, std::size_t{2}, std::size_t{0}})
     drive(fewer, path.increments() / 12);
 }
