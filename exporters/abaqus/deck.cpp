@@ -10,24 +10,31 @@ using namespace codegen;
 namespace {
 
 // Writes property lines, eight values each.
-std::string property_deck(const std::vector<std::string>& values) {
+std::string property_deck(const std::vector<Placeholder>& values) {
   std::string deck;
   for (std::size_t i = 0; i < values.size(); ++i)
-    deck +=
-        (i % 8 == 0 ? " " : ", ") + values[i] + (i % 8 == 7 || i + 1 == values.size() ? "\n" : "");
+    deck += (i % 8 == 0 ? " " : ", ") + values[i].text +
+            (i % 8 == 7 || i + 1 == values.size() ? "\n" : "");
   return deck;
 }
 
 } // namespace
 
-std::string friction_lines(const std::string& user, std::size_t depvar,
-                           const std::vector<SolverInput>& inputs,
-                           const FurtherProperties& further) {
-  const std::vector<std::string> values = property_placeholders(inputs, further);
-  std::string deck = "*Surface Interaction, name=FRICTAB\n*Friction, " + user;
-  if (depvar > 0) deck += fmt::format(", depvar={}", depvar);
-  if (!values.empty()) deck += fmt::format(", properties={}", values.size());
-  return deck + "\n" + property_deck(values);
+Deck friction_deck(const std::string& user, std::size_t depvar,
+                   const std::vector<SolverInput>& inputs, const FurtherProperties& further,
+                   const std::string& of_model) {
+  Deck deck = {.file = "frictab.inp",
+               .reference = "*Include, input=frictab.inp",
+               .comment = "** ",
+               .lines = "*Surface Interaction, name=FRICTAB\n*Friction, " + user,
+               .of_model = of_model,
+               .script = "frictab_cae.py",
+               .placeholders = property_placeholders(inputs, further)};
+  if (depvar > 0) deck.lines += fmt::format(", depvar={}", depvar);
+  if (!deck.placeholders.empty())
+    deck.lines += fmt::format(", properties={}", deck.placeholders.size());
+  deck.lines += "\n" + property_deck(deck.placeholders);
+  return deck;
 }
 
 std::string field_lines(const std::vector<SolverInput>& inputs) {

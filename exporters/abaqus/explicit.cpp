@@ -7,6 +7,7 @@
 #include "codegen/fortran_build.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
+#include "codegen/source_check.h"
 #include "codegen/speed_scale.h"
 #include "core/text.h"
 #include "stop.h"
@@ -56,7 +57,7 @@ void add_compile(nlohmann::ordered_json& recipe, const std::vector<std::string>&
   const std::string user = files.size() == 1 ? files.front() : "<the sources as one file>.f";
   recipe["compile"] = {fmt::format("abaqus job=<job> user={} double=explicit", user),
                        fmt::format("abaqus job=<job> user={}", user),
-                       fortran::fixed_form_check(join(files, " "))};
+                       compile_line("gfortran", files)};
   recipe["compile_note"] =
       fmt::format("the last line only checks the {}, with a vaba_param.inc of your own",
                   files.size() == 1 ? "source" : "sources");

@@ -249,9 +249,9 @@ void ForceTarget::add_recipe(json& out, const ExportRequest& request, const Inpu
   out["state_variables"] = states;
   out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
   add_compile(out, files_of(routine_, request));
-  out["input_deck"] =
-      friction_lines(routine_.user, state_count(inputs), inputs, speed_scale(request, inputs)) +
-      routine_.deck_tail + field_lines(inputs) + contact_fields_lines(request);
+  add_deck(out,
+           friction_deck(routine_.user, state_count(inputs), inputs, speed_scale(request, inputs),
+                         routine_.deck_tail + field_lines(inputs) + contact_fields_lines(request)));
 }
 
 std::vector<BuildVariant> ForceTarget::builds(const ExportRequest& request) const {

@@ -10,6 +10,7 @@
 #include "codegen/entry_text.h"
 #include "codegen/number_text.h"
 #include "codegen/prefix.h"
+#include "codegen/read_me.h"
 #include "codegen/recipe.h"
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
@@ -206,7 +207,7 @@ public:
         request.table.is_direct() ? direct_source(request, inputs) : table_source(request, inputs);
     add_values_file(files, request);
     files["recipe.json"] = recipe(*this, request, inputs, files);
-    return with_prefix(files, request);
+    return with_prefix(explained(files, *this), request);
   }
 
   std::vector<BuildVariant> variants(const ExportRequest& request) const override {

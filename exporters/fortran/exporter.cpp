@@ -10,6 +10,7 @@
 #include "codegen/fortran_stop.h"
 #include "codegen/number_text.h"
 #include "codegen/prefix.h"
+#include "codegen/read_me.h"
 #include "codegen/recipe.h"
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
@@ -175,7 +176,7 @@ public:
     files["frictab_tau_R.f90"] = source(request, inputs);
     add_values_file(files, request);
     files["recipe.json"] = recipe(*this, request, inputs, files);
-    return with_prefix(files, request);
+    return with_prefix(explained(files, *this), request);
   }
 
   std::vector<BuildVariant> variants(const ExportRequest& request) const override {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/check_sources.h"
 #include "cli/combined.h"
 #include "cli/job_commands.h"
 #include "cli/law_alone.h"
@@ -26,6 +27,7 @@ struct Options {
   std::vector<std::string> combine;
   std::string law;
   std::vector<std::string> parameters, ranges;
+  bool check = false;
 };
 
 int export_alone(const Options& options, const CommonOptions& common) {
@@ -37,6 +39,39 @@ int export_alone(const Options& options, const CommonOptions& common) {
   write_sources(output, exporters, table, {options.units, options.temperature});
   commit_and_list(output, common);
   return 0;
+}
+
+int write(const Options& options, const CommonOptions& common) {
+  if (!options.combine.empty()) {
+    if (!options.table.empty())
+      throw InputError({}, "--combine and --table exclude each other",
+                       "--combine NAME=FILE takes the tables itself");
+    return export_combined(
+        {options.combine, options.job, options.targets, options.units, options.temperature},
+        common);
+  }
+  if (!common.set.empty() && (!options.law.empty() || !options.table.empty()))
+    throw InputError({}, "--set overrides keys of a job, and here is none",
+                     "--units, --temperature, and of --law --param and --range; other options take "
+                     "a job, whose table.model may be a law of constants");
+  if (!options.law.empty()) {
+    if (!options.job.empty() || !options.table.empty())
+      throw InputError({}, "--law stands alone", "without JOB and --table");
+    return export_law({options.law, options.parameters, options.ranges, options.targets,
+                       options.units, options.temperature},
+                      common);
+  }
+  if (!options.parameters.empty() || !options.ranges.empty())
+    throw InputError({}, "--param and --range belong to --law", "--law coulomb --param mu=0.08");
+  const std::string how =
+      "give a JOB file, --table FILE -o DIR [--targets c,abaqus_vfric], --law NAME --param P=V "
+      "... -o DIR, or --combine NAME=FILE ... -o DIR --targets abaqus_vfric";
+  if (options.table.empty() && !has_job(options.job))
+    throw InputError({}, "nothing to export", how);
+  if (!options.table.empty() && !options.job.empty())
+    throw InputError({}, "JOB and --table exclude each other", how);
+  if (!options.table.empty()) return export_alone(options, common);
+  return run_stage_command(options.job, common, "export");
 }
 
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
@@ -66,38 +101,19 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
                  "With --law: over which states; usual are those of Table 1. With a range of "
                  "sigma_f_MPa the shear limit holds")
       ->type_name("STATE=LOW..HIGH");
+  app.add_flag("--check", options->check,
+               "Then compile each source on its own, with the compiler that is here; with -o DIR "
+               "alone those that DIR has");
   return [options, &common]() -> int {
-    if (!options->combine.empty()) {
-      if (!options->table.empty())
-        throw InputError({}, "--combine and --table exclude each other",
-                         "--combine NAME=FILE takes the tables itself");
-      return export_combined(
-          {options->combine, options->job, options->targets, options->units, options->temperature},
-          common);
-    }
-    if (!common.set.empty() && (!options->law.empty() || !options->table.empty()))
-      throw InputError(
-          {}, "--set overrides keys of a job, and here is none",
-          "--units, --temperature, and of --law --param and --range; other options take "
-          "a job, whose table.model may be a law of constants");
-    if (!options->law.empty()) {
-      if (!options->job.empty() || !options->table.empty())
-        throw InputError({}, "--law stands alone", "without JOB and --table");
-      return export_law({options->law, options->parameters, options->ranges, options->targets,
-                         options->units, options->temperature},
-                        common);
-    }
-    if (!options->parameters.empty() || !options->ranges.empty())
-      throw InputError({}, "--param and --range belong to --law", "--law coulomb --param mu=0.08");
-    const std::string how =
-        "give a JOB file, --table FILE -o DIR [--targets c,abaqus_vfric], --law NAME --param P=V "
-        "... -o DIR, or --combine NAME=FILE ... -o DIR --targets abaqus_vfric";
-    if (options->table.empty() && !has_job(options->job))
-      throw InputError({}, "nothing to export", how);
-    if (!options->table.empty() && !options->job.empty())
-      throw InputError({}, "JOB and --table exclude each other", how);
-    if (!options->table.empty()) return export_alone(*options, common);
-    return run_stage_command(options->job, common, "export");
+    if (!options->check) return write(*options, common);
+    const bool nothing_new = options->job.empty() && options->table.empty() &&
+                             options->law.empty() && options->combine.empty();
+    if (nothing_new && !common.output.empty()) return check_sources(common.output);
+    const int code = write(*options, common);
+    if (code != 0 || common.dry_run) return code;
+    const bool of_job = options->combine.empty() && options->table.empty() && options->law.empty();
+    return check_sources(of_job ? read_job(job_file(options->job), common).directory + "/export"
+                                : common.output);
   };
 }
 
@@ -112,6 +128,7 @@ const Registered<Command> registered{[] {
        {"frictab export --table out/tables/coulomb.h5 --targets c,marc_ufric -o routines",
         "of one table"},
        {"frictab export --law coulomb --param mu=0.08 -o literature", "of known constants"},
+       {"frictab export job.toml --check", "and compile each of them on its own"},
        {"frictab export --combine PUNCH=out/tables/coulomb.h5 DIE=out/tables/shear.h5 --targets "
         "abaqus_vfric -o both",
         "two laws in one user file"}}};

@@ -12,6 +12,7 @@
 #include "codegen/fixed_form.h"
 #include "codegen/fortran_parts.h"
 #include "codegen/prefix.h"
+#include "codegen/read_me.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "core/version.h"
@@ -297,14 +298,11 @@ std::string deck_of(std::string deck, const std::string& name, const LawSelector
 }
 
 // Keys of a recipe that describe the law and not the routine.
-const std::vector<std::string> of_law = {"model",           "form",
-                                         "data_origin",     "values_file",
-                                         "options",         "dimension",
-                                         "arguments",       "result",
-                                         "acts_when",       "state_variables_by",
-                                         "state_variables", "properties",
-                                         "constants",       "build",
-                                         "input_deck",      "table"};
+const std::vector<std::string> of_law = {
+    "model",           "form",         "data_origin", "values_file", "options",
+    "dimension",       "arguments",    "result",      "acts_when",   "state_variables_by",
+    "state_variables", "properties",   "constants",   "build",       "input_deck",
+    "include",         "include_file", "table"};
 
 json law_recipe(const json& alone, const ExportRequest& law, const Combination& c) {
   json out = {{"name", law.law_name}, {"entry", stem(law) + c.entry}};
@@ -312,6 +310,9 @@ json law_recipe(const json& alone, const ExportRequest& law, const Combination& 
     if (alone.contains(key)) out[key] = alone[key];
   out["export"] = {{"inputs", law.inputs}, {"options", law.options}};
   out["input_deck"] = deck_of(out.at("input_deck"), law.law_name, c.by);
+  if (out.contains("include"))
+    for (const char* const lines : {"lines", "of_model"})
+      out["include"][lines] = deck_of(out["include"][lines], law.law_name, c.by);
   return out;
 }
 
@@ -436,7 +437,7 @@ SourceBundle combine(const Combination& c, const std::vector<ExportRequest>& law
     }
   out[file] = combined_source(c, laws, sources);
   out["recipe.json"] = io::json_text(combined_recipe(c, laws, recipes, out));
-  return out;
+  return explained(out, c.exporter);
 }
 
 } // namespace frictab::codegen

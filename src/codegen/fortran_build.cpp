@@ -5,28 +5,17 @@
 
 #include "codegen/combine.h"
 #include "codegen/fortran_stop.h"
-#include "core/text.h"
+#include "codegen/source_check.h"
 
 namespace frictab::codegen::fortran {
 
-namespace {
-
-const std::vector<std::string> fixed_form_flags = {"-O2", "-std=legacy", "-ffixed-line-length-72",
-                                                   "-ffp-contract=off"};
-
-} // namespace
-
 std::vector<std::string> library_command(const std::vector<std::string>& flags) {
-  std::vector<std::string> command = {"gfortran"};
-  command.insert(command.end(), fixed_form_flags.begin(), fixed_form_flags.end());
+  std::vector<std::string> command = compile_flags("gfortran", ".f");
+  command.insert(command.begin(), "gfortran");
   command.insert(command.end(), {"-fPIC", "-shared"});
   command.insert(command.end(), flags.begin(), flags.end());
   command.insert(command.end(), {"-o", "@{out}"});
   return command;
-}
-
-std::string fixed_form_check(const std::string& file) {
-  return "gfortran -c " + join(fixed_form_flags, " ") + " " + file;
 }
 
 BuildVariant fortran_variant(const ExportRequest& request, const std::string& name, double eps,

@@ -14,9 +14,6 @@ namespace frictab::codegen::fortran {
 // caller appends the sources.
 std::vector<std::string> library_command(const std::vector<std::string>& flags);
 
-// Returns the command line that compiles a source on its own.
-std::string fixed_form_check(const std::string& file);
-
 // Returns the variant that compiles these files of the bundle to a library. If they have an ftquit,
 // one that returns silently replaces it, so that rows can be driven one after another. `quits` as
 // in CoreOptions, eps as in BuildVariant.

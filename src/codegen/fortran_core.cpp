@@ -126,19 +126,9 @@ std::vector<std::string> about(const ExportRequest& request) {
           fmt::format("tau_R_MPa = {}", expr::to_text(table.combine))};
 }
 
-std::vector<std::string> outside(const Table& table, const std::string& error_action) {
-  std::vector<std::string> lines = outside_lines(table);
-  if (lines.empty())
-    return {"Outside the range the " + std::string(table.is_direct() ? "law" : "table") +
-            "'s value at the nearest edge is used; " + unchanged_states(table) +
-            " enter the formula unchanged."};
-  lines.insert(lines.begin(), "Outside the range (error: " + error_action + "):");
-  return lines;
-}
-
 std::string head_text(const ExportRequest& request, const std::vector<SolverInput>& inputs,
                       const Head& head) {
-  std::vector<std::string> remarks = outside(request.table, head.error_action);
+  std::vector<std::string> remarks = outside_rule(request.table, head.error_action);
   for (const std::string& line : values_file_lines(request, head.directory_routine))
     remarks.push_back(line);
   TemplateValues values;

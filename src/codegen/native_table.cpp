@@ -9,6 +9,7 @@
 
 #include "codegen/coefficient.h"
 #include "codegen/entry_arguments.h"
+#include "codegen/read_me.h"
 #include "codegen/table_checks.h"
 #include "core/columns.h"
 #include "core/error.h"
@@ -414,7 +415,7 @@ SourceBundle NativeTarget::generate(const ExportRequest& request) const {
       {text_.file, write(request, table, native_comments(*this, request, native, table))}};
   files["recipe.json"] =
       native_recipe(*this, request, native, table, files, text_.entry, text_.input_deck);
-  return files;
+  return explained(files, *this);
 }
 
 std::vector<BuildVariant> NativeTarget::variants(const ExportRequest&) const {

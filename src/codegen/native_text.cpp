@@ -104,11 +104,13 @@ std::string native_recipe(const Exporter& exporter, const ExportRequest& request
   out["arguments"] = json::array();
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const InputArgument& argument = table.columns[c].argument;
-    out["arguments"].push_back({{"quantity", argument.name},
-                                {"unit", argument.solver.name},
-                                {"meaning", argument.meaning},
-                                {"source", table.columns[c].text},
-                                {"nodes", table.values.nodes[c].size()}});
+    out["arguments"].push_back(
+        {{"quantity", argument.name},
+         {"unit", argument.solver.name},
+         {"meaning", argument.meaning},
+         {"source", table.columns[c].text},
+         {"range", range_of_column(request, table.columns[c], table.values.nodes[c])},
+         {"nodes", table.values.nodes[c].size()}});
   }
   out["result"] = {{"name", form.factor == NativeFactor::pressure ? "mu" : "m"},
                    {"meaning", form.factor == NativeFactor::pressure

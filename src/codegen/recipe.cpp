@@ -78,6 +78,7 @@ void describe_entry(json& recipe, const ExportRequest& request,
     argument["unit"] = input.solver.name;
     argument["meaning"] = input.meaning;
     argument["used"] = input.used;
+    argument["range"] = range_text(input, request.table);
     recipe["arguments"].push_back(std::move(argument));
   }
   recipe["result"] = {{"unit", solver_unit("MPa", request.units).name},
@@ -121,6 +122,9 @@ json recipe_table(const ExportRequest& request) {
     for (json& axis : out["axes"])
       axis.erase("nodes"), axis.erase("transform");
   const table::TableRecord& record = table.record;
+  out["drift"] = drift_text(table);
+  if (record.tolerance_MPa) out["tolerance_MPa"] = *record.tolerance_MPa;
+  out["beyond_range"] = outside_rule(table, "NaN, or the end of the analysis");
   if (record.worst_case_MPa) out["worst_case_MPa"] = *record.worst_case_MPa;
   if (record.proven_drift_MPa) out["proven_drift_MPa"] = *record.proven_drift_MPa;
   if (table.drift_is_claimed && record.worst_case_MPa)

@@ -5,7 +5,9 @@
 
 #include "codegen/flow_curve.h"
 #include "codegen/prefix.h"
+#include "codegen/read_me.h"
 #include "codegen/recipe.h"
+#include "codegen/table_text.h"
 #include "codegen/values_file.h"
 #include "io/json.h"
 
@@ -32,7 +34,7 @@ RoutineTarget::Inputs RoutineTarget::checked_inputs(const ExportRequest& request
   return inputs;
 }
 
-SourceBundle RoutineTarget::generate(const ExportRequest& as_given) const {
+SourceBundle RoutineTarget::sources_and_recipe(const ExportRequest& as_given) const {
   const CurvedRequest curved(as_given, gives(as_given));
   const ExportRequest& request = curved.get();
   check_request(request);
@@ -41,9 +43,18 @@ SourceBundle RoutineTarget::generate(const ExportRequest& as_given) const {
   add_values_file(files, request);
   nlohmann::ordered_json recipe = recipe_head(*this, request, entry_, files);
   add_recipe(recipe, request, inputs);
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    recipe["arguments"][i]["range"] = range_text(inputs[i].argument, request.table);
+  const BuildVariant build = builds(request).front();
+  for (const auto& [path, text] : build.extra)
+    if (path.ends_with(".inc")) recipe["stand_ins"][path] = text;
   recipe["table"] = recipe_table(request);
   files["recipe.json"] = io::json_text(recipe);
-  return under_prefix(files, request);
+  return files;
+}
+
+SourceBundle RoutineTarget::generate(const ExportRequest& request) const {
+  return under_prefix(explained(sources_and_recipe(request), *this), request);
 }
 
 std::vector<BuildVariant> RoutineTarget::variants(const ExportRequest& as_given) const {
@@ -96,7 +107,7 @@ CombinedBundle RoutineTarget::combine(const std::vector<ExportRequest>& requests
   CombinedBundle out{{}, named_laws(alone, names, selector_)};
   std::vector<SourceBundle> bundles;
   for (std::size_t i = 0; i < alone.size(); ++i)
-    bundles.push_back(faults_of_law(names[i], [&] { return generate(alone[i]); }));
+    bundles.push_back(faults_of_law(names[i], [&] { return sources_and_recipe(alone[i]); }));
   out.files = codegen::combine({*this, entry_, arguments(requests.front()), quit(), selector_},
                                out.laws, bundles);
   return out;

@@ -58,6 +58,8 @@ private:
   // ftquit of fortran::Core, for a contact to which none of several laws belongs.
   virtual std::string quit() const { return ""; }
 
+  // Returns sources and recipe without the files that explain them (codegen/read_me.h).
+  SourceBundle sources_and_recipe(const ExportRequest& request) const;
   std::string template_path(const std::string& file) const;
   Inputs checked_inputs(const ExportRequest& request) const;
 

@@ -288,13 +288,26 @@ std::string meaning_and_unit(const SolverInput& input) {
   return of.solver.name == "1" ? of.meaning : of.meaning + ", " + of.solver.name;
 }
 
-std::vector<std::string> property_placeholders(const std::vector<SolverInput>& inputs,
+namespace {
+
+// Returns the property's value if the deck gives none, in the solver's unit; empty: not known.
+std::string value_where_absent(const SolverInput& input) {
+  if (!input.fallback) return "";
+  return fmt::format("{:.6g}", input.argument.solver.from_canonical(*input.fallback));
+}
+
+} // namespace
+
+std::vector<Placeholder> property_placeholders(const std::vector<SolverInput>& inputs,
                                                const FurtherProperties& further) {
-  std::vector<std::string> places;
+  std::vector<Placeholder> places;
   for (const SolverInput& input : inputs)
-    if (input.property) places.push_back("<" + meaning_and_unit(input) + ">");
+    if (input.property)
+      places.push_back({"<" + meaning_and_unit(input) + ">", value_where_absent(input),
+                        fmt::format("property {}: {}", input.property, meaning_and_unit(input))});
   for (const FurtherProperty& property : further)
-    places.push_back(property.placeholder);
+    places.push_back({property.placeholder, fmt::format("{:.6g}", property.where_absent),
+                      fmt::format("property {}: {}", property.number, property.meaning)});
   return places;
 }
 
@@ -444,9 +457,8 @@ std::vector<std::string> property_lines(const std::vector<SolverInput>& inputs,
   for (const SolverInput& input : inputs) {
     if (input.property == 0) continue;
     const SolverUnit& unit = input.argument.solver;
-    const std::string absent = input.fallback
-                                   ? fmt::format("{:.6g}", unit.from_canonical(*input.fallback))
-                                   : "not known: NaN until it is given";
+    const std::string value = value_where_absent(input);
+    const std::string absent = value.empty() ? "not known: NaN until it is given" : value;
     lines.push_back(fmt::format("{} {}, {} ({}){}", input.property, input.argument.meaning,
                                 unit.name, absent,
                                 input.without.empty() ? "" : ", reference where " + input.without));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "codegen/deck.h"
 #include "codegen/entry_arguments.h"
 #include "codegen/exporter.h"
 #include "core/error.h"
@@ -114,8 +115,9 @@ bool takes(const std::vector<SolverInput>& inputs, const std::string& state); //
 std::string meaning_and_unit(const SolverInput& input); // "contact temperature, degC"
 
 // Texts of a deck in the properties' places, for the user to replace: "<flow stress of the
-// workpiece, MPa>". A number could be mistaken for one of the process.
-std::vector<std::string> property_placeholders(const std::vector<SolverInput>& inputs,
+// workpiece, MPa>". A number could be mistaken for one of the process; that of an include is the
+// one which the routine takes if the deck gives none.
+std::vector<Placeholder> property_placeholders(const std::vector<SolverInput>& inputs,
                                                const FurtherProperties& further);
 
 namespace fortran {

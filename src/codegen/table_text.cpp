@@ -65,6 +65,16 @@ std::string unchanged_states(const table::Table& table) {
   return others.empty() ? "stress and flow stress" : "stress, flow stress, " + others;
 }
 
+std::vector<std::string> outside_rule(const table::Table& table, const std::string& error_action) {
+  std::vector<std::string> lines = outside_lines(table);
+  if (lines.empty())
+    return {"Outside the range the " + std::string(table.is_direct() ? "law" : "table") +
+            "'s value at the nearest edge is used; " + unchanged_states(table) +
+            " enter the formula unchanged."};
+  lines.insert(lines.begin(), "Outside the range (error: " + error_action + "):");
+  return lines;
+}
+
 std::string drift_text(const table::Table& table) {
   if (table.is_direct()) return "none but rounding, it is the law itself; measured in verify.json";
   const table::TableRecord& record = table.record;

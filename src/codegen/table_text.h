@@ -22,6 +22,9 @@ std::vector<std::string> outside_lines(const table::Table& table);
 // and flow stress", and other states in it.
 std::string unchanged_states(const table::Table& table);
 
+// Returns what holds beyond the range as sentences; `error_action`: what an error does.
+std::vector<std::string> outside_rule(const table::Table& table, const std::string& error_action);
+
 // Returns "worst drift ..., measured in verification" or "not known"; from the table's attributes.
 std::string drift_text(const table::Table& table);
 std::string origin_text(const table::Table& table);

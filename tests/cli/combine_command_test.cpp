@@ -57,7 +57,9 @@ TEST_F(CombineCommand, WritesAUserFileThatVerifyProvesUntilSomebodySwapsTheLaws)
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   const CommandResult made = combine(both, {"--targets", "abaqus_fric", "-o", "user"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_EQ(made.out, "user/abaqus_fric/frictab_fric.f\nuser/abaqus_fric/recipe.json\n");
+  EXPECT_EQ(made.out, "user/abaqus_fric/README.md\nuser/abaqus_fric/frictab.inp\n"
+                      "user/abaqus_fric/frictab_cae.py\nuser/abaqus_fric/frictab_fric.f\n"
+                      "user/abaqus_fric/recipe.json\n");
   const auto recipe = test::parse_json(directory.read("user/abaqus_fric/recipe.json"));
   EXPECT_EQ(recipe.at("laws")[1].at("name"), "DIE");
   EXPECT_EQ(recipe.at("laws")[1].at("table_file"), "../../b/soap.h5");

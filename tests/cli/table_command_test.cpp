@@ -339,8 +339,10 @@ TEST_F(ForeignTable, IsExportedToARoutineThatGivesItsValues) {
       run_frictab({"export", "--table", "small.h5", "-o", "sources"}, directory.path());
   EXPECT_EQ(made.exit_code, 0) << made.err;
   EXPECT_EQ(made.err, "");
-  EXPECT_EQ(made.out, "sources/abaqus_vfric/frictab_vfric.f\n"
+  EXPECT_EQ(made.out, "sources/abaqus_vfric/README.md\n"
+                      "sources/abaqus_vfric/frictab_vfric.f\n"
                       "sources/abaqus_vfric/recipe.json\n"
+                      "sources/c/README.md\n"
                       "sources/c/frictab_tau_R.c\n"
                       "sources/c/frictab_tau_R.h\n"
                       "sources/c/recipe.json\n");

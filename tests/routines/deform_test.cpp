@@ -244,7 +244,7 @@ TEST_F(SlowDeform, ReadsNoFileAndNoTextWhileItRuns) {
   const std::regex input("\n *(read|open|inquire)\\b|iusr", std::regex::icase);
   for (const test::NamedTable& sample : test::sample_tables())
     for (const auto& [path, text] : deform().generate(request(sample.table))) {
-      if (path == "recipe.json") continue;
+      if (!path.ends_with(".f")) continue;
       EXPECT_FALSE(std::regex_search(text, input)) << path;
     }
 }

@@ -8,11 +8,11 @@
 #include "abaqus/deck.h"
 #include "abaqus/standard.h"
 #include "abaqus/stop.h"
-#include "codegen/fortran_build.h"
 #include "codegen/outside_summary.h"
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
 #include "codegen/solver_units.h"
+#include "codegen/source_check.h"
 #include "codegen/values_file.h"
 #include "source.h"
 
@@ -25,12 +25,6 @@ namespace {
 using json = nlohmann::ordered_json;
 
 const char* const file = "frictab_fric.f";
-
-std::string input_deck(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  return abaqus::friction_lines("user", abaqus::states_size(state_count(inputs)), inputs,
-                                critical_slip(request, inputs)) +
-         abaqus::standard_lines(inputs);
-}
 
 json state_variables(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const std::string length = solver_unit("mm", request.units).name;
@@ -112,9 +106,11 @@ private:
     out["state_variables"] = state_variables(request, inputs);
     out["properties"] = recipe_properties(inputs, critical_slip(request, inputs));
     out["compile"] = {"abaqus job=<job> user=frictab_fric.f",
-                      fortran::fixed_form_check("frictab_fric.f")};
+                      compile_line("gfortran", {"frictab_fric.f"})};
     out["compile_note"] = "the last line only checks the source, with an aba_param.inc of your own";
-    out["input_deck"] = input_deck(request, inputs);
+    add_deck(out,
+             abaqus::friction_deck("user", abaqus::states_size(state_count(inputs)), inputs,
+                                   critical_slip(request, inputs), abaqus::standard_lines(inputs)));
   }
 
   std::vector<BuildVariant> builds(const ExportRequest& request) const override {

@@ -148,11 +148,9 @@ private:
     out["state_variables"] = nlohmann::ordered_json::array();
     out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
     abaqus::add_compile(out, {file});
-    out["input_deck"] =
-        abaqus::friction_lines("user=coefficient", 0, inputs, speed_scale(request, inputs)) +
-        "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
-        "*Contact Property Assignment\n , , FRICTAB\n" +
-        abaqus::field_lines(inputs);
+    add_deck(out,
+             abaqus::friction_deck("user=coefficient", 0, inputs, speed_scale(request, inputs),
+                                   abaqus::general_contact_lines + abaqus::field_lines(inputs)));
   }
 
   std::vector<BuildVariant> builds(const ExportRequest& request) const override {

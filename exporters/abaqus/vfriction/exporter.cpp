@@ -2,6 +2,7 @@
 // the input deck; the statements are those of every force routine (exporters/abaqus).
 #include "codegen/exporter.h"
 
+#include "abaqus/deck.h"
 #include "abaqus/explicit.h"
 #include "abaqus/stop.h"
 
@@ -65,8 +66,7 @@ abaqus::ForceRoutine routine() {
   r.user = "user=friction";
   r.selector =
       abaqus::of_general_contact(abaqus::interaction(abaqus::Solver::explicit_, "surfInt", "pqr"));
-  r.deck_tail = "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
-                "*Contact Property Assignment\n , , FRICTAB\n";
+  r.deck_tail = abaqus::general_contact_lines;
   return r;
 }
 

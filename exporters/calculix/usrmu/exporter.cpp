@@ -12,6 +12,7 @@
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
 #include "codegen/solver_units.h"
+#include "codegen/source_check.h"
 #include "codegen/values_file.h"
 
 namespace frictab::calculix::usrmu {
@@ -64,6 +65,25 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
   return render_template("calculix/usrmu/frictab_usrmu.f", values);
 }
 
+Deck deck(const SolverUnit& stiffness) {
+  const auto number = [&](double MPa_per_mm) {
+    return fmt::format("{:.6g}", stiffness.from_canonical(MPa_per_mm));
+  };
+  const auto meaning = [&](const std::string& what) { return what + ", " + stiffness.name; };
+  return {.file = "frictab.inp",
+          .reference = "*Include, input=frictab.inp",
+          .comment = "** ",
+          .lines = "*Surface Interaction, name=FRICTAB\n"
+                   "*Surface Behavior, pressure-overclosure=LINEAR\n <stiffness>\n"
+                   "*Friction\n 0.1, <stick slope>\n",
+          .of_model = "*Contact Pair, interaction=FRICTAB, type=SURFACE TO SURFACE\n"
+                      " <secondary>, <main>\n",
+          .placeholders = {
+              {"<stiffness>", number(1e6),
+               meaning("stiffness of the contact, 5 to 50 times Young's modulus (recalled)")},
+              {"<stick slope>", number(1e5), meaning("stress per slip while a point sticks")}}};
+}
+
 const char* const source_of_signature =
     "the list is our own: CalculiX has no user routine for friction. verified: what the arguments "
     "hold where frictab_hook.sh puts the calls, in the source of 2.20 and by running it "
@@ -109,7 +129,7 @@ private:
             {hook, std::string(embedded_template("calculix/usrmu/frictab_hook.sh"))}};
   }
 
-  void add_recipe(json& out, const ExportRequest&, const Inputs& inputs) const override {
+  void add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const override {
     out["arguments"] = recipe_states(inputs);
     out["arguments_note"] =
         "USRMU's 7 arguments and the time increment that USRMU_TIME is given; listed is "
@@ -127,13 +147,9 @@ private:
         "sh frictab_hook.sh <its folder src>: puts calls of USRMU where friction is limited",
         "build as its README says, with frictab_usrmu.f among the objects (gfortran "
         "-frecursive)"};
-    out["compile"] = {fortran::fixed_form_check(file)};
+    out["compile"] = {compile_line("gfortran", {file})};
     out["compile_note"] = "this line only checks the source; the program is built as `build` says";
-    out["input_deck"] = "*Surface Interaction, name=FRICTAB\n"
-                        "*Surface Behavior, pressure-overclosure=LINEAR\n <stiffness>\n"
-                        "*Friction\n 0.1, <stick slope>\n"
-                        "*Contact Pair, interaction=FRICTAB, type=SURFACE TO SURFACE\n"
-                        " <secondary>, <main>\n";
+    add_deck(out, deck(solver_unit("MPa/mm", request.units)));
     out["input_deck_note"] = "the coefficient has to be above 0; USRMU takes its place";
   }
 

@@ -10,6 +10,7 @@
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
 #include "codegen/solver_units.h"
+#include "codegen/source_check.h"
 #include "codegen/values_file.h"
 #include "source.h"
 
@@ -38,8 +39,13 @@ const char* friction_type(Coefficient kind) {
   return "3";
 }
 
-std::string keyword(Coefficient kind) {
-  return std::string("FRCFAC <workpiece>, <die>, ") + friction_type(kind) + ", -1, 0\n";
+Deck keyword(Coefficient kind) {
+  return {.file = "frictab.key",
+          .reference = "load frictab.key in the preprocessor (recalled)",
+          .comment = "* ",
+          .lines = std::string("FRCFAC <workpiece>, <die>, ") + friction_type(kind) + ", -1, 0\n",
+          .placeholders = {{"<workpiece>", "1", "number of the workpiece"},
+                           {"<die>", "2", "number of the die"}}};
 }
 
 json result(Coefficient kind, const SolverUnit& stress) {
@@ -153,9 +159,9 @@ private:
     out["properties"] = json::array();
     out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
     out["build"] = build_steps(inputs);
-    out["compile"] = {fortran::fixed_form_check("frictab_usrbcc.f")};
+    out["compile"] = {compile_line("gfortran", {"frictab_usrbcc.f"})};
     out["compile_note"] = "this line only checks the source; the engine is built as `build` says";
-    out["input_deck"] = keyword(kind);
+    add_deck(out, keyword(kind));
     out["input_deck_note"] = "-1: user routine 1; the die has to be ELASTIC (meshed), else DEFORM "
                              "computes neither SLDVEL "
                              "nor PRESS";

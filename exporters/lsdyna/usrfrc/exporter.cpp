@@ -11,6 +11,7 @@
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
 #include "codegen/solver_units.h"
+#include "codegen/source_check.h"
 #include "codegen/speed_scale.h"
 #include "codegen/values_file.h"
 #include "source.h"
@@ -24,26 +25,38 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-std::string keywords(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  const std::vector<std::string> values =
-      property_placeholders(inputs, speed_scale(request, inputs));
-  std::string deck = fmt::format(
+// Cards have fields of 10 columns.
+Deck keywords(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  std::vector<Placeholder> values = property_placeholders(inputs, speed_scale(request, inputs));
+  const std::string contact = " <contact>";
+  Deck deck = {.file = "frictab.k",
+               .reference = "*INCLUDE\nfrictab.k",
+               .comment = "$ ",
+               .lines = fmt::format("$ recalled, check against your release:\n"
+                                    "*USER_INTERFACE_FRICTION\n"
+                                    "$     ifid       noc      noci      nhsv\n"
+                                    "{}{:>10}{:>10}{:>10}\n",
+                                    contact, values.size(), values.size(), state_count(inputs))};
+  deck.of_model = fmt::format(
       "*CONTROL_CONTACT\n"
       "$   slsfac    rwpnal    islchk    shlthk    penopt    thkchg     orien    enmass\n"
       "       0.1\n"
       "$   usrstr    usrfrc     nsbcs    interm     xpene     ssthk      ecdt   tiedprj\n"
-      "         0{:>10}\n"
-      "$ recalled, check against your release:\n"
-      "*USER_INTERFACE_FRICTION\n"
-      "$     ifid       noc      noci      nhsv\n"
-      "{:>10}{:>10}{:>10}{:>10}\n",
-      std::max<std::size_t>(values.size(), 1), "<contact>", values.size(), values.size(),
-      state_count(inputs));
-  for (std::size_t i = 0; i < values.size(); ++i)
-    deck += fmt::format("$ UA({}): {}\n", i + 1, values[i]);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    deck += fmt::format("{:>10}{}", fmt::format("<UA({})>", i + 1),
-                        i % 8 == 7 || i + 1 == values.size() ? "\n" : "");
+      "         0{:>10}\n",
+      std::max<std::size_t>(values.size(), 1));
+  deck.placeholders = {{contact, "         1", "number of the contact"}};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    deck.lines += fmt::format("$ UA({}): {}\n", i + 1, values[i].text);
+    const std::string name = values[i].text.substr(1, values[i].text.size() - 2);
+    deck.placeholders.push_back({values[i].text, name, ""}); // a comment
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i].text = fmt::format("{:>10}", fmt::format("<UA({})>", i + 1));
+    if (!values[i].value.empty())
+      values[i].value = fmt::format("{:>10.4g}", std::stod(values[i].value));
+    deck.lines += values[i].text + (i % 8 == 7 || i + 1 == values.size() ? "\n" : "");
+  }
+  deck.placeholders.insert(deck.placeholders.end(), values.begin(), values.end());
   return deck;
 }
 
@@ -149,12 +162,14 @@ private:
         "object package; older ones end at isurface and have no history",
         "replace subroutine usrfrc in dyn21.f by frictab_usrfrc.f",
         "build with the package's Makefile, which sets the kinds of real and integer"};
-    out["compile"] = {"make", fortran::fixed_form_check("frictab_usrfrc.f")};
+    out["compile"] = {"make", compile_line("gfortran", {"frictab_usrfrc.f"})};
     out["compile_note"] = "the last line only checks the source";
-    out["input_deck"] = keywords(request, inputs);
-    out["input_deck_note"] = "a forming contact, or one-way or node-to-surface contact (only they "
-                             "have nodal areas), with "
-                             "FS above 0 (recalled: friction is processed only then)";
+    add_deck(out, keywords(request, inputs));
+    out["input_deck_note"] =
+        "if the deck has *CONTROL_CONTACT, USRFRC goes there; the contact is a "
+        "forming contact, or one-way or node-to-surface contact (only they "
+        "have nodal areas), with "
+        "FS above 0 (recalled: friction is processed only then)";
   }
 
   std::vector<BuildVariant> builds(const ExportRequest& request) const override {

@@ -9,6 +9,7 @@
 #include "codegen/fortran_stop.h"
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
+#include "codegen/source_check.h"
 #include "codegen/values_file.h"
 #include "source.h"
 
@@ -115,7 +116,7 @@ private:
     out["properties"] = json::array();
     out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
     out["compile"] = {"run_marc -jid <job> -user frictab_ufric.f",
-                      fortran::fixed_form_check("frictab_ufric.f")};
+                      compile_line("gfortran", {"frictab_ufric.f"})};
     out["compile_note"] = "the first line is recalled; the last one only checks the source";
     out["input_deck"] = input_deck(chosen);
   }

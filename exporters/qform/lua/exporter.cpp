@@ -11,8 +11,10 @@
 #include "codegen/compile.h"
 #include "codegen/entry_arguments.h"
 #include "codegen/flow_curve.h"
+#include "codegen/read_me.h"
 #include "codegen/recipe.h"
 #include "codegen/table_checks.h"
+#include "codegen/table_text.h"
 #include "core/template.h"
 #include "io/atomic_file.h"
 #include "io/json.h"
@@ -41,6 +43,7 @@ std::string recipe(const Exporter& self, const ExportRequest& request,
                                 {"unit", argument.solver.name},
                                 {"meaning", argument.meaning},
                                 {"used", argument.used},
+                                {"range", range_text(argument, request.table)},
                                 {"source", source}});
   }
   out["arguments_note"] = "of frictab_tau_R; FrictionStress calls it, with names to be checked";
@@ -129,7 +132,7 @@ public:
     SourceBundle files;
     files[file_name] = lua_source(request, inputs);
     files["recipe.json"] = recipe(*this, request, inputs, files);
-    return files;
+    return explained(files, *this);
   }
 
   std::vector<BuildVariant> variants(const ExportRequest&) const override {
