@@ -71,7 +71,7 @@ double slipped(const C& how, double theta, double speed, double time) {
   return steady * std::pow(theta / steady, decay);
 }
 
-// Canonical unit of a state variable; empty: in K or degC, whatever the analysis has.
+// Canonical unit of a state variable; empty: K or degC in every analysis.
 std::string unit_of(const C& how) {
   switch (how.rule) {
   case C::per_slip:
