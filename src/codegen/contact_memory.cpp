@@ -231,8 +231,13 @@ ContactMemory ContactMemory::between(const ContactMemory& a, const ContactMemory
 
 std::vector<double> ContactMemory::variables(const SolverUnits& units) const {
   std::vector<double> out;
-  for (const History& one : histories_)
-    out.push_back(solver_unit(unit_of(one.how), units).from_canonical(one.kept));
+  // Sums of temperatures are those of the solver's own, which may be in K.
+  const double zero = solver_unit("degC", units).zero;
+  for (const History& one : histories_) {
+    const bool of_temperature = is_summed_over_time(one.how) && one.how.of == C::temperature;
+    const double kept = one.kept + (of_temperature ? zero * time_ : 0);
+    out.push_back(solver_unit(unit_of(one.how), units).from_canonical(kept));
+  }
   if (time_of_its_own_) out.push_back(solver_unit("s", units).from_canonical(time_));
   return out;
 }
