@@ -5,11 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
-#include "codegen/coefficient.h"
-#include "codegen/driven_path.h"
-#include "codegen/histories.h"
+#include "codegen/explicit_account.h"
 #include "codegen/speed_scale.h"
 #include "explicit.h"
 
@@ -27,12 +23,6 @@ double size_of(const Vector& a) {
   return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 
-// State variables of one column of a contact point, in the solver's units. The sums include what
-// the solver's precision rounds off.
-struct Column {
-  double slip = 0, work = 0, peak = 0, outside = 0, stress = 0, mu = 0;
-};
-
 // Numbers that the solver gives for one point, as its precision holds them.
 struct Given {
   double normal = 0, area = 0, stick = 0, temperature = 0, main_temperature = 0;
@@ -42,7 +32,7 @@ struct Given {
 
 struct Point {
   std::size_t node = 0;
-  std::vector<Column> columns;
+  std::vector<ExplicitVariables> columns;
   ContactMemory memory;
   std::vector<double> state; // as the routine left it
 };
@@ -51,11 +41,11 @@ struct Point {
 class ForcePath {
 public:
   ForcePath(DrivenPath& path, const ForceRoutine& routine, std::size_t states, std::size_t columns)
-      : path_(path), by_node_(routine.entry == "vfric"), name_(routine.state_name), states_(states),
-        columns_(columns), all_(state_count(path.inputs)), histories_(history_count(path.inputs)),
-        scale_(speed_scale(path.request, path.inputs)), given_(points) {
+      : path_(path), account_(path, routine.state_name, states), by_node_(routine.entry == "vfric"),
+        states_(states), columns_(columns),
+        factor_property_(speed_scale_property(path.request, path.inputs)), given_(points) {
     for (std::size_t k = 0; k < points; ++k) {
-      Point point = {k + 2, std::vector<Column>(columns), ContactMemory(path.inputs),
+      Point point = {k + 2, std::vector<ExplicitVariables>(columns), ContactMemory(path.inputs),
                      std::vector<double>(states * columns)};
       for (std::size_t c = 0; c < columns && columns > 1; ++c) // the law takes their mean
         point.columns[c].slip = path.held(path.length.from_canonical(0.01 * double(c + 1)));
@@ -83,24 +73,12 @@ private:
   static constexpr std::size_t points = 5, nodes = 8;
   static constexpr std::size_t outputs = 3; // per point, in ftincr
 
-  bool keeps(std::size_t number) const { return states_ >= number; }
-  bool keeps_histories() const { return histories_ > 0 && keeps(all_ - shown_states); }
-
   void choose_call(std::size_t i) {
     time_ = i % 19 == 18 ? 0 : path_.held(path_.time.from_canonical(path_.time_increment()));
     has_temperature_ = i % 4 != 3;
     mains_ = i % 5 == 4 ? 1 : i % 7 == 6 ? 0 : points;
     directions_ = i % 6 == 5 ? 2 : 3;
-    call_.properties = path_.usual_properties();
-    factor_ = 1;
-    if (!scale_.empty()) {
-      call_.properties.resize(scale_.front().number);
-      call_.properties.back() = factor_ = path_.held(path_.random.uniform(0.5, 20));
-    }
-    if (i % 9 == 8) { // the deck gives none
-      call_.properties.clear();
-      factor_ = 1;
-    }
+    factor_ = path_.choose_properties(call_.properties, i, factor_property_);
     call_.par = {time_,
                  has_temperature_ ? 1.0 : 0.0,
                  double(mains_),
@@ -177,11 +155,11 @@ private:
   double seconds_of_increment() const { return path_.time.to_canonical(time_) * factor_; }
 
   // A state variable as the mean of the columns; 0 if there are too few.
-  double mean(const Point& point, double Column::*variable, std::size_t number) const {
+  double mean(const Point& point, double ExplicitVariables::*variable, std::size_t number) const {
     double sum = 0;
-    for (const Column& column : point.columns)
+    for (const ExplicitVariables& column : point.columns)
       sum += column.*variable;
-    return keeps(number) ? sum / double(columns_) : 0;
+    return account_.keeps(number) ? sum / double(columns_) : 0;
   }
 
   double both(double secondary, double main) const {
@@ -196,13 +174,14 @@ private:
     GivenStates out;
     out.pressure = path_.stress.to_canonical(g.normal / g.area);
     out.speed = time_ > 0 ? move / seconds_of_increment() : 0;
-    out.slip = path_.length.to_canonical(mean(point, &Column::slip, 1)) + move;
-    out.work = path_.length.to_canonical(path_.stress.to_canonical(mean(point, &Column::work, 2)));
+    out.slip = path_.length.to_canonical(mean(point, &ExplicitVariables::slip, 1)) + move;
+    out.work = path_.length.to_canonical(
+        path_.stress.to_canonical(mean(point, &ExplicitVariables::work, 2)));
     out.peak_pressure =
-        std::max(path_.stress.to_canonical(mean(point, &Column::peak, 3)), out.pressure);
+        std::max(path_.stress.to_canonical(mean(point, &ExplicitVariables::peak, 3)), out.pressure);
     out.area = path_.length.to_canonical(path_.length.to_canonical(g.area));
     out.properties = call_.properties;
-    if (keeps_histories()) out.memory = &point.memory;
+    if (account_.keeps_histories()) out.memory = &point.memory;
     if (has_temperature_)
       out.temperature = path_.celsius.to_canonical(both(g.temperature, main.main_temperature));
     for (std::size_t f = 0; f < g.fields.size(); ++f)
@@ -228,7 +207,7 @@ private:
                   -force);
     path_.compare("fTangential(2)", path_.stress.name + "*" + path_.length.name + "^2", out[1], 0);
     for (std::size_t c = 0; c < columns_; ++c)
-      compare_states(point, c);
+      account_.compare(point.columns[c], point.memory, point.state.data() + c * states_);
   }
 
   // The force against the motion; continues what the point remembers.
@@ -247,15 +226,10 @@ private:
     if (beyond > 0 && beyond < grown) slip = move * beyond / grown;
     const double force_before = known ? size_of(g.before) : std::abs(force);
     const double pressure = g.normal / g.area, stress = std::abs(force) / g.area;
-    const double peak = std::max(mean(point, &Column::peak, 3), pressure);
-    for (Column& column : point.columns) {
-      column.slip = summed(column.slip + slip, 5);
-      column.work = summed(column.work + 0.5 * (force_before + std::abs(force)) / g.area * slip, 6);
-      column.peak = std::max(column.peak, path_.held(pressure));
-      column.outside += path_.is_outside(x) ? 1 : 0;
-      column.stress = stress;
-      column.mu = stress / std::max(pressure, path_.stress.from_canonical(fortran::least_pressure));
-    }
+    const double peak = std::max(mean(point, &ExplicitVariables::peak, 3), pressure);
+    const double work = 0.5 * (force_before + std::abs(force)) / g.area * slip;
+    for (ExplicitVariables& column : point.columns)
+      account_.add(column, {slip, work, pressure, stress, path_.is_outside(x)});
     const double seconds = seconds_of_increment();
     const double slipped = path_.length.to_canonical(slip);
     point.memory.advance(
@@ -265,45 +239,11 @@ private:
     return force;
   }
 
-  // A sum, and whether a further state variable keeps what the solver's precision rounds off it.
-  double summed(double value, std::size_t remainder) const {
-    return keeps(remainder) ? value : path_.held(value);
-  }
-
-  void compare_states(const Point& point, std::size_t c) const {
-    const Column& column = point.columns[c];
-    const double* st = point.state.data() + c * states_;
-    const auto compare = [&](std::size_t number, std::size_t remainder, const std::string& what,
-                             const std::string& unit, double expected) {
-      if (!keeps(number)) return;
-      const bool has_rest = remainder > 0 && keeps(remainder);
-      const std::string quantity = fmt::format("{}({}) {}", name_, number, what);
-      path_.compare(quantity, unit, st[number - 1] + (has_rest ? st[remainder - 1] : 0), expected);
-      if (has_rest) // the number itself is the sum as the solver's precision holds it
-        path_.compare(quantity + ", rounded", unit, st[number - 1], expected);
-    };
-    const std::string length = path_.length.name, stress = path_.stress.name;
-    compare(1, 5, "slip", length, column.slip);
-    compare(2, 6, "friction work", stress + "*" + length, column.work);
-    compare(3, 0, "peak pressure", stress, column.peak);
-    compare(4, 0, "increments outside", "1", column.outside);
-    if (keeps_histories()) {
-      const std::vector<double> kept = point.memory.variables(path_.request.units);
-      const std::vector<HistoryState> known = history_states(path_.inputs, path_.request.units);
-      for (std::size_t h = 0; h < kept.size(); ++h)
-        compare(explicit_states + h + 1, explicit_states + histories_ + h + 1, known[h].name,
-                known[h].unit, kept[h]);
-    }
-    if (!keeps(all_)) return;
-    compare(all_ - 1, 0, "tau_R", stress, column.stress);
-    compare(all_, 0, "mu", "1", column.mu);
-  }
-
   DrivenPath& path_;
+  ExplicitAccount account_;
   bool by_node_; // VFRIC: state variables belong to nodes
-  std::string name_;
-  std::size_t states_, columns_, all_, histories_;
-  FurtherProperties scale_;
+  std::size_t states_, columns_;
+  std::size_t factor_property_;
   std::vector<Point> points_;
   std::vector<Given> given_;
   DrivenPath::Call call_;

@@ -26,16 +26,7 @@ public:
     has_temperature_ = !routine_.may_lack_temperature || i % 4 != 3;
     call.points = routine_.points;
     call.par = {has_temperature_ ? 1.0 : 0.0};
-    properties_ = path_.usual_properties();
-    factor_ = 1;
-    if (routine_.factor_property > 0) {
-      properties_.resize(routine_.factor_property);
-      properties_.back() = factor_ = path_.held(path_.random.uniform(0.5, 20));
-    }
-    if (i % 9 == 8) {
-      properties_.clear();
-      factor_ = 1;
-    }
+    factor_ = path_.choose_properties(properties_, i, routine_.factor_property);
     call.properties = properties_;
     std::vector<Given> given;
     for (std::size_t k = 0; k < routine_.points; ++k) {

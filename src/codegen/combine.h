@@ -75,8 +75,8 @@ SourceBundle combine(const Combination& combination, const std::vector<ExportReq
 
 // Returns the bundle of one law with its linked names, those of program units and COMMON blocks,
 // under the request's prefix; unchanged if it has none. The entry, and what the solver's code calls
-// by name
-// ("ftupd"), keep their names. Throws InputError if a name has another meaning in the source.
+// by name ("ftupd"), keep their names. Throws InputError if a name has another meaning in the
+// source.
 SourceBundle under_prefix(const SourceBundle& bundle, const ExportRequest& request);
 
 inline constexpr const char* combined_schema = "frictab/combined-recipe/1";

@@ -16,12 +16,6 @@ using C = data::Continuation;
 
 constexpr double absolute_zero = -zero_celsius; // degC
 
-data::Continuation definition_of(const SolverInput& input) {
-  if (const auto* derived = data::find_derived(input.argument.name)) return derived->continuation;
-  if (input.smoothed_over > 0) return {C::recent, C::speed};
-  return {C::growth, C::area};
-}
-
 double followed_value(C::Of of, const ContactState& now) {
   switch (of) {
   case C::pressure:
@@ -115,7 +109,7 @@ ContactMemory::ContactMemory(const std::vector<SolverInput>& inputs)
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (inputs[i].source != Source::history) continue;
     History& one = histories_[inputs[i].history - 1];
-    one = {i, definition_of(inputs[i]), static_cast<double>(inputs[i].smoothed_over), 0};
+    one = {i, continuation(inputs[i]), static_cast<double>(inputs[i].smoothed_over), 0};
     means = means || is_summed_over_time(one.how);
     keeps_time = keeps_time || one.how.rule == C::per_time;
   }

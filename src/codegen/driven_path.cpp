@@ -47,7 +47,7 @@ DrivenPath::DrivenPath(const Built& built, const ExportRequest& of,
       length(solver_unit("mm", of.units)), speed(solver_unit("mm/s", of.units)),
       time(solver_unit("s", of.units)), celsius(solver_unit("degC", of.units)),
       random(options.seed, 1), options_(options), single_(built.variant.eps >= 0x1p-24),
-      table_(of.table), ends_(table::all_ends(of.table)),
+      table_(of.table), ends_(table::all_ends(of.table)), no_memory_(of_routine),
       call_(Library::address(built.library, "ftincr_")) {}
 
 double DrivenPath::held(double value) const {
@@ -124,6 +124,16 @@ std::vector<double> DrivenPath::usual_properties() {
   return out;
 }
 
+double DrivenPath::choose_properties(std::vector<double>& properties, std::size_t i,
+                                     std::size_t factor_property) {
+  properties.clear();
+  if (i % 9 == 8) return 1;
+  properties = usual_properties();
+  if (factor_property == 0) return 1;
+  properties.resize(factor_property);
+  return properties.back() = held(random.uniform(0.5, 20));
+}
+
 namespace {
 
 double unknown_or(const SolverInput& input) {
@@ -179,11 +189,11 @@ double DrivenPath::followed_temperature(const GivenStates& given) const {
 }
 
 std::vector<double> DrivenPath::states(const GivenStates& given) const {
-  const ContactMemory nothing(inputs);
-  const ContactMemory& memory = given.memory ? *given.memory : nothing;
+  const ContactMemory& memory = given.memory ? *given.memory : no_memory_;
   const ContactState now = {given.pressure, given.speed, followed_temperature(given), given.area};
   std::vector<double> out;
-  for (std::size_t i = 0; i < request.table.inputs().size(); ++i)
+  // The last of `inputs` may be a temperature that histories alone follow.
+  for (std::size_t i = 0; i < table_.inputs().size(); ++i)
     out.push_back(inputs[i].source == Source::history ? memory.state(i, now)
                                                       : plain_state(inputs[i], given));
   return out;
@@ -191,12 +201,6 @@ std::vector<double> DrivenPath::states(const GivenStates& given) const {
 
 double DrivenPath::tau(std::span<const double> states) const {
   return table_(states);
-}
-
-bool DrivenPath::has_sides_that_refuse() const {
-  return std::any_of(ends_.begin(), ends_.end(), [](const table::AxisEnds& end) {
-    return end.below == table::Outside::error || end.above == table::Outside::error;
-  });
 }
 
 std::vector<double> DrivenPath::without_contact(std::vector<double> states) const {
@@ -236,10 +240,8 @@ bool DrivenPath::is_outside(std::span<const double> states) const {
 }
 
 bool DrivenPath::is_refused(std::span<const double> states) const {
-  return std::any_of(ends_.begin(), ends_.end(), [&](const table::AxisEnds& end) {
-    return (end.below == table::Outside::error && states[end.input] < end.low) ||
-           (end.above == table::Outside::error && states[end.input] > end.high);
-  });
+  return std::any_of(ends_.begin(), ends_.end(),
+                     [&](const auto& end) { return end.refuses(states[end.input]); });
 }
 
 void DrivenPath::run(Call& call) {

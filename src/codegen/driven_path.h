@@ -85,6 +85,10 @@ public:
   double time_increment();
   // The deck's properties, inside their ranges, in the solver's units.
   std::vector<double> usual_properties();
+  // Chooses them for increment `i`; in every ninth the deck gives none. Returns the factor of time
+  // that property number `factor_property` then has (0: there is none), else 1.
+  double choose_properties(std::vector<double>& properties, std::size_t i,
+                           std::size_t factor_property = 0);
 
   // The law's states, in the order of the table's inputs.
   std::vector<double> states(const GivenStates& given) const;
@@ -93,7 +97,6 @@ public:
   double tau(std::span<const double> states) const; // MPa, by the table itself
   // The states without contact: a side that refuses answers by its end there.
   std::vector<double> without_contact(std::vector<double> states) const;
-  bool has_sides_that_refuse() const;
   // mu, m or tau_R (MPa), as fortran::coefficient() defines it.
   double coefficient(const GivenStates& given, fortran::Coefficient kind) const;
   bool is_outside(std::span<const double> states) const;
@@ -126,6 +129,7 @@ private:
   bool single_;
   table::TableFunction table_;
   std::vector<table::AxisEnds> ends_;
+  ContactMemory no_memory_;
   void* call_;
   PathResult result_;
 };

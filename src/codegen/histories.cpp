@@ -15,17 +15,18 @@
 
 namespace frictab::codegen {
 
-namespace {
-
-using C = data::Continuation;
-
-// Returns the rule of an input. Inputs that are not derived quantities are states that the job
-// wants smoothed or computed from areas.
+// Inputs that are not derived quantities are states that the job wants smoothed or computed from
+// areas.
 data::Continuation continuation(const SolverInput& input) {
+  using C = data::Continuation;
   if (const auto* derived = data::find_derived(input.argument.name)) return derived->continuation;
   if (input.smoothed_over > 0) return {C::recent, C::speed};
   return {C::growth, C::area};
 }
+
+namespace {
+
+using C = data::Continuation;
 
 bool is(const SolverInput& input, C::Rule rule) {
   return input.source == Source::history && continuation(input).rule == rule;

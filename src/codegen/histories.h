@@ -40,6 +40,7 @@
 
 #include "codegen/solver_inputs.h"
 #include "core/template.h"
+#include "data/derived.h"
 
 namespace frictab::codegen {
 
@@ -49,6 +50,9 @@ struct HistoryState {
   std::string meaning; // "contact normal stress times time under pressure"
   bool grows = true;   // a sum from the start: its increments are small relative to it
 };
+
+// Returns the rule by which an input (Source::history) goes on.
+data::Continuation continuation(const SolverInput& input);
 
 // Returns the state variables that these inputs (Source::history) need, in the order of
 // SolverInput::history, followed by the time over which means are taken, unless an input is that

@@ -12,8 +12,7 @@ namespace frictab::codegen {
 // means are taken), @{increments} (over which the speed is smoothed), @{argument} (p, v, t or a,
 // which the rule follows), @{q} (its value in the solver's unit), @{dy} (the derivative of tau_R by
 // x), and the conversions from the solver's units @{convert} (of x), @{from_stress}, @{from_speed}
-// and
-// @{from_length} (of a speed: to mm per unit of the solver's time); @{slowest} (speed) and
+// and @{from_length} (of a speed: to mm per unit of the solver's time); @{slowest} (speed) and
 // @{distance} in mm for a state of rate-and-state friction.
 struct HistoryRule {
   // Sets @{x} from @{h} and the present pressure p, speed v, temperature t and area a.

@@ -30,6 +30,12 @@ FurtherProperties speed_scale(const ExportRequest& request,
            .where_absent = 1}};
 }
 
+std::size_t speed_scale_property(const ExportRequest& request,
+                                 const std::vector<SolverInput>& inputs) {
+  const FurtherProperties property = speed_scale(request, inputs);
+  return property.empty() ? 0 : property.front().number;
+}
+
 void add_speed_scale(TemplateValues& values, const ExportRequest& request,
                      const std::vector<SolverInput>& inputs) {
   const FurtherProperties property = speed_scale(request, inputs);

@@ -16,6 +16,10 @@ ExportOption speed_scale_option();
 // Returns this property; empty if the request does not use it.
 FurtherProperties speed_scale(const ExportRequest& request, const std::vector<SolverInput>& inputs);
 
+// Returns the number of that property; 0 if the request does not use it.
+std::size_t speed_scale_property(const ExportRequest& request,
+                                 const std::vector<SolverInput>& inputs);
+
 // Adds values for a routine's template: flag scaled, and text scale, the property's number.
 void add_speed_scale(TemplateValues& values, const ExportRequest& request,
                      const std::vector<SolverInput>& inputs);

@@ -13,6 +13,7 @@
 #include "abaqus/standard.h"
 #include "codegen/coefficient.h"
 #include "codegen/driven_path.h"
+#include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
 
 namespace frictab::abaqus::fric_coef {
@@ -46,8 +47,7 @@ public:
 
   void increment(std::size_t i) {
     number_ = i + 1;
-    properties_ = path_.usual_properties();
-    if (i % 9 == 8) properties_.clear();
+    path_.choose_properties(properties_, i);
     has_temperature_ = i % 4 != 3;
     const std::vector<double> at_start = state_;
     const Memory before = memory_;
@@ -155,7 +155,7 @@ private:
         path_.compare("derivatives where something is not a number", "", out[j], 0);
       return;
     }
-    if (g.pressure > 0 || !path_.has_sides_that_refuse())
+    if (g.pressure > 0 || !fortran::refuses(path_.request.table))
       compare_slopes(g, out);
     else
       for (int j = 1; j < 5; ++j)

@@ -162,12 +162,11 @@ private:
   }
 
   void follow(DrivenPath& path) const override {
-    const FurtherProperties scale = speed_scale(path.request, path.inputs);
     follow_coefficient(path, {.name = "fCoef",
                               .points = 5,
                               .nan_speed_is_nan = true,
                               .may_lack_temperature = true,
-                              .factor_property = scale.empty() ? 0 : scale.front().number});
+                              .factor_property = speed_scale_property(path.request, path.inputs)});
   }
 
   std::string quit() const override { return abaqus::quit(abaqus::Solver::explicit_); }

@@ -4,11 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
-#include "codegen/coefficient.h"
-#include "codegen/driven_path.h"
-#include "codegen/histories.h"
+#include "codegen/explicit_account.h"
 #include "codegen/speed_scale.h"
 #include "lsdyna/usrfrc/source.h"
 
@@ -34,11 +30,9 @@ Vector tangential(const Vector& a, const Vector& normal) {
   return {a[0] - along * normal[0], a[1] - along * normal[1], a[2] - along * normal[2]};
 }
 
-// History variables of a node, in the solver's units. The sums include what the solver's precision
-// rounds off.
 struct Node {
   std::size_t number = 0, place = 0;
-  double slip = 0, work = 0, peak = 0, outside = 0, stress = 0, mu = 0;
+  ExplicitVariables kept = {};
   ContactMemory memory;
   std::vector<double> state; // as the routine left it
 };
@@ -54,9 +48,8 @@ struct Given {
 class CyclePath {
 public:
   CyclePath(DrivenPath& path, std::size_t states)
-      : path_(path), states_(states), all_(state_count(path.inputs)),
-        histories_(history_count(path.inputs)), scale_(speed_scale(path.request, path.inputs)),
-        given_(points) {
+      : path_(path), account_(path, "UFHIST", states), states_(states),
+        factor_property_(speed_scale_property(path.request, path.inputs)), given_(points) {
     for (std::size_t k = 0; k < points; ++k)
       nodes_.push_back({.number = 3 * k + 2,
                         .place = 30 - 4 * k,
@@ -71,7 +64,7 @@ public:
     stiffness_scale_ = path_.held(path_.random.uniform(0.5, 2));
     for (double& x : segment_scales_)
       x = path_.held(path_.random.uniform(0.5, 1.5));
-    choose_properties(i);
+    factor_ = path_.choose_properties(call_.properties, i, factor_property_);
     path_.random.shuffle(std::span(nodes_)); // the solver lists them in any order
     for (std::size_t k = 0; k < points; ++k)
       given_[k] = plan(k, i);
@@ -85,21 +78,6 @@ public:
 private:
   static constexpr std::size_t points = 6, segments = 9;
   static constexpr std::size_t outputs = 10; // per point, in ftincr
-
-  bool keeps(std::size_t number) const { return states_ >= number; }
-  bool keeps_histories() const { return histories_ > 0 && keeps(all_ - 2); }
-
-  void choose_properties(std::size_t i) {
-    call_.properties = path_.usual_properties();
-    factor_ = 1;
-    if (!scale_.empty()) {
-      call_.properties.resize(scale_.front().number);
-      call_.properties.back() = factor_ = path_.held(path_.random.uniform(0.5, 20));
-    }
-    if (i % 9 != 8) return;
-    call_.properties.clear();
-    factor_ = 1;
-  }
 
   // Seconds of the process in a cycle; 0 where the solver gives no rate.
   double seconds() const { return rate_ > 0 ? path_.time.to_canonical(1 / rate_) * factor_ : 0; }
@@ -191,12 +169,15 @@ private:
     GivenStates out;
     out.pressure = path_.stress.to_canonical(-g.normal / g.area);
     out.speed = seconds() > 0 ? move / seconds() : 0;
-    out.slip = (keeps(1) ? path_.length.to_canonical(node.slip) : 0) + move;
-    out.work = keeps(2) ? path_.length.to_canonical(path_.stress.to_canonical(node.work)) : 0;
-    out.peak_pressure = std::max(keeps(3) ? path_.stress.to_canonical(node.peak) : 0, out.pressure);
+    out.slip = (account_.keeps(1) ? path_.length.to_canonical(node.kept.slip) : 0) + move;
+    out.work = account_.keeps(2)
+                   ? path_.length.to_canonical(path_.stress.to_canonical(node.kept.work))
+                   : 0;
+    out.peak_pressure =
+        std::max(account_.keeps(3) ? path_.stress.to_canonical(node.kept.peak) : 0, out.pressure);
     out.area = path_.length.to_canonical(path_.length.to_canonical(g.area));
     out.properties = call_.properties;
-    if (keeps_histories()) out.memory = &node.memory;
+    if (account_.keeps_histories()) out.memory = &node.memory;
     if (has_temperature_) {
       // Bilinear on the segment, whose corners lie at (-1,-1), (1,-1), (1,1), (-1,1).
       const double segment =
@@ -236,7 +217,7 @@ private:
     path_.compare("place on the segment", "", out[6], g.s);
     path_.compare("place on the segment", "", out[7], g.t);
     path_.compare("segment", "", out[8], double(g.segment_number));
-    compare_states(node);
+    account_.compare(node.kept, node.memory, node.state.data());
   }
 
   // Returns the size of the force; continues what the node remembers.
@@ -251,13 +232,9 @@ private:
     double slip = over > 0 ? move : 0;
     if (over > 0 && over < stiffness * move) slip = over / stiffness;
     const double pressure = -g.normal / g.area, stress = force / g.area;
-    const double peak = std::max(keeps(3) ? node.peak : 0, pressure);
-    node.slip = summed(node.slip + slip, 5);
-    node.work = summed(node.work + 0.5 * (size_of(g.before) + force) / g.area * slip, 6);
-    node.peak = std::max(node.peak, path_.held(pressure));
-    node.outside += path_.is_outside(x) ? 1 : 0;
-    node.stress = stress;
-    node.mu = stress / std::max(pressure, path_.stress.from_canonical(fortran::least_pressure));
+    const double peak = std::max(account_.keeps(3) ? node.kept.peak : 0, pressure);
+    const double work = 0.5 * (size_of(g.before) + force) / g.area * slip;
+    account_.add(node.kept, {slip, work, pressure, stress, path_.is_outside(x)});
     const double slipped = path_.length.to_canonical(slip);
     node.memory.advance(
         {path_.stress.to_canonical(pressure), seconds() > 0 ? slipped / seconds() : 0, followed_,
@@ -266,40 +243,10 @@ private:
     return force;
   }
 
-  double summed(double value, std::size_t remainder) const {
-    return keeps(remainder) ? value : path_.held(value);
-  }
-
-  void compare_states(const Node& node) {
-    const auto compare = [&](std::size_t number, std::size_t remainder, const std::string& what,
-                             const std::string& unit, double expected) {
-      if (!keeps(number)) return;
-      const bool has_rest = remainder > 0 && keeps(remainder);
-      const std::string quantity = fmt::format("UFHIST({}) {}", number, what);
-      const double held = node.state[number - 1];
-      path_.compare(quantity, unit, held + (has_rest ? node.state[remainder - 1] : 0), expected);
-      if (has_rest) path_.compare(quantity + ", rounded", unit, held, expected);
-    };
-    const std::string length = path_.length.name, stress = path_.stress.name;
-    compare(1, 5, "slip", length, node.slip);
-    compare(2, 6, "friction work", stress + "*" + length, node.work);
-    compare(3, 0, "peak pressure", stress, node.peak);
-    compare(4, 0, "cycles outside", "1", node.outside);
-    if (keeps_histories()) {
-      const std::vector<double> kept = node.memory.variables(path_.request.units);
-      const std::vector<HistoryState> known = history_states(path_.inputs, path_.request.units);
-      for (std::size_t h = 0; h < kept.size(); ++h)
-        compare(before_histories + h + 1, before_histories + histories_ + h + 1, known[h].name,
-                known[h].unit, kept[h]);
-    }
-    if (!keeps(all_)) return;
-    compare(all_ - 1, 0, "tau_R", stress, node.stress);
-    compare(all_, 0, "mu", "1", node.mu);
-  }
-
   DrivenPath& path_;
-  std::size_t states_, all_, histories_;
-  FurtherProperties scale_;
+  ExplicitAccount account_;
+  std::size_t states_;
+  std::size_t factor_property_;
   std::vector<Node> nodes_;
   std::vector<Given> given_;
   DrivenPath::Call call_;
