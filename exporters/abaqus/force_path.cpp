@@ -257,20 +257,11 @@ private:
 
 void ForceTarget::follow(DrivenPath& path) const {
   const std::size_t all = state_count(path.inputs);
-  const bool edges = routine_.entry == "vfriction";
-  const auto drive = [&](std::size_t states, std::size_t columns, std::size_t increments) {
-    ForcePath one(path, routine_, states, columns);
-    for (std::size_t i = 0; i < increments; ++i)
-      one.increment(i);
-  };
-  drive(all, 1, path.increments());
-  path.pace = 12;
-  drive(all, 1, path.increments() / 3);
-  path.pace = 1;
-  if (edges) drive(all, 4, path.increments() / 4);
+  path.drive_at_both_paces([&] { return ForcePath(path, routine_, all, 1); });
+  if (routine_.entry == "vfriction") path.drive(ForcePath(path, routine_, all, 4), 0.25); // edges
   for (const std::size_t fewer :
        {all - shown_states, std::size_t{4}, std::size_t{2}, std::size_t{0}})
-    drive(fewer, 1, path.increments() / 12);
+    path.drive(ForcePath(path, routine_, fewer, 1), 1.0 / 12);
 }
 
 } // namespace frictab::abaqus

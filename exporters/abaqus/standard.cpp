@@ -128,6 +128,22 @@ nlohmann::ordered_json state_variables(std::vector<std::pair<std::string, std::s
   return out;
 }
 
+void compare_kept(DrivenPath& path, const std::string& pattern, std::vector<std::string> names,
+                  const std::vector<double>& now, const std::vector<double>& then, double increment,
+                  const std::vector<double>& st) {
+  for (const HistoryState& state : history_states(path.inputs, path.request.units))
+    names.push_back(state.name);
+  const auto numbered = [&](std::size_t number, const std::string& name) {
+    return fmt::format(fmt::runtime(pattern), number) + " " + name;
+  };
+  const std::size_t n = now.size();
+  for (std::size_t j = 0; j < n; ++j) {
+    path.compare(numbered(j + 1, names[j]), "", st[j], now[j]);
+    path.compare(numbered(n + 2 + j, names[j] + " at the start"), "", st[n + 1 + j], then[j]);
+  }
+  path.compare(numbered(n + 1, "increment"), "", st[n], increment);
+}
+
 BuildVariant standard_variant(const ExportRequest& request, const std::string& file) {
   return variant(file, fortran::ends(request));
 }

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "codegen/driven_path.h"
 #include "codegen/exporter.h"
 #include "codegen/fortran_core.h"
 #include "codegen/solver_inputs.h"
@@ -43,6 +44,12 @@ nlohmann::ordered_json
 state_variables(std::vector<std::pair<std::string, std::string>> unit_and_meaning,
                 const codegen::ExportRequest& request,
                 const std::vector<codegen::SolverInput>& inputs);
+
+// Compares the state variables `st` with the values of now and of the increment's start, and the
+// increment. `names`: of the first values; histories follow. `pattern`: "STATEV({})".
+void compare_kept(codegen::DrivenPath& path, const std::string& pattern,
+                  std::vector<std::string> names, const std::vector<double>& now,
+                  const std::vector<double>& then, double increment, const std::vector<double>& st);
 
 // Returns gfortran with stand-ins for aba_param.inc and, if a side refuses, STDB_ABQERR.
 codegen::BuildVariant standard_variant(const codegen::ExportRequest& request,

@@ -111,9 +111,7 @@ private:
 } // namespace
 
 void follow_coefficient(DrivenPath& path, const CoefficientRoutine& routine) {
-  CoefficientPath one(path, routine);
-  for (std::size_t i = 0; i < path.increments(); ++i)
-    one.increment(i);
+  path.drive(CoefficientPath(path, routine), 1);
 }
 
 } // namespace frictab::codegen

@@ -112,7 +112,7 @@ double DrivenPath::time_increment() {
   const double usual_speed = v_low > 0 ? std::sqrt(v_low * v_high) : 0.5 * v_high;
   const double distance = std::max(s_high - s_low, 1e-3) / 0.75;
   return distance / static_cast<double>(options_.increments) / std::max(usual_speed, 1e-6) *
-         random.uniform(0.3, 1.7) * pace;
+         random.uniform(0.3, 1.7) * pace_;
 }
 
 std::vector<double> DrivenPath::usual_properties() {

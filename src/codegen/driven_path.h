@@ -75,8 +75,6 @@ public:
 
   std::size_t increments() const { return options_.increments; }
   double held(double value) const; // as the solver's precision holds it
-  // Multiplies all times: at a higher pace every history passes the end of its range.
-  double pace = 1;
 
   // States for a point in increment `i`: inside the range mostly, beyond each end in turn.
   WantedStates wanted(std::size_t point, std::size_t i);
@@ -119,6 +117,21 @@ public:
 
   const PathResult& result() const { return result_; }
 
+  // Takes an account, which knows one increment, along a share of the path.
+  template <class Account> void drive(Account account, double share) {
+    const auto last = static_cast<std::size_t>(share * static_cast<double>(options_.increments));
+    for (std::size_t i = 0; i < last; ++i)
+      account.increment(i);
+  }
+  // Takes one along the path, and another at a higher pace: every history passes the end of its
+  // range.
+  template <class Make> void drive_at_both_paces(const Make& make) {
+    drive(make(), 1);
+    pace_ = 12;
+    drive(make(), 1.0 / 3);
+    pace_ = 1;
+  }
+
 private:
   PathFigure& figure(const std::string& quantity, const std::string& unit);
   double inside(const std::string& name);
@@ -126,6 +139,7 @@ private:
   std::pair<double, double> range(const std::string& name) const;
 
   PathOptions options_;
+  double pace_ = 1; // multiplies all times
   bool single_;
   table::TableFunction table_;
   std::vector<table::AxisEnds> ends_;

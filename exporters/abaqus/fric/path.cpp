@@ -11,7 +11,6 @@
 #include "abaqus/fric/source.h"
 #include "abaqus/standard.h"
 #include "codegen/driven_path.h"
-#include "codegen/histories.h"
 
 namespace frictab::abaqus::fric {
 
@@ -56,11 +55,12 @@ struct Answer {
 class FricPath {
 public:
   FricPath(DrivenPath& path, bool keeps)
-      : path_(path), keeps_(keeps), n_(state_count(path.inputs)),
+      : path_(path), keeps_(keeps),
         frozen_(coefficient_is_frozen(*find_exporter("abaqus_fric"), path.request)),
         critical_(critical_slip(path.request, path.inputs).front().number),
         memory_(points, {.further = ContactMemory(path.inputs)}),
-        state_(points, std::vector<double>(states_size(n_) - (keeps ? 0 : 1))) {}
+        state_(points,
+               std::vector<double>(states_size(state_count(path.inputs)) - (keeps ? 0 : 1))) {}
 
   void increment(std::size_t i) {
     step_ = i < path_.increments() / 2 ? 2 : 3;
@@ -340,24 +340,14 @@ private:
       return;
     }
     // An open point has no elastic slip and no coefficient at the start of the increment either.
-    static const std::vector<const char*> names = {"slip",       "friction work",  "peak pressure",
-                                                   "outside",    "elastic slip 1", "elastic slip 2",
-                                                   "coefficient"};
-    const std::vector<HistoryState> known = history_states(path_.inputs, path_.request.units);
-    const std::vector<double> now = numbers(end), then = numbers(start);
-    for (std::size_t j = 0; j < n_; ++j) {
-      const std::string name = j < names.size() ? names[j] : known[j - names.size()].name;
-      path_.compare(fmt::format("STATEV({}) {}", j + 1, name), "", st[j], now[j]);
-      path_.compare(fmt::format("STATEV({}) {} at the start", n_ + 2 + j, name), "", st[n_ + 1 + j],
-                    then[j]);
-    }
-    path_.compare(fmt::format("STATEV({}) increment", n_ + 1), "", st[n_],
-                  1e8 * double(step_) + double(number_));
+    compare_kept(path_, "STATEV({})",
+                 {"slip", "friction work", "peak pressure", "outside", "elastic slip 1",
+                  "elastic slip 2", "coefficient"},
+                 numbers(end), numbers(start), 1e8 * double(step_) + double(number_), st);
   }
 
   DrivenPath& path_;
   bool keeps_; // there are enough state variables
-  std::size_t n_;
   bool frozen_;
   std::size_t critical_; // number of the property
   std::vector<Memory> memory_;
@@ -370,16 +360,8 @@ private:
 } // namespace
 
 void follow(DrivenPath& path) {
-  const auto drive = [&](bool keeps, std::size_t increments) {
-    FricPath one(path, keeps);
-    for (std::size_t i = 0; i < increments; ++i)
-      one.increment(i);
-  };
-  drive(true, path.increments());
-  path.pace = 12;
-  drive(true, path.increments() / 3);
-  path.pace = 1;
-  drive(false, path.increments() / 4);
+  path.drive_at_both_paces([&] { return FricPath(path, true); });
+  path.drive(FricPath(path, false), 0.25);
 }
 
 } // namespace frictab::abaqus::fric

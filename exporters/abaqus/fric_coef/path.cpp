@@ -7,14 +7,11 @@
 #include <optional>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "abaqus/fric_coef/source.h"
 #include "abaqus/standard.h"
 #include "codegen/coefficient.h"
 #include "codegen/driven_path.h"
 #include "codegen/fortran_stop.h"
-#include "codegen/histories.h"
 
 namespace frictab::abaqus::fric_coef {
 
@@ -40,10 +37,10 @@ class CoefPath {
 public:
   CoefPath(DrivenPath& path, std::size_t points, bool keeps)
       : path_(path), points_(points), keeps_(keeps), newer_(is_2024(path.request)),
-        n_(state_count(path.inputs)),
         frozen_(coefficient_is_frozen(*find_exporter("abaqus_fric_coef"), path.request)),
         memory_{.further = ContactMemory(path.inputs)},
-        state_(abaqus::states_size(n_) - (keeps || points > 1 ? 0 : 1)), slip_(points) {}
+        state_(abaqus::states_size(state_count(path.inputs)) - (keeps || points > 1 ? 0 : 1)),
+        slip_(points) {}
 
   void increment(std::size_t i) {
     number_ = i + 1;
@@ -219,24 +216,14 @@ private:
         path_.compare("state variables that are not kept", "", st[j], state_[j]);
       return;
     }
-    static const std::vector<const char*> names = {"friction work", "peak pressure", "outside",
-                                                   "coefficient", "slip"};
-    const std::vector<HistoryState> known = history_states(path_.inputs, path_.request.units);
-    const std::vector<double> now = numbers(memory_), then = numbers(*at_start_);
-    for (std::size_t j = 0; j < n_; ++j) {
-      const std::string name = j < names.size() ? names[j] : known[j - names.size()].name;
-      path_.compare(fmt::format("state variable {} {}", j + 1, name), "", st[j], now[j]);
-      path_.compare(fmt::format("state variable {} {} at the start", n_ + 2 + j, name), "",
-                    st[n_ + 1 + j], then[j]);
-    }
-    path_.compare(fmt::format("state variable {} increment", n_ + 1), "", st[n_],
-                  2e8 + double(number_));
+    compare_kept(path_, "state variable {}",
+                 {"friction work", "peak pressure", "outside", "coefficient", "slip"},
+                 numbers(memory_), numbers(*at_start_), 2e8 + double(number_), st);
   }
 
   DrivenPath& path_;
   std::size_t points_;
   bool keeps_, newer_;
-  std::size_t n_;
   bool frozen_;
   Memory memory_;
   std::optional<Memory> at_start_; // of the last call that kept something
@@ -250,19 +237,11 @@ private:
 } // namespace
 
 void follow(DrivenPath& path) {
-  const auto drive = [&](std::size_t points, bool keeps, std::size_t increments) {
-    CoefPath one(path, points, keeps);
-    for (std::size_t i = 0; i < increments; ++i)
-      one.increment(i);
-  };
   if (is_2024(path.request)) {
-    drive(1, true, path.increments());
-    path.pace = 12;
-    drive(1, true, path.increments() / 3);
-    path.pace = 1;
-    drive(1, false, path.increments() / 8);
+    path.drive_at_both_paces([&] { return CoefPath(path, 1, true); });
+    path.drive(CoefPath(path, 1, false), 0.125);
   }
-  drive(3, false, path.increments() / 2);
+  path.drive(CoefPath(path, 3, false), 0.5);
 }
 
 } // namespace frictab::abaqus::fric_coef

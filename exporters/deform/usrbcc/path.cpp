@@ -46,7 +46,7 @@ public:
       nodes_.push_back({.further = ContactMemory(path.inputs), .state = std::vector<double>(all)});
   }
 
-  void step(std::size_t i) {
+  void increment(std::size_t i) {
     time_ = path_.time.from_canonical(path_.time_increment());
     given_.clear();
     for (std::size_t k = 0; k < nodes; ++k)
@@ -198,16 +198,8 @@ void follow(DrivenPath& path) {
   for (const SolverInput& input : path.inputs)
     last_field = std::max(last_field, input.field);
   const std::size_t all = std::max(state_count(path.inputs), last_field);
-  const auto drive = [&](std::size_t variables, std::size_t steps) {
-    StepPath one(path, variables);
-    for (std::size_t i = 0; i < steps; ++i)
-      one.step(i);
-  };
-  drive(all, path.increments());
-  path.pace = 12;
-  drive(all, path.increments() / 3);
-  path.pace = 1;
-  drive(std::min<std::size_t>(all, 2), path.increments() / 8);
+  path.drive_at_both_paces([&] { return StepPath(path, all); });
+  path.drive(StepPath(path, std::min<std::size_t>(all, 2)), 0.125);
 }
 
 } // namespace frictab::deform::usrbcc

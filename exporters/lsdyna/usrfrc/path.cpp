@@ -57,7 +57,7 @@ public:
                         .state = std::vector<double>(states)});
   }
 
-  void cycle(std::size_t i) {
+  void increment(std::size_t i) {
     rate_ = path_.held(1 / path_.time.from_canonical(path_.time_increment()));
     if (i % 19 == 18) rate_ = 0;
     has_temperature_ = i % 4 != 3;
@@ -260,17 +260,9 @@ private:
 
 void follow(DrivenPath& path) {
   const std::size_t all = state_count(path.inputs);
-  const auto drive = [&](std::size_t states, std::size_t cycles) {
-    CyclePath one(path, states);
-    for (std::size_t i = 0; i < cycles; ++i)
-      one.cycle(i);
-  };
-  drive(all, path.increments());
-  path.pace = 12;
-  drive(all, path.increments() / 3);
-  path.pace = 1;
+  path.drive_at_both_paces([&] { return CyclePath(path, all); });
   for (const std::size_t fewer : {all - 2, std::size_t{4}, std::size_t{2}, std::size_t{0}})
-    drive(fewer, path.increments() / 12);
+    path.drive(CyclePath(path, fewer), 1.0 / 12);
 }
 
 } // namespace frictab::lsdyna::usrfrc
