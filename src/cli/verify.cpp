@@ -105,8 +105,8 @@ private:
 
 // Runs `verify`. Whatever it throws is written as JUnit before it goes on. Until then the JUnit
 // file says that the verification has not ended, for a routine or a signal that ends this process.
-int with_failures_told(const FailurePlaces& places, const CommonOptions& common,
-                       const std::function<int()>& verify) {
+int with_failures_written(const FailurePlaces& places, const CommonOptions& common,
+                          const std::function<int()>& verify) {
   if (!places.junit.empty() && !common.dry_run)
     write_one(places.junit,
               verify::failure_junit({{{},
@@ -227,8 +227,8 @@ const Registered<Command> registered{[] {
     app.add_option("--junit", options->junit, "Write the result as JUnit XML")->type_name("FILE");
     return [options, &common]() -> int {
       FailurePlaces places{options->junit, "", common.force};
-      return with_failures_told(places, common,
-                                [&] { return verify_any(*options, common, places); });
+      return with_failures_written(places, common,
+                                   [&] { return verify_any(*options, common, places); });
     };
   };
   command.uses = stage_uses;
