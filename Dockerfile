@@ -16,7 +16,7 @@ COPY --from=build /packages/frictab_*.deb /packages/
 # With the compilers that verify calls.
 RUN apt-get update -q && \
     DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends \
-      /packages/frictab_*.deb gcc gfortran libc6-dev xlsx2csv && \
+      /packages/frictab_*.deb gcc gfortran libc6-dev && \
     rm -rf /packages /var/lib/apt/lists/*
 WORKDIR /work
 ENTRYPOINT ["frictab"]

@@ -95,13 +95,18 @@ std::vector<std::string> training_names(const std::vector<std::string>& files,
 // Makes a job in DIR for the files; messages call them as the user does.
 job::GuessedJob guess_from(const std::vector<std::string>& files, const std::string& directory) {
   std::vector<data::GuessedFile> guesses;
-  std::vector<std::string> names;
-  for (const std::string& file : files) {
-    guesses.push_back(data::guess_file(file, file));
-    names.push_back(relative_to(file, directory));
-    guesses.back().file = names.back();
+  for (const std::string& file : files)
+    for (data::GuessedFile& guess : data::guess_file(file, file))
+      guesses.push_back(std::move(guess));
+  data::GuessedCampaign campaign = data::sort_guesses(std::move(guesses));
+  std::vector<std::string> of_rows, names;
+  for (data::GuessedFile& guess : campaign.files) {
+    if (of_rows.empty() || of_rows.back() != guess.file) of_rows.push_back(guess.file);
+    guess.file = relative_to(guess.file, directory);
+    names.push_back(guess.sheet.empty() ? guess.file : guess.file + "/" + guess.sheet);
   }
-  return job::guessed_job(guesses, data::guess_names(names), training_names(files, directory));
+  if (campaign.tests) campaign.tests->file = relative_to(campaign.tests->file, directory);
+  return job::guessed_job(campaign, data::guess_names(names), training_names(of_rows, directory));
 }
 
 int init_from(const Options& options, const CommonOptions& common) {

@@ -33,7 +33,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# verify compiles what was generated; workbooks are read through xlsx2csv.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gcc, gfortran, libc6-dev, xlsx2csv")
+# verify compiles what was generated.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gcc, gfortran, libc6-dev")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "clang, luajit, lua5.4")
 include(CPack)

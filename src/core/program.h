@@ -1,4 +1,4 @@
-// External programs (compilers, xlsx2csv) and their working directories.
+// External programs (compilers) and their working directories.
 #pragma once
 
 #include <chrono>

@@ -94,7 +94,21 @@ void add_apart(std::vector<RowsApart>& all, const std::vector<RowsApart>& more) 
 
 } // namespace
 
+namespace {
+
+// Parts of one file come one after the other.
+void add_files(std::vector<FileRead>& all, const std::vector<FileRead>& more) {
+  for (const FileRead& one : more)
+    if (!all.empty() && all.back().file == one.file)
+      all.back().rows += one.rows;
+    else
+      all.push_back(one);
+}
+
+} // namespace
+
 void absorb(Dataset& all, const Dataset& more) {
+  add_files(all.files, more.files);
   add_dropped(all, more.dropped);
   for (std::size_t p = 0; p < phase_count; ++p)
     all.phases[p] += more.phases[p];

@@ -19,6 +19,13 @@
 
 namespace frictab::data {
 
+std::string name_in_formulas(const std::string& column) {
+  std::string out;
+  for (const char c : io::read_header_name(column).name)
+    out += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return out;
+}
+
 namespace {
 
 // Slope of the least-squares line of y over t in a window of `width` rows around each row.
@@ -47,19 +54,11 @@ std::vector<double> local_slopes(std::span<const double> t, std::span<const doub
 
 // ---- formulas ----
 
-// A column's name as formulas write it: "Drehzahl innen [1/min]" is Drehzahl_innen.
-std::string written(const std::string& column) {
-  std::string out;
-  for (const char c : io::read_header_name(column).name)
-    out += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  return out;
-}
-
 // The column that a name in a formula refers to; nullptr if there is none.
 const Column* meant(Part& part, const std::string& name) {
   if (const Column* column = part.find(name)) return column;
   for (const Column& column : part.data.columns)
-    if (written(column.name) == name) return &column;
+    if (name_in_formulas(column.name) == name) return &column;
   return nullptr;
 }
 
@@ -182,7 +181,7 @@ private:
     if (!column) {
       std::vector<std::string> known = {"pi"};
       for (const Column& one : part_.data.columns)
-        known.push_back(find_quantity(one.name) ? one.name : written(one.name));
+        known.push_back(find_quantity(one.name) ? one.name : name_in_formulas(one.name));
       part_.faults.add(place,
                        fmt::format("the formula of {} needs {}, which {} does not have", canonical,
                                    name, part_.raw.file),
@@ -238,7 +237,7 @@ std::vector<std::string> computed_from(const DataOptions& options, const std::st
     for (const auto& [canonical, from] : columns) {
       if (from.formula.empty()) continue;
       const auto names = expr::symbols(expr::parse_expr(from.formula));
-      if (names.count(column) > 0 || names.count(written(column)) > 0)
+      if (names.count(column) > 0 || names.count(name_in_formulas(column)) > 0)
         quantities.push_back(canonical);
     }
   };

@@ -21,6 +21,9 @@ void take_slopes(Part& part, const DataOptions& options);
 // (abs(x), sqrt(x^2)), its signed values are kept as well (signs.h).
 void compute_formulas(Part& part, const DataOptions& options);
 
+// A column's name as formulas write it: "Drehzahl innen [1/min]" is Drehzahl_innen.
+std::string name_in_formulas(const std::string& column);
+
 // The quantities whose formulas in the job, for all or some files, use a column of this name.
 std::vector<std::string> computed_from(const DataOptions& options, const std::string& column);
 

@@ -124,6 +124,7 @@ public:
     out_.filed = rows_.filed;
     out_.first_row = first_block_;
     out_.sources = rows_.sources;
+    out_.files = rows_.files;
     out_.file_of = rows_.file_of;
     out_.assumed = rows_.assumed;
     absorb(out_, rows_);

@@ -75,9 +75,15 @@ void append_experiment(Condensed& to, const Dataset& data, std::size_t e) {
 
 } // namespace
 
+bool FileRead::is_like(const FileRead& other) const {
+  return form == other.form && header_line == other.header_line && units_line == other.units_line &&
+         not_read == other.not_read;
+}
+
 Dataset Dataset::subset(std::span<const std::size_t> keep) const {
   Dataset part;
   part.sources = sources;
+  part.files = files;
   part.dropped = dropped;
   part.notes = notes;
   part.phases = phases;

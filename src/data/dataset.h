@@ -128,6 +128,17 @@ struct AssumedUnit {
   bool operator==(const AssumedUnit&) const = default;
 };
 
+// How one file, or one sheet of a workbook, was read.
+struct FileRead {
+  std::string file;
+  std::string form;            // "text, cells by ;", "sheet", "HDF5"
+  std::size_t header_line = 0; // 0: none
+  std::size_t units_line = 0;
+  std::size_t rows = 0;
+  std::vector<std::string> not_read;         // columns, by name or number
+  bool is_like(const FileRead& other) const; // but for name and rows
+};
+
 // Block means of neighbouring rows (data/condense.h).
 struct Condensed {
   std::vector<double> rows;        // per block: number of its rows
@@ -151,6 +162,7 @@ public:
   };
   std::vector<Filed> filed;         // of each experiment, while files are read
   std::vector<std::string> sources; // files read, as named by the user
+  std::vector<FileRead> files;
   std::vector<std::string> file_of; // of each experiment; empty: unknown
   std::uint64_t hash = 0;           // hash of all values and names: the data's fingerprint
   struct Dropped {

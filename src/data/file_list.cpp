@@ -12,7 +12,9 @@
 #include "core/pattern.h"
 #include "core/text.h"
 #include "data/quantity.h"
+#include "data/workbooks.h"
 #include "io/number.h"
+#include "io/workbook.h"
 
 namespace frictab::data {
 
@@ -36,13 +38,18 @@ std::string without_signs(const std::string& text) {
   return out;
 }
 
+// Hidden files, locks of open workbooks and indices of TDMS files.
+bool is_by_product(const std::string& name) {
+  return name.starts_with('.') || name.starts_with("~$") || name.ends_with(".tdms_index");
+}
+
 std::vector<std::string> matching(const std::string& pattern, const std::string& base) {
   const std::string whole = fs::path(pattern).is_absolute() || base.empty()
                                 ? pattern
                                 : without_signs(base) + "/" + pattern;
   std::vector<std::string> names;
   for (const fs::path path : os::paths_like(whole))
-    if (fs::is_regular_file(path))
+    if (fs::is_regular_file(path) && !is_by_product(path.filename().string()))
       names.push_back(base.empty() || fs::path(pattern).is_absolute()
                           ? path.string()
                           : path.lexically_relative(base).string());
@@ -54,7 +61,7 @@ std::vector<std::string> files_in(const std::string& folder, const std::string& 
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(inside(base, folder))) {
     const std::string name = entry.path().filename().string();
-    if (entry.is_regular_file() && name.front() != '.')
+    if (entry.is_regular_file() && !is_by_product(name))
       names.push_back((fs::path(folder) / name).lexically_normal().string());
   }
   std::sort(names.begin(), names.end());
@@ -84,7 +91,10 @@ void apply(const FileRule& rule, DataOptions& options) {
   if (rule.skip_rows) options.skip_rows = *rule.skip_rows;
   if (rule.skip_footer) options.skip_footer = *rule.skip_footer;
   if (rule.units_row) options.units_row = *rule.units_row;
-  if (!rule.sheet.empty()) options.sheet = rule.sheet;
+  if (rule.header) options.header = rule.header;
+  if (rule.header_rows) options.header_rows = *rule.header_rows;
+  if (!rule.segments.begins.empty()) options.segments = rule.segments;
+  if (!rule.sheets.empty()) options.sheets = rule.sheets;
   for (const auto& [name, source] : rule.columns) {
     options.columns[name] = source;
     options.constants.erase(name);
@@ -142,7 +152,7 @@ public:
       : rule_(rule), files_(std::move(files)) {
     const Pattern pattern(rule.from_name, rule.from_name_place);
     for (const FilePlan* plan : files_)
-      groups_.push_back(groups_of(rule, pattern, plan->file));
+      groups_.push_back(groups_of(rule, pattern, plan->name));
     for (const std::string& name : pattern.names())
       name == "experiment" ? take_label() : take(name);
   }
@@ -166,7 +176,7 @@ private:
     if (levels.empty())
       throw InputError(rule_.from_name_place,
                        fmt::format("'{}' finds {} in no name, as in '{}'", rule_.from_name, name,
-                                   files_.front()->file),
+                                   files_.front()->name),
                        "a group that is there in some names at least");
     const Quantity* quantity = find_quantity(name);
     const bool dash = quantity || dash_is_decimal(levels);
@@ -212,7 +222,7 @@ private:
       if (!text.empty() && (!is_number(text, true, value) || value < quantity.lowest))
         throw InputError(
             rule_.from_name_place,
-            fmt::format("{} is '{}' in the name of {}", quantity.name, text, files_[i]->file),
+            fmt::format("{} is '{}' in the name of {}", quantity.name, text, files_[i]->name),
             fmt::format("a {} is a number, at least {}, in {}", quantity.meaning,
                         shortest(quantity.lowest), quantity.unit));
     }
@@ -236,35 +246,38 @@ std::string note_of(const FileRule& rule, std::size_t files,
   if (!names.empty()) parts.push_back("from the names " + join(names, ", "));
   if (!rule.experiment.empty()) parts.push_back("an experiment is " + rule.experiment);
   if (rule.delimiter || rule.decimal || rule.thousands || rule.skip_rows || rule.skip_footer ||
-      rule.units_row || !rule.sheet.empty())
+      rule.units_row || rule.header || rule.header_rows || !rule.segments.begins.empty() ||
+      !rule.sheets.empty())
     parts.emplace_back("a dialect of its own");
   return fmt::format("{} ({} {}): {}", rule.match, files, files == 1 ? "file" : "files",
                      parts.empty() ? "nothing special" : join(parts, "; "));
 }
 
-// Possible labels of a file, from short to long: its name, with its folder, with all folders.
+// Possible labels of a file, from short to long: its name, with its folder, with all folders. A
+// workbook is the folder of its sheets.
 constexpr std::size_t label_forms = 3;
 
-std::string label_of(const std::string& file, std::size_t form) {
-  const fs::path path(file);
-  const fs::path folders[label_forms] = {{}, path.parent_path().filename(), path.parent_path()};
-  return (folders[form] / path.stem()).generic_string();
+std::string label_of(const FilePlan& plan, std::size_t form) {
+  const bool is_sheet = plan.name != plan.file;
+  const fs::path path(plan.file),
+      folder = is_sheet ? path.parent_path() / path.stem() : path.parent_path();
+  const std::string own = is_sheet ? plan.options.sheets.front() : path.stem().string();
+  const fs::path folders[label_forms] = {{}, folder.filename(), folder};
+  return (folders[form] / own).generic_string();
 }
 
 // The shortest labels that are unique.
-std::vector<std::string> labels_of(const std::vector<std::string>& files) {
+void set_labels(std::vector<FilePlan>& plans) {
   std::map<std::string, std::size_t> count[label_forms];
-  for (const std::string& file : files)
+  for (const FilePlan& plan : plans)
     for (std::size_t form = 0; form < label_forms; ++form)
-      ++count[form][label_of(file, form)];
-  std::vector<std::string> labels;
-  for (const std::string& file : files) {
+      ++count[form][label_of(plan, form)];
+  for (FilePlan& plan : plans) {
     std::size_t form = 0;
-    while (form + 1 < label_forms && count[form][label_of(file, form)] > 1)
+    while (form + 1 < label_forms && count[form][label_of(plan, form)] > 1)
       ++form;
-    labels.push_back(label_of(file, form));
+    plan.label = label_of(plan, form);
   }
-  return labels;
 }
 
 } // namespace
@@ -288,23 +301,49 @@ std::vector<std::string> find_files(const std::vector<std::string>& named, const
   return out;
 }
 
+std::filesystem::path path_of(const FilePlan& plan) {
+  return inside(plan.options.base, plan.file);
+}
+
+namespace {
+
+// Replaces the plan of a workbook by those of its sheets.
+void add_sheets(FilePlans& plans, const FilePlan& book) {
+  const SheetChoice choice = choose_sheets(path_of(book).string(), book.file, book.options);
+  for (const std::string& sheet : choice.read) {
+    plans.files.push_back(book);
+    plans.files.back().options.sheets = {sheet};
+    if (!choice.alone) plans.files.back().name = book.file + "/" + sheet;
+  }
+  if (!choice.passed.empty())
+    plans.notes.push_back(fmt::format("{}: {} {} read, not read: {}", book.file, choice.read.size(),
+                                      choice.read.size() == 1 ? "sheet" : "sheets",
+                                      join(choice.passed, ", ")));
+}
+
+} // namespace
+
 FilePlans plan_files(const std::vector<std::string>& files, const Reading& options) {
   FilePlans plans;
-  const std::vector<std::string> labels = labels_of(files);
   Reading one = options; // for one file, without the lists of all files
   one.training.clear();
   one.validation.clear();
   one.files.clear();
-  std::vector<std::size_t> rules;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    plans.files.push_back({files[i], labels[i], one});
-    rules.push_back(rule_of(files[i], options));
-    if (rules.back() < options.files.size())
-      apply(options.files[rules.back()], plans.files.back().options);
+  std::vector<std::size_t> rules; // of each plan
+  for (const std::string& file : files) {
+    FilePlan plan{file, file, "", one};
+    const std::size_t rule = rule_of(file, options);
+    if (rule < options.files.size()) apply(options.files[rule], plan.options);
+    if (io::looks_like_workbook(path_of(plan)))
+      add_sheets(plans, plan);
+    else
+      plans.files.push_back(std::move(plan));
+    rules.resize(plans.files.size(), rule);
   }
+  set_labels(plans.files);
   for (std::size_t r = 0; r < options.files.size(); ++r) {
     std::vector<FilePlan*> own;
-    for (std::size_t i = 0; i < files.size(); ++i)
+    for (std::size_t i = 0; i < plans.files.size(); ++i)
       if (rules[i] == r) own.push_back(&plans.files[i]);
     if (own.empty()) continue;
     std::vector<std::string> names;
@@ -312,6 +351,13 @@ FilePlans plan_files(const std::vector<std::string>& files, const Reading& optio
     plans.notes.push_back(note_of(options.files[r], own.size(), names));
   }
   return plans;
+}
+
+std::vector<std::string> names_of(const FilePlans& plans) {
+  std::vector<std::string> names;
+  for (const FilePlan& plan : plans.files)
+    names.push_back(plan.name);
+  return names;
 }
 
 void check_rules(const std::vector<std::string>& files, const DataOptions& options) {

@@ -2,6 +2,7 @@
 // [[data.files]] gives the settings of some of them.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,23 +16,29 @@ namespace frictab::data {
 std::vector<std::string> find_files(const std::vector<std::string>& named, const std::string& base,
                                     const Place& place);
 
-// One file and how it is read.
+// One file, or one sheet of a workbook, and how it is read.
 struct FilePlan {
   std::string file;  // as named
+  std::string name;  // in messages and for from_name: the file, "tests.xlsx/T01" for a sheet
   std::string label; // label of its experiment unless a column gives one
   Reading options;   // with the overrides of the first rule that matches the file
 };
+
+std::filesystem::path path_of(const FilePlan& plan);
 
 struct FilePlans {
   std::vector<FilePlan> files;
   std::vector<std::string> notes; // changes made by each rule
 };
 
-// Labels are the files' names without folder and extension; with their folder if two are equal,
-// with all folders if these are equal too. Named groups of `from_name` become columns, numeric if
-// the group is a number in every file. Throws InputError if a name does not match the pattern of
-// its rule.
+// A plan per file, and per sheet of a workbook that is read (data/workbooks.h), in the order of the
+// files. Labels are the sheets' names, or the files' names without folder and extension; with their
+// folder if two are equal, with all folders if these are equal too. Named groups of `from_name`
+// become columns, numeric if the group is a number in every file. Throws InputError if a name does
+// not match the pattern of its rule, and for a workbook that cannot be read.
 FilePlans plan_files(const std::vector<std::string>& files, const Reading& options);
+
+std::vector<std::string> names_of(const FilePlans& plans);
 
 // Throws InputError for a rule that is not the first match of any file.
 void check_rules(const std::vector<std::string>& files, const DataOptions& options);

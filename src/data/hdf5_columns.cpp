@@ -13,6 +13,7 @@ Hdf5Columns::Hdf5Columns(const std::string& path, const std::string& named,
                          const DataOptions& options, FaultList& faults)
     : in_(path, named), plan_(plan_hdf5(in_, named, options, faults)), faults_(faults) {
   table_.file = named;
+  table_.form = "HDF5";
   table_.notes = plan_.notes; // returned with the first piece
   if (plan_.per_test) column("experiment", "", 0);
 }
@@ -34,6 +35,7 @@ io::CsvTable Hdf5Columns::next(std::uint64_t bytes) {
   io::CsvTable piece = std::move(table_);
   table_ = {};
   table_.file = piece.file;
+  table_.form = piece.form;
   for (const io::CsvColumn& one : piece.columns)
     table_.columns.push_back({one.name, one.unit, {}, {}});
   return piece;

@@ -48,8 +48,8 @@ class Campaign : public RowSource {
 public:
   Campaign(const std::vector<std::string>& named, const Reading& options)
       : options_(options), beside_(load_beside(options_)),
-        files_(find_files(named, options_.base, options_.place)),
-        plans_(plan_files(files_, options_)) {}
+        plans_(plan_files(find_files(named, options_.base, options_.place), options_)),
+        files_(names_of(plans_)) {}
 
   const std::vector<std::string>& files() const { return files_; }
   const std::vector<std::string>& notes() const { return plans_.notes; }
@@ -98,7 +98,7 @@ private:
     std::size_t before = 0;
     try {
       large_work(reading_words(plan), 0, one_experiment_at_a_time, [&] {
-        read_raw_parts(path_of(plan).string(), plan.file, plan.options, faults,
+        read_raw_parts(path_of(plan).string(), plan.name, plan.options, faults,
                        [&](std::vector<io::CsvTable>&& parts) {
                          parallel_for(parts.size(), [&](std::size_t i) {
                            take({file, before + i}, load_part(std::move(parts[i]), plan, beside_));
@@ -113,8 +113,8 @@ private:
 
   Reading options_; // without the columns taken from the table of tests
   Beside beside_;
-  std::vector<std::string> files_;
   FilePlans plans_;
+  std::vector<std::string> files_; // names of the plans
 };
 
 // Results of the first pass over a campaign.

@@ -2,6 +2,7 @@
 #include "data/load_part.h"
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -20,15 +21,11 @@
 
 namespace frictab::data {
 
-std::filesystem::path path_of(const FilePlan& plan) {
-  return std::filesystem::path(plan.options.base) / plan.file;
-}
-
 std::string reading_words(const FilePlan& plan) {
   std::error_code unknown; // reading the file reports the error
   const auto bytes = std::filesystem::file_size(path_of(plan), unknown);
-  if (unknown) return "reading " + plan.file;
-  return fmt::format("reading {} ({})", plan.file, human_bytes(static_cast<double>(bytes)));
+  if (unknown) return "reading " + plan.name;
+  return fmt::format("reading {} ({})", plan.name, human_bytes(static_cast<double>(bytes)));
 }
 
 namespace {
@@ -43,7 +40,7 @@ void map_part(Part& part, const FilePlan& plan) {
 void read_part(Part& part, const FilePlan& plan) {
   const Reading& options = plan.options;
   large_work(reading_words(plan), 0, fewer_rows, [&] {
-    part.raw = read_raw(path_of(plan).string(), plan.file, options, part.faults);
+    part.raw = read_raw(path_of(plan).string(), plan.name, options, part.faults);
     if (!options.wide.empty()) part.raw = from_wide(part.raw, options.wide, options.wide_place);
     map_part(part, plan);
   });
@@ -148,17 +145,18 @@ namespace {
 // Tests of data.tests and data.join without a row in any file.
 std::vector<std::string> unused_tests(const Dataset& data, const Beside& beside) {
   std::vector<std::string> unused;
+  std::set<std::string> used(data.experiments.begin(), data.experiments.end());
   const auto add = [&](const std::string& where, const std::string& name) {
-    const auto& used = data.experiments;
-    if (std::find(used.begin(), used.end(), name) == used.end())
-      unused.push_back(where + ": " + name);
+    if (used.count(name) == 0) unused.push_back(where + ": " + name);
   };
-  if (beside.tests)
-    for (const auto& [name, row] : beside.tests->row)
-      add(beside.tests->file, name);
   if (beside.second)
     for (const std::string& name : beside.second->experiments)
       add("data.join", name);
+  if (!beside.tests) return unused;
+  for (const std::string& experiment : data.experiments)
+    if (const std::string* const name = beside.tests->name_of(experiment)) used.insert(*name);
+  for (const auto& [name, row] : beside.tests->row)
+    add(beside.tests->file, name);
   return unused;
 }
 
@@ -178,6 +176,7 @@ void complete(Dataset& all, const ReadRequest& options, const Beside& beside) {
           fmt::format("data.join: {} {} left out ({}): its columns are interpolated "
                       "between those before and after",
                       thousands(dropped.rows), dropped.rows == 1 ? "row" : "rows", dropped.rule));
+  if (beside.tests) check_numbered(*beside.tests, all.experiments);
   report_rows_left_out(all);
   report_signs(all, options.force_zero);
   all.unused = unused_tests(all, beside);
@@ -239,13 +238,13 @@ Dataset load_all(const std::vector<std::string>& named, const Reading& options,
                  const std::function<Part(const FilePlan&)>& load) {
   const std::vector<std::string> files = find_files(named, options.base, options.place);
   const FilePlans plans = plan_files(files, options);
-  std::vector<Part> parts(files.size());
-  parallel_for(files.size(), [&](std::size_t i) { parts[i] = load(plans.files[i]); });
+  std::vector<Part> parts(plans.files.size());
+  parallel_for(parts.size(), [&](std::size_t i) { parts[i] = load(plans.files[i]); });
   std::vector<FaultList> faults;
   for (Part& part : parts)
     faults.push_back(std::move(part.faults));
   throw_faults(faults);
-  Dataset all = one_campaign(parts, files);
+  Dataset all = one_campaign(parts, names_of(plans));
   all.notes.insert(all.notes.begin(), plans.notes.begin(), plans.notes.end());
   return all;
 }

@@ -22,8 +22,7 @@ struct Beside {
 // Reads data.tests and data.join; removes from the options the columns that the table of tests has.
 Beside load_beside(Reading& options);
 
-// Path of a file, and its description in the message for exhausted memory.
-std::filesystem::path path_of(const FilePlan& plan);
+// Description of a file in the message for exhausted memory.
 std::string reading_words(const FilePlan& plan);
 
 // Reads a whole file: maps, cuts into experiments, computes, leaves out and checks. Faults are in

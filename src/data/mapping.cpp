@@ -10,11 +10,13 @@
 
 #include <fmt/format.h>
 
+#include "core/no_value.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "data/computed.h"
 #include "data/quantity.h"
 #include "data/scale.h"
+#include "data/time_stamps.h"
 #include "io/number.h"
 
 namespace frictab::data {
@@ -34,7 +36,7 @@ bool is_not_finite(const std::string& text) {
 
 // True for a cell without a value: empty, or the word that spreadsheets and statistics programs
 // use.
-bool is_missing(const std::string& text) {
+bool is_word_for_missing(const std::string& text) {
   const std::string word = lower_case(text);
   return word.empty() || word == "nan" || word == "na" || word == "n/a" || word == "#n/a" ||
          word == "null";
@@ -50,6 +52,11 @@ public:
       bare_names_[headers_.back().name].push_back(headers_.size());
     }
     out_.notes = raw.notes;
+    for (CsvColumn& column : raw_.columns)
+      blank_missing(column);
+    for (const auto& [name, numbers] : whole_names_)
+      for (std::size_t i = 1; i < numbers.size(); ++i)
+        if (is_repeated(numbers[0], numbers[i])) repeats_[numbers[i]] = numbers[0];
   }
 
   MappedFile map() {
@@ -90,6 +97,32 @@ public:
   }
 
 private:
+  // Empties the cells whose value stands for none, as the job says.
+  void blank_missing(CsvColumn& column) {
+    std::size_t cells = 0;
+    for (const std::string& missing : options_.missing_values)
+      if (double number = 0; io::read_number(missing, '.', number))
+        for (double& value : column.numbers)
+          if (value == number) {
+            value = frictab::no_value;
+            ++cells;
+          }
+    for (const CsvColumn::Text& cell : column.texts)
+      cells += is_marked_missing(cell.text);
+    if (cells > 0)
+      note_counted(column.name + ": ", " cells are empty by data.missing_values", cells, false);
+  }
+
+  bool is_marked_missing(const std::string& text) const {
+    const auto& values = options_.missing_values;
+    return std::find(values.begin(), values.end(), text) != values.end();
+  }
+
+  // True for a cell without a value: empty, or a word that stands for it.
+  bool is_missing(const std::string& text) const {
+    return is_word_for_missing(text) || is_marked_missing(text);
+  }
+
   // Name and unit of a column that is taken by its name before a unit, even an unknown unit;
   // otherwise a quantity would silently end up among the other columns. convert_unit reports such a
   // unit.
@@ -99,6 +132,20 @@ private:
       return known;
     const bool is_own = find_quantity(any.name) && !options_.columns.count(any.name);
     return is_own || is_named(any.name) ? any : known;
+  }
+
+  // True if two columns, by their numbers, have equal cells: rigs write the time for every channel.
+  bool is_repeated(std::size_t first, std::size_t second) const {
+    const CsvColumn &a = raw_.columns[first - 1], &b = raw_.columns[second - 1];
+    const auto equal = [](double x, double y) {
+      return x == y || (std::isnan(x) && std::isnan(y));
+    };
+    return std::equal(a.numbers.begin(), a.numbers.end(), b.numbers.begin(), b.numbers.end(),
+                      equal) &&
+           std::equal(a.texts.begin(), a.texts.end(), b.texts.begin(), b.texts.end(),
+                      [](const CsvColumn::Text& x, const CsvColumn::Text& y) {
+                        return x.row == y.row && x.text == y.text;
+                      });
   }
 
   // True if the job names the column by its whole name.
@@ -156,7 +203,10 @@ private:
   const CsvColumn* by_name(const std::string& name) {
     const std::vector<std::size_t>& numbers = numbers_of(name);
     if (numbers.empty()) return nullptr;
-    if (numbers.size() > 1 && ambiguous_.insert(name).second)
+    const bool differ = std::any_of(numbers.begin() + 1, numbers.end(), [&](std::size_t number) {
+      return repeats_.count(number) == 0;
+    });
+    if (differ && ambiguous_.insert(name).second)
       faults_.add(header(),
                   fmt::format("there are {} columns '{}': {}", numbers.size(), name, list(numbers)),
                   fmt::format("take one by its number: {{ column = {} }}", numbers.front()));
@@ -273,12 +323,31 @@ private:
       return;
     }
     used_.insert(column);
+    if (quantity.name == "time_s" && map_clock(*column)) return;
     Column mapped{quantity.name, quantity.unit, numbers(*column, quantity.name), {}};
     const auto found = options_.columns.find(quantity.name);
     const ColumnSource plain;
     convert_unit(mapped, quantity, *column,
                  found == options_.columns.end() ? plain : found->second);
     out_.columns.push_back(std::move(mapped));
+  }
+
+  // Takes a column of clock times or time stamps in s since its first one; false for other columns.
+  bool map_clock(const CsvColumn& raw) {
+    if (raw_.rows() == 0 || raw.texts.size() < raw_.rows() || !looks_like_time(raw.texts[0].text))
+      return false;
+    std::vector<std::string> texts;
+    for (const CsvColumn::Text& cell : raw.texts)
+      texts.push_back(cell.text);
+    RowTimes times = seconds_since_first(texts);
+    if (!times.fault.empty()) {
+      faults_.add(row_place(raw_, times.at, raw.texts[times.at].column), "time_s: " + times.fault,
+                  "times are 14:03:05,120 or with a date, 2026-03-02 14:03:05");
+      times.seconds.assign(raw_.rows(), 0);
+    }
+    out_.notes.push_back(fmt::format("time_s: clock times, in s since the first, {}", texts[0]));
+    out_.columns.push_back({"time_s", "s", std::move(times.seconds), {}});
+    return true;
   }
 
   // Adds a constant of the job, which overrides the file's column; a note reports that the column
@@ -413,13 +482,32 @@ private:
     for (const CsvColumn& column : raw_.columns) {
       if (used_.count(&column) || column.name.empty()) continue;
       if (find_quantity(column.name)) continue; // its canonical name is mapped from elsewhere
-      if (options_.bystanders && !keep.count(column.name) && column.name != origin_column &&
-          computed_from(options_, column.name).empty())
+      const bool is_wanted = !options_.bystanders || keep.count(column.name) ||
+                             column.name == origin_column ||
+                             !computed_from(options_, column.name).empty();
+      if (!is_wanted || is_left_out_as_repeat(column)) {
+        out_.not_read.push_back(column.name);
         continue;
-      if (by_name(column.name) != &column) continue; // a duplicate, reported already
+      }
       check_case(column);
-      add_bystander(column);
+      add_bystander(column, bystander_name(column));
     }
+  }
+
+  bool is_left_out_as_repeat(const CsvColumn& column) {
+    const std::size_t number = std::size_t(&column - raw_.columns.data()) + 1;
+    const auto found = repeats_.find(number);
+    if (found == repeats_.end()) return false;
+    out_.notes.push_back(fmt::format("column {} '{}' repeats column {}: it is not read", number,
+                                     column.name, found->second));
+    return true;
+  }
+
+  // The name of a recorded column; its number is part of it if other columns have the same name.
+  std::string bystander_name(const CsvColumn& column) {
+    const std::vector<std::size_t>& alike = numbers_of(column.name);
+    if (alike.size() == 1) return column.name;
+    return fmt::format("{} (column {})", column.name, &column - raw_.columns.data() + 1);
   }
 
   // Accepts columns that the job gives for the whole file or its tests; these are kept even if not
@@ -465,37 +553,39 @@ private:
       if (column.name.empty() && !used_.count(&column) && holds) nameless.push_back(i + 1);
     }
     if (nameless.empty()) return;
+    for (const std::size_t number : nameless)
+      out_.not_read.push_back(fmt::format("column {}", number));
     out_.notes.push_back(
         fmt::format("{} without a name {} not read: number {}",
                     nameless.size() == 1 ? "a column" : thousands(nameless.size()) + " columns",
                     nameless.size() == 1 ? "is" : "are", list(nameless)));
   }
 
-  void add_bystander(const CsvColumn& raw) {
+  void add_bystander(const CsvColumn& raw, const std::string& name) {
     const auto missing = static_cast<std::size_t>(
         std::count_if(raw.texts.begin(), raw.texts.end(),
-                      [](const CsvColumn::Text& cell) { return is_missing(cell.text); }));
+                      [&](const CsvColumn::Text& cell) { return is_missing(cell.text); }));
     const std::size_t words = raw.texts.size() - missing;
     const auto numeric = static_cast<std::size_t>(std::count_if(
         raw.numbers.begin(), raw.numbers.end(), [](double value) { return !std::isnan(value); }));
-    Column column{raw.name, "", {}, {}};
+    Column column{name, "", {}, {}};
     if (words > 0 && words >= (words + numeric) / 2) { // empty cells count as neither
       make_categorical(column, raw);
-      if (missing > 0) report_empty_cells(raw.name, missing, ": a level of their own");
+      if (missing > 0) report_empty_cells(name, missing, ": a level of their own");
       out_.columns.push_back(std::move(column));
       return;
     }
     for (const CsvColumn::Text& cell : raw.texts)
       if (!is_missing(cell.text))
-        cell_fault(cell.row, cell.column, raw.name, Cause::no_number,
+        cell_fault(cell.row, cell.column, name, Cause::no_number,
                    fmt::format("'{}' is not a number, as most of the column is", cell.text),
                    "repair the cell, or leave the column out by listing the others in "
                    "data.bystanders");
     for (std::size_t i = 0; i < raw.numbers.size(); ++i)
-      if (std::isinf(raw.numbers[i])) not_finite(i, 0, raw.name, shortest(raw.numbers[i]));
+      if (std::isinf(raw.numbers[i])) not_finite(i, 0, name, shortest(raw.numbers[i]));
     const auto empty = std::count_if(raw.numbers.begin(), raw.numbers.end(),
                                      [](double value) { return std::isnan(value); });
-    if (empty > 0) report_empty_cells(raw.name, static_cast<std::size_t>(empty), "");
+    if (empty > 0) report_empty_cells(name, static_cast<std::size_t>(empty), "");
     column.values = taken(raw);
     out_.columns.push_back(std::move(column));
   }
@@ -568,6 +658,7 @@ private:
   MappedFile out_;
   std::set<const CsvColumn*> used_;
   std::map<const CsvColumn*, std::size_t> uses_; // number of quantities that use its numbers
+  std::map<std::size_t, std::size_t> repeats_; // numbers of equal columns of one name: later, first
   std::set<std::string> ambiguous_;
 };
 

@@ -13,6 +13,7 @@ struct MappedFile {
   std::vector<std::string> experiment; // per row; empty if the file is one experiment
   bool intervals = false;              // experiments are the intervals between header lines
   std::vector<std::string> notes;
+  std::vector<std::string> not_read; // columns, by name or number
   std::vector<AssumedUnit> assumed;
   struct CellFault { // of one cell; reported only if its row is not left out
     std::size_t row;

@@ -45,14 +45,22 @@ enum class UsedRows { sliding, all };
 // kept as friction.
 enum class ForceZero { automatic, remove, keep };
 
+// Regular expressions of lines that open and close a run of rows; empty: none.
+struct SegmentRules {
+  std::string begins, ends;
+  Place place;
+};
+
 // Settings for some files; the first rule that matches a file applies. Rows are left out by the
 // same rules in all files.
 struct FileRule {
   std::string match; // a glob; matches the whole path if it contains a /
   std::optional<char> delimiter, decimal, thousands;
   std::optional<std::size_t> skip_rows, skip_footer;
-  std::optional<bool> units_row;
-  std::string sheet; // of a workbook
+  std::optional<bool> units_row, header;
+  std::optional<std::size_t> header_rows;
+  std::vector<std::string> sheets; // of a workbook
+  SegmentRules segments;
   std::map<std::string, ColumnSource> columns;
   std::map<std::string, double> constants;   // canonical, or a new column
   std::map<std::string, std::string> labels; // text columns
@@ -92,7 +100,13 @@ struct DataOptions {
   std::size_t skip_rows = 0;   // preamble lines before the header
   std::size_t skip_footer = 0; // lines after the data
   bool units_row = false;      // a line of units below the header
-  std::string sheet;           // of a workbook; empty: the first one
+  // false: no line of names; absent: there is one, unless it would be numbers and the job takes
+  // columns by number alone
+  std::optional<bool> header;
+  std::size_t header_rows = 1; // lines of names
+  SegmentRules segments;
+  std::vector<std::string> missing_values; // texts and numbers that stand for no value
+  std::vector<std::string> sheets;         // of a workbook, names with *; empty: those of tests
   std::vector<DropRule> drop;
   std::map<std::string, ColumnSource> columns; // by canonical name
   // By canonical name; for one file also other columns.
@@ -111,7 +125,8 @@ struct DataOptions {
   ForceZero force_zero = ForceZero::automatic;
   std::vector<std::string> allow_implausible; // names of checks (data/plausibility.h)
   std::vector<FileRule> files;
-  std::string tests; // a file with one row per experiment
+  std::string tests;       // a file with one row per experiment
+  std::string tests_sheet; // if that file is a workbook
   Place tests_place;
   JoinOptions join;
   // A regular expression for columns that are one test each (data/wide.h).

@@ -59,6 +59,8 @@ void gather_experiments(Part& part, MappedFile&& mapped, const std::string& labe
     data.columns.push_back(std::move(sorted));
   }
   part.raw_rows = rows;
+  data.files = {{part.raw.file, part.raw.form, part.raw.header_line, part.raw.units_line, rows,
+                 std::move(mapped.not_read)}};
   data.notes = std::move(mapped.notes);
   data.assumed = std::move(mapped.assumed);
   part.cell_faults = std::move(mapped.cell_faults);

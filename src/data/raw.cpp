@@ -1,57 +1,26 @@
 // Reads a data file of any format into named columns.
 #include "data/raw.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <memory>
-#include <stdexcept>
 
-#include <fmt/format.h>
-
-#include "core/program.h"
 #include "core/text.h"
+#include "data/computed.h"
 #include "data/hdf5_columns.h"
 #include "data/quantity.h"
 #include "data/wide.h"
-#include "io/atomic_file.h"
+#include "data/workbooks.h"
 #include "io/hdf5.h"
 #include "io/text_file.h"
+#include "io/workbook.h"
 
 namespace frictab::data {
 
 namespace {
-
-std::string last_line(std::string text) {
-  while (!text.empty() && text.back() == '\n')
-    text.pop_back();
-  return text.substr(text.find_last_of('\n') + 1);
-}
-
-// A sheet as CSV, with numbers as stored, independent of their display format.
-std::string sheet_text(const std::string& path, const std::string& named,
-                       const std::string& sheet) {
-  const std::string tool = "xlsx2csv";
-  if (!have_program(tool))
-    throw InputError({named, 0, 0}, "is a workbook, and xlsx2csv is not installed",
-                     "install the package xlsx2csv, or save the sheet as CSV");
-  const TemporaryDirectory work;
-  const std::string out = (work.path() / "sheet.csv").string();
-  std::vector<std::string> command = {tool, "--ignore-formats", "float", "-d", ","};
-  if (!sheet.empty()) command.insert(command.end(), {"-n", sheet});
-  command.insert(command.end(), {"--", path, out});
-  try {
-    run_program(command, work.path() / "log");
-  } catch (const std::runtime_error& error) {
-    const std::string said = error.what(); // the command, then the program's output
-    throw InputError({named, 0, 0},
-                     sheet.empty() ? "is not a workbook that xlsx2csv can read"
-                                   : fmt::format("holds no sheet '{}' that can be read", sheet),
-                     "xlsx2csv says: " + last_line(said));
-  }
-  return io::read_file(out);
-}
 
 // Possible column names: those that the job maps, and the canonical ones.
 std::vector<std::string> wanted_names(const DataOptions& options) {
@@ -63,15 +32,32 @@ std::vector<std::string> wanted_names(const DataOptions& options) {
   return names;
 }
 
+// Names that formulas of the job use, and those of columns that are a test each.
+std::function<bool(const std::string&)> wanted_by_pattern(const DataOptions& options) {
+  std::optional<Pattern> tests;
+  if (!options.wide.empty()) tests = test_columns(options.wide, options.wide_place);
+  return [tests, options](const std::string& name) {
+    return (!name.empty() && !computed_from(options, name).empty()) ||
+           (tests && tests->search(name));
+  };
+}
+
+bool takes_by_number_alone(const DataOptions& options) {
+  const auto& columns = options.columns;
+  return std::any_of(columns.begin(), columns.end(),
+                     [](const auto& one) { return one.second.number > 0; }) &&
+         std::all_of(columns.begin(), columns.end(),
+                     [](const auto& one) { return one.second.names.empty(); });
+}
+
+std::shared_ptr<const io::CsvSegments> segments_of(const SegmentRules& rules) {
+  if (rules.begins.empty()) return nullptr;
+  io::CsvSegments segments{Pattern(rules.begins, rules.place), std::nullopt};
+  if (!rules.ends.empty()) segments.ends = Pattern(rules.ends, rules.place);
+  return std::make_shared<const io::CsvSegments>(std::move(segments));
+}
+
 } // namespace
-
-bool is_workbook(const std::string& path) {
-  return lower_case(std::filesystem::path(path).extension().string()) == ".xlsx";
-}
-
-std::string raw_text(const std::string& path, const std::string& named, const std::string& sheet) {
-  return is_workbook(path) ? sheet_text(path, named, sheet) : io::read_text_file(path, named);
-}
 
 Place row_place(const io::CsvTable& table, std::size_t row, std::size_t column) {
   if (table.header_line == 0) return {table.file, 0, 0};
@@ -86,6 +72,10 @@ io::CsvFormat csv_format(const std::string& path, const DataOptions& options) {
   format.skip_rows = options.skip_rows;
   format.skip_footer = options.skip_footer;
   format.units_row = options.units_row;
+  format.header = options.header.value_or(true);
+  format.may_lack_header = !options.header && takes_by_number_alone(options);
+  format.header_rows = options.header_rows;
+  format.segments = segments_of(options.segments);
   format.text_columns = {"experiment"};
   if (const auto named_so = options.columns.find("experiment"); named_so != options.columns.end()) {
     format.text_columns = named_so->second.names;
@@ -94,10 +84,8 @@ io::CsvFormat csv_format(const std::string& path, const DataOptions& options) {
   if (const std::string column = experiment_column_of(options); !column.empty())
     format.text_columns.push_back(column);
   format.wanted = wanted_names(options);
-  if (!options.wide.empty())
-    format.also_wanted = [tests = test_columns(options.wide, options.wide_place)](
-                             const std::string& name) { return tests.search(name).has_value(); };
-  if (is_workbook(path)) { // the dialect of xlsx2csv
+  format.also_wanted = wanted_by_pattern(options);
+  if (io::looks_like_workbook(path)) { // the dialect of io::Sheet
     format.delimiter = ',';
     format.decimal = '.';
     format.thousands = 0;
@@ -115,7 +103,17 @@ constexpr std::uint64_t large_text = std::uint64_t{32} << 20,
 std::uint64_t bytes_of_large(const std::string& path) {
   std::error_code unknown;
   const auto bytes = std::filesystem::file_size(path, unknown);
-  return !unknown && !is_workbook(path) && bytes > large_text ? bytes : 0;
+  return !unknown && bytes > large_text ? bytes : 0;
+}
+
+// Rigs write text to files called .xls, but not to these.
+void check_name(const std::filesystem::path& path, const std::string& named) {
+  const std::string extension = lower_case(path.extension().string());
+  std::error_code unknown;
+  if ((extension == ".xlsx" || extension == ".xlsm") && !io::looks_like_workbook(path) &&
+      std::filesystem::exists(path, unknown))
+    throw InputError({named, 0, 0}, "is no workbook, as its name says",
+                     "save it again as .xlsx; text is read under another name, as .csv");
 }
 
 io::CsvTable whole_of(io::CsvPieces& pieces, std::uint64_t bytes, FaultList& faults) {
@@ -135,16 +133,20 @@ io::CsvTable whole_of(io::CsvPieces& pieces, std::uint64_t bytes, FaultList& fau
 
 io::CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
                       FaultList& faults) {
+  check_name(path, named);
   if (io::looks_like_hdf5(path))
     return Hdf5Columns(path, named, options, faults)
         .next(std::numeric_limits<std::uint64_t>::max());
   const io::CsvFormat format = csv_format(path, options);
+  if (io::looks_like_workbook(path))
+    return read_sheet(path, named, options.sheets.empty() ? "" : options.sheets.front(), format,
+                      faults);
   if (const std::uint64_t bytes = bytes_of_large(path); bytes > 0) {
     io::CsvPieces pieces(std::make_unique<std::ifstream>(io::open_text_file(path, named)), named,
                          format, piece_of_text);
     if (pieces.whole_because().empty()) return whole_of(pieces, bytes, faults);
   }
-  return io::parse_csv(raw_text(path, named, options.sheet), named, format, faults);
+  return io::parse_csv(io::read_text_file(path, named), named, format, faults);
 }
 
 } // namespace frictab::data

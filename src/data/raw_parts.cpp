@@ -12,6 +12,7 @@
 #include "data/wide.h"
 #include "io/hdf5.h"
 #include "io/text_file.h"
+#include "io/workbook.h"
 
 namespace frictab::data {
 
@@ -122,8 +123,8 @@ void cut_pieces(const std::function<std::vector<io::CsvTable>()>& next, const Re
 
 void read_raw_parts(const std::string& path, const std::string& named, const Reading& options,
                     FaultList& faults, const TakeParts& take) {
-  const bool held = is_workbook(path) || !options.wide.empty() || !options.join.files.empty() ||
-                    is_cut_whole(options);
+  const bool held = io::looks_like_workbook(path) || !options.wide.empty() ||
+                    !options.join.files.empty() || is_cut_whole(options);
   if (held) return read_whole(path, named, options, faults, take);
   if (io::looks_like_hdf5(path)) {
     Hdf5Columns columns(path, named, options, faults);

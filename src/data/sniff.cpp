@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -13,10 +14,15 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "data/checks.h"
+#include "data/computed.h"
 #include "data/quantity.h"
 #include "data/raw.h"
+#include "data/test_table.h"
+#include "data/workbooks.h"
 #include "io/hdf5.h"
 #include "io/number.h"
+#include "io/text_file.h"
+#include "io/workbook.h"
 
 namespace frictab::data {
 
@@ -72,7 +78,7 @@ const std::vector<Names>& known_names() {
       {"T_tool_C", false, {"t tool", "t werkzeug"}, {"tool temp", "werkzeugtemp", "die temp"}},
       {"T_contact_C",
        false,
-       {"t contact", "temperature", "temperatur", "temp"},
+       {"t contact", "temperature", "temperatur", "temp", "t"},
        {"contact temp", "kontakttemp"}},
       {"psi",
        false,
@@ -106,7 +112,7 @@ std::string of_abaqus(const std::string& name) {
       word.size() == 4 && (std::isdigit(static_cast<unsigned char>(word[3])) || word[3] == 'm');
   if (component && word.starts_with("cfn")) return "F_N_N";
   if (component && word.starts_with("cfs")) return "F_R_N";
-  if (name.find(" pi ") == name.npos) return "";
+  if (name.find(" pi ") == name.npos && name != word) return "";
   if (word == "temp" || word == "nt11") return "T_contact_C";
   const bool velocity =
       word.size() == 2 && word[0] == 'v' && std::isdigit(static_cast<unsigned char>(word[1]));
@@ -172,14 +178,16 @@ double worth(const io::CsvTable& table, std::size_t faults, const io::CsvFormat&
   std::size_t units = 0, unit_cells = 0;
   for (const io::CsvColumn& column : table.columns) {
     double ignored = 0;
-    const bool named = !column.name.empty() && !io::read_number(column.name, '.', ignored);
+    const bool named = column.name.empty() ? format.units_row && !column.unit.empty()
+                                           : !io::read_number(column.name, '.', ignored) &&
+                                                 !io::read_number(column.name, ',', ignored);
     const auto texts = static_cast<double>(column.texts.size());
     const auto rows = static_cast<double>(column.numbers.size());
     if (named && is_number_column(column)) sum += rows - 2 * texts;
     if (column.unit.empty()) continue;
     ++unit_cells;
-    units +=
-        convert(io::without_brackets(column.unit), io::without_brackets(column.unit)).has_value();
+    const std::string unit = io::without_brackets(column.unit);
+    units += !io::read_number(unit, '.', ignored) && convert(unit, unit).has_value();
   }
   if (!format.units_row) return sum;
   if (2 * units < std::max<std::size_t>(unit_cells, 1)) return -1;
@@ -189,12 +197,13 @@ double worth(const io::CsvTable& table, std::size_t faults, const io::CsvFormat&
 }
 
 class Dialects {
+  static constexpr std::size_t longest_preamble = 60;
+
 public:
   explicit Dialects(std::string_view text, const std::string& named, bool workbook)
       : text_(text), named_(named) {
     if (text.find_first_not_of(" \t\r\n") == text.npos)
       throw InputError({named, 0, 0}, "the file is empty");
-    constexpr std::size_t longest_preamble = 60;
     for (const char decimal : {'.', ','})
       for (const bool units_row : {false, true})
         for (std::size_t skip = 0; skip < longest_preamble; ++skip) {
@@ -205,6 +214,8 @@ public:
           if (workbook) format.delimiter = ',';
           if (!workbook || decimal == '.') attempt(format);
         }
+    if (!(most_ > 0)) attempt_without_header(workbook);
+    attempt_two_lines();
     for (const char between : {'.', ',', '\'', ' '}) {
       io::CsvFormat format = best;
       format.thousands = between;
@@ -221,6 +232,31 @@ public:
   bool any_decimal = false; // only whole numbers, so either decimal sign works
 
 private:
+  void attempt_without_header(bool workbook) {
+    for (const char decimal : {'.', ','})
+      for (std::size_t skip = 0; skip < longest_preamble; ++skip) {
+        io::CsvFormat format;
+        format.decimal = decimal;
+        format.header = false;
+        format.skip_rows = skip;
+        if (workbook) format.delimiter = ',';
+        if (!workbook || decimal == '.') attempt(format);
+      }
+  }
+
+  // Names of two lines, where one line leaves columns without a name or with equal ones.
+  void attempt_two_lines() {
+    std::set<std::string> names;
+    for (const io::CsvColumn& column : table.columns)
+      names.insert(column.name);
+    names.erase("");
+    if (names.size() == table.columns.size() || table.header_line < 2) return;
+    io::CsvFormat format = best;
+    format.skip_rows = table.header_line - 2;
+    format.header_rows = 2;
+    attempt(format);
+  }
+
   void attempt(const io::CsvFormat& format) {
     try {
       FaultList faults;
@@ -261,19 +297,77 @@ std::string first_values(const io::CsvColumn& column) {
   return join(shown, ", ");
 }
 
+// The cells of a column as texts, if they all differ.
+std::vector<std::string> names_in(const io::CsvColumn& column) {
+  std::vector<std::string> names;
+  for (const double value : column.numbers)
+    names.push_back(shortest(value));
+  for (const io::CsvColumn::Text& cell : column.texts)
+    names[cell.row] = cell.text;
+  const std::set<std::string> different(names.begin(), names.end());
+  if (different.size() < names.size()) names.clear();
+  return names;
+}
+
+const io::CsvColumn& raw_of(const GuessedColumn& column, const io::CsvTable& table) {
+  if (column.number > 0) return table.columns[column.number - 1];
+  return *std::find_if(table.columns.begin(), table.columns.end(),
+                       [&](const io::CsvColumn& raw) { return raw.name == column.name; });
+}
+
+GuessedColumn* find_column(std::vector<GuessedColumn>& columns, const std::string& canonical) {
+  for (GuessedColumn& column : columns)
+    if (column.canonical == canonical) return &column;
+  return nullptr;
+}
+
+// The clock, where no name says so: a first column that only ascends, without a name but in units
+// of time, or called X as in the reports of Abaqus.
+void name_clock(std::vector<GuessedColumn>& columns, const io::CsvTable& table) {
+  if (columns.empty() || find_column(columns, "time_s")) return;
+  GuessedColumn& first = columns.front();
+  const bool in_time = first.name.empty() && convert(first.unit, "s");
+  if (!first.canonical.empty() || first.text || (!in_time && lower_case(first.name) != "x")) return;
+  const std::vector<double>& values = raw_of(first, table).numbers;
+  if (std::is_sorted(values.begin(), values.end())) first.canonical = "time_s";
+}
+
+// Takes a friction column for a coefficient where it has no unit, no normal force goes with it, and
+// it is as small as coefficients are.
+void name_coefficient(std::vector<GuessedColumn>& columns, const io::CsvTable& table) {
+  constexpr double largest = 1.5;
+  GuessedColumn* const friction = find_column(columns, "F_R_N");
+  if (!friction || !friction->unit.empty() || friction->name == friction->canonical ||
+      find_column(columns, "F_N_N") || find_column(columns, "tau_R_MPa"))
+    return;
+  const std::vector<double>& values = raw_of(*friction, table).numbers;
+  if (std::any_of(values.begin(), values.end(),
+                  [](double value) { return std::abs(value) > largest; }))
+    return;
+  friction->canonical = "tau_R_MPa";
+  friction->coefficient = true;
+}
+
 std::vector<GuessedColumn> columns_of(const io::CsvTable& table) {
   std::vector<GuessedColumn> columns;
-  for (const io::CsvColumn& raw : table.columns) {
-    if (raw.name.empty()) continue;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const io::CsvColumn& raw = table.columns[i];
+    if (raw.name.empty() && raw.unit.empty()) continue;
+    const auto alike = std::count_if(table.columns.begin(), table.columns.end(),
+                                     [&](const auto& other) { return other.name == raw.name; });
     GuessedColumn column;
     column.name = raw.name;
+    if (alike > 1 || raw.name.empty()) column.number = i + 1;
     column.unit =
         raw.unit.empty() ? io::read_header_name(raw.name).unit : io::without_brackets(raw.unit);
     column.text = !is_number_column(raw);
     column.first_values = first_values(raw);
+    column.names = names_in(raw);
     columns.push_back(std::move(column));
   }
   name_columns(columns);
+  name_clock(columns, table);
+  name_coefficient(columns, table);
   return columns;
 }
 
@@ -285,7 +379,8 @@ bool is_found_by_names(std::string_view text, const GuessedFile& guess, const io
   for (const Quantity& quantity : quantities())
     format.wanted.emplace_back(quantity.name);
   for (const GuessedColumn& column : guess.columns)
-    if (!column.canonical.empty()) format.wanted.push_back(io::read_header_name(column.name).name);
+    if (!column.canonical.empty() && !column.name.empty())
+      format.wanted.push_back(io::read_header_name(column.name).name);
   try {
     FaultList faults;
     return io::parse_csv(text, guess.file, format, faults).header_line == table.header_line;
@@ -343,34 +438,232 @@ bool GuessedFile::is_read_as(const GuessedFile& other) const {
   };
   return (any_decimal || decimal == other.decimal) &&
          (thousands == 0 || thousands == other.thousands) && units_row == other.units_row &&
+         header == other.header && header_rows == other.header_rows &&
          intervals == other.intervals && rows == other.rows && skip_rows == other.skip_rows &&
          named(*this) == named(other);
 }
 
-GuessedFile guess_file(const std::string& path, const std::string& named) {
-  GuessedFile guess;
-  guess.file = named;
-  io::CsvTable table;
-  if (io::looks_like_hdf5(path)) {
-    FaultList faults;
-    table = read_raw(path, named, {}, faults);
-  } else {
-    const std::string text = head_of(raw_text(path, named, ""));
-    Dialects dialects(text, named, is_workbook(path));
-    table = std::move(dialects.table);
-    guess.decimal = dialects.best.decimal;
-    guess.thousands = dialects.best.thousands;
-    guess.any_decimal = dialects.any_decimal;
-    guess.units_row = dialects.best.units_row;
-    guess.intervals = !table.interval.empty() && table.interval.back() > 0;
-    guess.columns = columns_of(table);
-    if (!is_found_by_names(text, guess, table, dialects.best))
-      guess.skip_rows = dialects.best.skip_rows;
-  }
-  if (guess.columns.empty()) guess.columns = columns_of(table);
+std::string GuessedFile::label() const {
+  return sheet.empty() ? std::filesystem::path(file).stem().string() : sheet;
+}
+
+namespace {
+
+// The normal stress of Abaqus' history output, in its files' own units.
+std::string pressure_of_abaqus(const GuessedFile& guess) {
+  const GuessedColumn* const force = guess.find("F_N_N");
+  if (guess.find("sigma_n_MPa") || !force || force->number > 0) return "";
+  for (const GuessedColumn& column : guess.columns)
+    if (plain(column.name).starts_with("carea"))
+      return fmt::format("F_N_N/{}", name_in_formulas(column.name));
+  return "";
+}
+
+void finish(GuessedFile& guess, const io::CsvTable& table) {
+  guess.pressure = pressure_of_abaqus(guess);
   check_experiment(guess, table);
   guess.rows = each_row_is_a_test(guess, table);
+}
+
+std::string first_lines_of(const std::string& text, std::size_t lines) {
+  std::size_t end = 0;
+  while (lines-- > 1 && end != text.npos)
+    end = text.find('\n', end == 0 ? 0 : end + 1);
+  return text.substr(0, end);
+}
+
+// The number at the end of a line; 0 if there is none.
+double last_number(std::string line, char decimal) {
+  while (!line.empty() && !std::isdigit(static_cast<unsigned char>(line.back())))
+    line.pop_back();
+  const std::string number = line.substr(line.find_last_not_of("0123456789.,") + 1);
+  double value = 0;
+  for (const char sign : {decimal, decimal == '.' ? ',' : '.'})
+    if (io::read_number(number, sign, value)) return value;
+  return 0;
+}
+
+// The area of contact in mm2 that a line of a preamble gives ("Area [mm2]: 78.5", "Kontaktfläche"
+// in any encoding); 0: none does.
+double area_in(const std::string& preamble, char decimal) {
+  for (std::size_t begin = 0; begin < preamble.size();) {
+    const std::size_t end = std::min(preamble.find('\n', begin), preamble.size());
+    const std::string line = lower_case(preamble.substr(begin, end - begin));
+    const auto has = [&](const char* text) { return line.find(text) != line.npos; };
+    if ((has("area") || (has("fl") && has("che"))) && has("mm")) return last_number(line, decimal);
+    begin = end + 1;
+  }
+  return 0;
+}
+
+// Guesses from a text; `cells`: the sheet of a workbook that it is from, or nullptr.
+GuessedFile guess_text(const std::string& text, const std::string& named, const io::Sheet* cells) {
+  GuessedFile guess;
+  guess.file = named;
+  Dialects dialects(text, named, cells != nullptr);
+  io::CsvTable table = std::move(dialects.table);
+  FaultList mixed; // reported when the file is read
+  if (cells) take_cell_units(table, *cells, mixed);
+  guess.decimal = dialects.best.decimal;
+  guess.thousands = dialects.best.thousands;
+  guess.any_decimal = dialects.any_decimal;
+  guess.units_row = dialects.best.units_row;
+  guess.header = dialects.best.header;
+  guess.header_rows = dialects.best.header_rows;
+  guess.intervals = !table.interval.empty() && table.interval.back() > 0;
+  guess.columns = columns_of(table);
+  if (!is_found_by_names(text, guess, table, dialects.best))
+    guess.skip_rows = dialects.best.skip_rows;
+  guess.area_mm2 = area_in(first_lines_of(text, table.header_line), guess.decimal);
+  finish(guess, table);
   return guess;
+}
+
+std::vector<GuessedFile> guess_workbook(const std::string& path, const std::string& named) {
+  const io::Workbook book(path, named);
+  std::vector<GuessedFile> guesses;
+  std::vector<std::string> passed;
+  std::size_t visible = 0;
+  for (const io::Workbook::Entry& one : book.sheets()) {
+    if (one.hidden) continue;
+    ++visible;
+    const io::Sheet cells = book.read(one.name);
+    try {
+      guesses.push_back(guess_text(head_of(cells.text), named, &cells));
+      guesses.back().sheet = one.name;
+    } catch (const InputError&) { // a cover, a picture, remarks
+      passed.push_back(one.name);
+    }
+  }
+  if (guesses.empty())
+    throw InputError({named, 0, 0},
+                     fmt::format("none of its sheets is a table of numbers under a line of names: "
+                                 "{}",
+                                 join(passed, ", ")),
+                     "frictab init DIR writes a job with every key, to be filled in by hand");
+  if (visible == 1) guesses.front().sheet.clear();
+  guesses.front().passed = std::move(passed);
+  return guesses;
+}
+
+} // namespace
+
+std::vector<GuessedFile> guess_file(const std::string& path, const std::string& named) {
+  if (io::looks_like_workbook(path)) return guess_workbook(path, named);
+  if (!io::looks_like_hdf5(path))
+    return {guess_text(head_of(io::read_text_file(path, named)), named, nullptr)};
+  FaultList faults;
+  const io::CsvTable table = read_raw(path, named, {}, faults);
+  GuessedFile guess;
+  guess.file = named;
+  guess.columns = columns_of(table);
+  finish(guess, table);
+  return {guess};
+}
+
+namespace {
+
+// Number of other guesses whose labels are among the names.
+std::size_t labels_among(const std::vector<std::string>& names, std::size_t own,
+                         const std::vector<GuessedFile>& files) {
+  const std::set<std::string> known(names.begin(), names.end());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    count += i != own && known.count(files[i].label()) > 0;
+  return count;
+}
+
+// Whether the numbers in the labels of all others are those of the names, each once.
+bool are_numbered_alike(const std::vector<std::string>& names, std::size_t own,
+                        const std::vector<GuessedFile>& files) {
+  std::set<long> known, labels;
+  for (const std::string& name : names)
+    known.insert(first_number(name));
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (i != own) labels.insert(first_number(files[i].label()));
+  return known.size() == names.size() && labels.size() + 1 == files.size() &&
+         labels.count(-1) == 0 && names.size() <= 2 * labels.size() &&
+         std::includes(known.begin(), known.end(), labels.begin(), labels.end());
+}
+
+} // namespace
+
+namespace {
+
+std::optional<GuessedFile> take_table_of_tests(std::vector<GuessedFile>& files) {
+  for (std::size_t i = 0; i < files.size(); ++i)
+    for (std::size_t c = 0; c < files[i].columns.size(); ++c) {
+      const GuessedColumn& column = files[i].columns[c];
+      if (!column.text && column.canonical != "experiment") continue;
+      const std::size_t found = labels_among(column.names, i, files);
+      const bool by_name = found >= 2 && 2 * found >= files.size() - 1;
+      if (!by_name && (files.size() < 3 || !are_numbered_alike(column.names, i, files))) continue;
+      GuessedFile table = std::move(files[i]);
+      files.erase(files.begin() + static_cast<std::ptrdiff_t>(i));
+      for (GuessedColumn& other : table.columns)
+        if (other.canonical == "experiment") other.canonical.clear();
+      table.columns[c].canonical = "experiment";
+      return table;
+    }
+  return std::nullopt;
+}
+
+// Leaves quantities that the rows have to the rows.
+void leave_measured(GuessedFile& tests, const GuessedFile& rows) {
+  for (GuessedColumn& column : tests.columns)
+    if (column.canonical != "experiment" && rows.find(column.canonical)) column.canonical.clear();
+}
+
+bool is_measured(const GuessedFile& guess) {
+  return guess.find("tau_R_MPa") || guess.find("F_R_N");
+}
+
+// Whether a sheet is read like most sheets of its workbook, among those with friction if there are
+// any.
+bool is_like_most(const GuessedFile& sheet, const std::vector<GuessedFile>& all) {
+  const auto rivals = [&](const GuessedFile& as) {
+    return std::count_if(all.begin(), all.end(), [&](const GuessedFile& other) {
+      return other.file == as.file && is_measured(other) == is_measured(as) && other.is_read_as(as);
+    });
+  };
+  return std::none_of(all.begin(), all.end(), [&](const GuessedFile& other) {
+    if (other.file != sheet.file || is_measured(other) < is_measured(sheet)) return false;
+    return is_measured(other) > is_measured(sheet) || rivals(other) > rivals(sheet);
+  });
+}
+
+// The choice of sheets for one workbook, given the names of its tables.
+std::vector<std::string> choice_of(const std::vector<std::string>& read, std::size_t tables) {
+  if (read.size() > 1 && read.size() == tables) return {"*"};
+  return read;
+}
+
+} // namespace
+
+GuessedCampaign sort_guesses(std::vector<GuessedFile> guesses) {
+  GuessedCampaign campaign;
+  for (GuessedFile& guess : guesses)
+    std::move(guess.passed.begin(), guess.passed.end(), std::back_inserter(campaign.passed));
+  campaign.tests = take_table_of_tests(guesses);
+  if (campaign.tests && !guesses.empty()) leave_measured(*campaign.tests, guesses.front());
+  std::map<std::string, std::vector<std::string>> read; // by workbook
+  std::map<std::string, std::size_t> tables;
+  for (const GuessedFile& guess : guesses) {
+    const bool is_read = guess.sheet.empty() || is_like_most(guess, guesses);
+    if (!guess.sheet.empty()) ++tables[guess.file];
+    if (!guess.sheet.empty() && is_read) read[guess.file].push_back(guess.sheet);
+    if (is_read)
+      campaign.files.push_back(guess);
+    else
+      campaign.passed.push_back(guess.sheet);
+  }
+  for (auto& [file, names] : read)
+    names = choice_of(names, tables[file]);
+  if (!read.empty() && std::all_of(read.begin(), read.end(), [&](const auto& one) {
+        return one.second == read.begin()->second;
+      }))
+    campaign.sheets = read.begin()->second;
+  return campaign;
 }
 
 // ---- names of files ----

@@ -2,6 +2,7 @@
 // guess is shown to the user before it is used (job/guessed_job.h).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,28 +10,38 @@ namespace frictab::data {
 
 struct GuessedColumn {
   std::string name;         // in the file
+  std::size_t number = 0;   // from 1, where the name does not find the column; else 0
   std::string unit;         // as given in the file; else empty
   std::string canonical;    // a quantity, or experiment; else empty
   bool coefficient = false; // of friction: tau_R_MPa is this times sigma_n_MPa
   bool text = false;
-  std::string first_values; // "812.3, 813.1, 815"
+  std::string first_values;       // "812.3, 813.1, 815"
+  std::vector<std::string> names; // the cells as texts, if all of them differ
 };
 
+// A file, or one sheet of a workbook.
 struct GuessedFile {
   std::string file;
-  char delimiter = 0; // 0: frictab detects it
+  std::string sheet;               // empty: the file is no workbook, or has no other sheet
+  std::vector<std::string> passed; // names of the workbook's sheets that are no tables
+  char delimiter = 0;              // 0: frictab detects it
   char decimal = '.';
   char thousands = 0;
   bool any_decimal = false;  // only whole numbers, which either sign reads
   std::size_t skip_rows = 0; // 0 also if the names identify the header line
   bool units_row = false;
-  bool intervals = false; // the header line is repeated
-  bool rows = false;      // each looks like a test (data/checks.h)
+  bool header = true;          // false: columns are named column_1, column_2, ...
+  std::size_t header_rows = 1; // lines of names
+  bool intervals = false;      // the header line is repeated
+  bool rows = false;           // each looks like a test (data/checks.h)
   std::vector<GuessedColumn> columns;
+  double area_mm2 = 0;  // of contact, given above the header; 0: none
+  std::string pressure; // formula of the normal stress, from a force and the area of contact
 
   const GuessedColumn* find(const std::string& canonical) const; // nullptr if there is none
   // True if the keys that read the other file read this one as well.
   bool is_read_as(const GuessedFile& other) const;
+  std::string label() const; // the name of the test, if the file is one
 };
 
 // A part of all files' names that differs between them.
@@ -44,9 +55,22 @@ struct GuessedNames {
   std::vector<NamePart> parts;
 };
 
-// Guesses from the first 64 KiB of a text file (or sheet), or from all of an HDF5 file. Throws
-// InputError if it cannot be read as a table.
-GuessedFile guess_file(const std::string& path, const std::string& named);
+// Guesses from the first 64 KiB of a text file (or sheet), or from all of an HDF5 file. One guess
+// per file, and per sheet of a workbook that is a table. Throws InputError if there is none.
+std::vector<GuessedFile> guess_file(const std::string& path, const std::string& named);
+
+struct GuessedCampaign {
+  std::vector<GuessedFile> files;   // rows of tests
+  std::optional<GuessedFile> tests; // one row per test: its column experiment has their labels
+  // Sheets of one workbook, or equal for all of them: names or "*"; empty: no choice is needed.
+  std::vector<std::string> sheets;
+  std::vector<std::string> passed; // names of sheets that are not read
+};
+
+// Sorts guesses: the table of tests is found by a column whose texts are the labels of at least
+// half of the others, or have their numbers; sheets of a workbook that are read in another way than
+// most are passed.
+GuessedCampaign sort_guesses(std::vector<GuessedFile> guesses);
 
 // Finds folders that differ, and parts of the files' own names between _ - and blanks: numbers
 // before a unit, and texts that occur in at least two files; a text that differs in all files names

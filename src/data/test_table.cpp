@@ -9,6 +9,8 @@
 
 #include "core/text.h"
 #include "data/quantity.h"
+#include "data/workbooks.h"
+#include "io/workbook.h"
 
 namespace frictab::data {
 
@@ -35,6 +37,35 @@ DataOptions take_over(DataOptions& options, const io::CsvTable& raw) {
 
 } // namespace
 
+long first_number(const std::string& name) {
+  constexpr const char* digits = "0123456789";
+  constexpr std::size_t most_digits = 9;
+  const std::size_t begin = name.find_first_of(digits);
+  if (begin == name.npos) return -1;
+  const std::size_t end = std::min(name.find_first_not_of(digits, begin), name.size());
+  return end - begin > most_digits ? -1 : std::stol(name.substr(begin, end - begin));
+}
+
+const std::string* TestTable::name_of(const std::string& experiment) const {
+  if (const auto own = row.find(experiment); own != row.end()) return &own->first;
+  const auto other = numbered.find(first_number(experiment));
+  return other == numbered.end() ? nullptr : &other->second;
+}
+
+void check_numbered(const TestTable& table, const std::vector<std::string>& experiments) {
+  std::map<std::string, std::string> known; // experiment by the table's name
+  for (const std::string& experiment : experiments) {
+    const std::string* const name = table.name_of(experiment);
+    if (!name) continue;
+    const auto [first, is_new] = known.emplace(*name, experiment);
+    if (!is_new)
+      throw InputError({table.file, table.header_line, 0},
+                       fmt::format("tests '{}' and '{}' would both be '{}' of this table",
+                                   first->second, experiment, *name),
+                       "name the tests as the files are called");
+  }
+}
+
 TestTable read_test_table(DataOptions& options) {
   TestTable table;
   table.file = options.tests;
@@ -43,6 +74,8 @@ TestTable read_test_table(DataOptions& options) {
   DataOptions dialect = options;
   dialect.skip_rows = dialect.skip_footer = 0;
   dialect.units_row = false;
+  if (io::looks_like_workbook(path))
+    dialect.sheets = {sheet_of_tests(path.string(), options.tests, options)};
   io::CsvTable raw = read_raw(path.string(), options.tests, dialect, faults);
   table.header_line = raw.header_line;
   table.columns = map_columns(raw, ReadRequest(take_over(options, raw)), "", faults);
@@ -59,6 +92,9 @@ TestTable read_test_table(DataOptions& options) {
       faults.add(row_place(raw, i), fmt::format("test '{}' stands here again", found->first),
                  fmt::format("it stands in line {} already", raw.line[found->second]));
   faults.throw_if_any();
+  for (const auto& [name, at] : table.row)
+    if (const long number = first_number(name); number >= 0) table.numbered.emplace(number, name);
+  if (table.numbered.size() < table.row.size()) table.numbered.clear();
   return table;
 }
 
@@ -66,10 +102,12 @@ void add_test_columns(Part& part, const TestTable& table) {
   const Dataset& data = part.data;
   std::vector<std::size_t> row; // row of the table for each experiment
   std::vector<std::string> missing, known;
+  bool by_number = false;
   for (const std::string& name : data.experiments) {
-    const auto found = table.row.find(name);
-    row.push_back(found == table.row.end() ? 0 : found->second);
-    if (found == table.row.end()) missing.push_back(name);
+    const std::string* const found = table.name_of(name);
+    row.push_back(found ? table.row.at(*found) : 0);
+    if (!found) missing.push_back(name);
+    by_number = by_number || (found && *found != name);
   }
   for (const auto& [name, at] : table.row)
     known.push_back(name);
@@ -78,6 +116,8 @@ void add_test_columns(Part& part, const TestTable& table) {
                     fmt::format("test '{}' of {} is not in this table", name, part.raw.file),
                     "add a row for it (a cell may be empty); " + suggest(name, known));
   if (!missing.empty()) return;
+  if (by_number)
+    part.data.notes.push_back(table.file + ": tests are found by the numbers in their names");
   std::set<std::string> there;
   for (const Column& column : part.data.columns)
     there.insert(column.name);

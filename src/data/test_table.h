@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "data/mapping.h"
 #include "data/options.h"
@@ -14,6 +15,11 @@ struct TestTable {
   std::string file;
   MappedFile columns;
   std::map<std::string, std::size_t> row; // by experiment
+  std::map<long, std::string> numbered;   // by first_number of these; empty if two are equal
+
+  // The table's name of an experiment: its own, or the only one with the same number ("V01" is
+  // "Versuch_001_C45"); nullptr if there is none.
+  const std::string* name_of(const std::string& experiment) const;
   std::size_t header_line = 0;
 };
 
@@ -22,6 +28,13 @@ struct TestTable {
 // `options`: the data files need not have them. Throws InputError for faults and for a test that
 // occurs twice.
 TestTable read_test_table(DataOptions& options);
+
+// The first whole number in a name: 1 in "Versuch_001_C45"; -1 if there is none.
+long first_number(const std::string& name);
+
+// Throws InputError if two experiments stand for one row of the table because their numbers are
+// equal.
+void check_numbered(const TestTable& table, const std::vector<std::string>& experiments);
 
 // Adds the table's columns to the rows of each experiment. Adds a fault if an experiment is not in
 // the table, or a column is in both.

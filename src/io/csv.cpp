@@ -222,8 +222,10 @@ char find_delimiter(std::string_view header, std::string_view below, char decima
 }
 
 std::string_view without_footer(std::string_view text, std::size_t lines) {
-  while (!text.empty() && std::strchr(" \t\r\n", text.back()))
-    text.remove_suffix(1);
+  const std::size_t last = text.find_last_not_of(" \t\r\n");
+  if (last == text.npos) return {};
+  // tabs at the end of the last line are empty cells
+  text = text.substr(0, std::min(text.find_first_not_of(" \t", last + 1), text.size()));
   for (; lines > 0 && !text.empty(); --lines) {
     const std::size_t end = text.find_last_of('\n');
     text = end == std::string_view::npos ? std::string_view() : text.substr(0, end);
@@ -332,9 +334,10 @@ void skip_blank_lines(Scanner& lines, std::string_view text) {
 }
 
 // Skips a repeated header line and its units.
-void skip_header(Scanner& scanner, std::string_view text, bool units_row) {
-  scanner.take_line();
-  if (!units_row) return;
+void skip_header(Scanner& scanner, std::string_view text, const CsvFormat& format) {
+  for (std::size_t i = 0; i < format.header_rows; ++i)
+    scanner.take_line();
+  if (!format.units_row) return;
   skip_blank_lines(scanner, text);
   if (!scanner.at_end()) scanner.take_line();
 }
@@ -357,7 +360,7 @@ struct RaggedLine {
 
 // Reports ragged lines, once per number of cells.
 void report_ragged_lines(const std::vector<RaggedLine>& ragged, const CsvTable& table,
-                         FaultList& faults) {
+                         const char* model, FaultList& faults) {
   std::map<std::size_t, std::size_t> count;
   for (const RaggedLine& one : ragged)
     ++count[one.cells];
@@ -365,20 +368,87 @@ void report_ragged_lines(const std::vector<RaggedLine>& ragged, const CsvTable& 
     std::size_t& lines = count[one.cells];
     if (lines == 0) continue; // already reported
     faults.add({table.file, one.line, 0},
-               fmt::format("{} cells, the header has {}{}", one.cells, table.columns.size(),
+               fmt::format("{} cells, the {} has {}{}", one.cells, model, table.columns.size(),
                            and_more(lines - 1, "line")),
-               "a delimiter too many or too few, or a line that is not data (skip_footer)");
+               "a delimiter too many or too few, a line that is not data (skip_footer), or another "
+               "line is the header (skip_rows)");
     lines = 0;
   }
 }
 
+std::string_view line_at(std::string_view text, std::size_t begin) {
+  return begin < text.size() ? text.substr(begin, text.find('\n', begin) - begin)
+                             : std::string_view();
+}
+
+// The runs of rows that the job's patterns cut out of the lines.
+class Segments {
+public:
+  explicit Segments(const CsvSegments* rules) : rules_(rules) {}
+
+  // True for a line that is no row: one that begins or ends a run, or between two of them.
+  bool passes(std::string_view line) {
+    if (!rules_) return false;
+    const std::string text(line.substr(0, line.find('\r')));
+    if (auto groups = rules_->begins.search(text)) {
+      groups_.push_back(std::move(*groups));
+      inside_ = true;
+      return true;
+    }
+    if (inside_ && rules_->ends && rules_->ends->search(text)) {
+      inside_ = false;
+      return true;
+    }
+    outside_ += !inside_;
+    return !inside_;
+  }
+
+  // The last run that begins in the preamble holds the first rows.
+  void look_at_preamble(std::string_view text) {
+    for (Scanner lines(text, '\n'); rules_ && !lines.at_end();)
+      passes(lines.take_line());
+    if (groups_.size() > 1) groups_.erase(groups_.begin(), groups_.end() - 1);
+    outside_ = 0;
+  }
+
+  bool are_cut() const { return rules_; }
+  std::size_t number() const { return groups_.size() - 1; } // of the current run, from 0
+  std::size_t count() const { return groups_.size(); }
+  std::size_t outside() const { return outside_; }
+
+  // Adds the named groups as columns.
+  void add_columns(CsvTable& table, const CsvFormat& format) const {
+    if (!rules_) return;
+    for (const std::string& name : rules_->begins.names()) {
+      CsvColumn column{name, "", {}, {}};
+      for (std::size_t row = 0; row < table.rows(); ++row) {
+        const std::string& text = groups_[table.interval[row]].at(name);
+        double value = no_value;
+        if (!parse_number(text, format, value)) column.texts.push_back({row, to_utf8(text), 0});
+        column.numbers.push_back(value);
+      }
+      table.columns.push_back(std::move(column));
+    }
+  }
+
+private:
+  const CsvSegments* rules_;
+  std::vector<std::map<std::string, std::string>> groups_; // of each run
+  bool inside_ = false;
+  std::size_t outside_ = 0;
+};
+
+// `preamble`: the lines before the header.
 void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
-               std::string_view header_text, const CsvFormat& format, FaultList& faults) {
+               std::string_view header_text, std::string_view preamble, const CsvFormat& format,
+               FaultList& faults) {
   const std::size_t width = table.columns.size(), named = named_columns(table);
   const std::vector<char> is_text = text_columns(table, format);
   std::size_t again = 0, in_front = 0, delimiters_alone = 0;
   // ragged lines just before a repeated header are not faults
   std::vector<RaggedLine> ragged, since_row;
+  Segments segments(format.segments.get());
+  segments.look_at_preamble(preamble);
   const auto tell = [&] {
     ragged.insert(ragged.end(), since_row.begin(), since_row.end());
     since_row.clear();
@@ -388,10 +458,14 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
       delimiters_alone += scanner.take_line().find_first_of(",;|") != std::string_view::npos;
       continue;
     }
+    if (segments.passes(line_at(text, scanner.position()))) {
+      scanner.take_line();
+      continue;
+    }
     const std::size_t line = scanner.line();
     const std::size_t row = table.line.size();
-    if (starts_with_line(text, scanner.position(), header_text)) {
-      skip_header(scanner, text, format.units_row);
+    if (!header_text.empty() && starts_with_line(text, scanner.position(), header_text)) {
+      skip_header(scanner, text, format);
       in_front += since_row.size();
       since_row.clear();
       ++again;
@@ -401,16 +475,17 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
     if (cells.filled >= named && cells.filled <= width) {
       tell();
       table.line.push_back(line);
-      table.interval.push_back(again);
+      table.interval.push_back(segments.are_cut() ? segments.number() : again);
       continue;
     }
     since_row.push_back({line, cells.filled});
     forget_row(table, row, cells.kept);
   }
   tell();
-  report_ragged_lines(ragged, table, faults);
+  report_ragged_lines(ragged, table, header_text.empty() ? "first row" : "header", faults);
   settle_nameless(table, named);
-  table.passed_over = {again, in_front, delimiters_alone};
+  segments.add_columns(table, format);
+  table.passed_over = {again, in_front, delimiters_alone, segments.count(), segments.outside()};
   if (scanner.unclosed_line() > 0)
     faults.add({table.file, scanner.unclosed_line(), 0},
                "a quotation mark opens here and is never closed");
@@ -425,38 +500,64 @@ std::vector<std::string> notes_of(const CsvPassedOver& lines) {
   if (lines.delimiters_alone > 0)
     notes.push_back(
         fmt::format("{} lines hold delimiters alone: they are not rows", lines.delimiters_alone));
+  if (lines.segments > 0)
+    notes.push_back(fmt::format("{} segments of rows; {} lines outside them are not read",
+                                lines.segments, lines.outside_segments));
   return notes;
 }
 
-// Reads and checks the header; moves `scanner` past it.
-void read_header(CsvTable& table, Scanner& scanner, const CsvFormat& format) {
-  std::size_t numeric = 0;
+// Joins the names of two lines: "Kraft" over "Soll" is "Kraft Soll"; a name that stands in both, as
+// that of a merged cell does, counts once.
+void join_names(std::vector<std::string>& names, const std::vector<std::string>& below) {
+  names.resize(std::max(names.size(), below.size()));
+  for (std::size_t i = 0; i < below.size(); ++i)
+    if (names[i].empty())
+      names[i] = below[i];
+    else if (!below[i].empty() && below[i] != names[i])
+      names[i] += " " + below[i];
+}
+
+// Columns named by their numbers, for a file whose first line below the preamble is a row.
+void name_by_number(CsvTable& table, std::size_t columns) {
+  for (std::size_t i = 1; i <= columns; ++i)
+    table.columns.push_back({fmt::format("column_{}", i), "", {}, {}});
+}
+
+// Reads and checks the header; moves `scanner` past it. False if there is none: `scanner` is then
+// past the first row.
+bool read_header(CsvTable& table, Scanner& scanner, const CsvFormat& format) {
+  std::vector<std::string> names = read_names(scanner);
   double ignored = 0;
-  for (const std::string& name : read_names(scanner)) {
-    numeric += parse_number(name, format, ignored);
-    table.columns.push_back({to_utf8(name), "", {}, {}});
+  const auto numeric = static_cast<std::size_t>(
+      std::count_if(names.begin(), names.end(),
+                    [&](const std::string& name) { return parse_number(name, format, ignored); }));
+  const bool numbers = 2 * numeric > names.size();
+  if (!format.header || (numbers && format.may_lack_header)) {
+    name_by_number(table, names.size());
+    return false;
   }
-  if (2 * numeric > table.columns.size())
-    throw InputError({table.file, table.header_line, 0},
-                     fmt::format("{} of the {} column names in this line are numbers", numeric,
-                                 table.columns.size()),
-                     "the header is another line: data.skip_rows counts the lines before it");
+  if (numbers)
+    throw InputError(
+        {table.file, table.header_line, 0},
+        fmt::format("{} of the {} column names in this line are numbers", numeric, names.size()),
+        "the header is another line: data.skip_rows counts the lines before it; of a "
+        "file without one, data.header = false takes columns by number");
+  for (std::size_t i = 1; i < format.header_rows && !scanner.at_end(); ++i)
+    join_names(names, read_names(scanner));
+  for (const std::string& name : names)
+    table.columns.push_back({to_utf8(name), "", {}, {}});
+  return true;
 }
 
 void read_units(CsvTable& table, Scanner& scanner, std::string_view text, FaultList& faults) {
   skip_blank_lines(scanner, text);
-  const std::size_t line = scanner.line();
+  const std::size_t line = table.units_line = scanner.line();
   const auto units = read_names(scanner);
   if (units.size() != table.columns.size())
     faults.add({table.file, line, 0}, fmt::format("the units row has {} cells, the header {}",
                                                   units.size(), table.columns.size()));
   for (std::size_t i = 0; i < std::min(units.size(), table.columns.size()); ++i)
     table.columns[i].unit = to_utf8(units[i]);
-}
-
-std::string_view line_at(std::string_view text, std::size_t begin) {
-  return begin < text.size() ? text.substr(begin, text.find('\n', begin) - begin)
-                             : std::string_view();
 }
 
 // True if a header cell is one of the names, with or without a unit.
@@ -495,7 +596,9 @@ void find_header(Scanner& lines, std::string_view text, const std::string& file,
                      fmt::format("no header after {} skipped lines", format.skip_rows),
                      format.skip_footer > 0 ? "check data.skip_rows and data.skip_footer"
                                             : "check data.skip_rows");
-  if (format.wanted.empty() || count_names(line_at(text, lines.position()), format) > 0) return;
+  if (!format.header || format.wanted.empty() ||
+      count_names(line_at(text, lines.position()), format) > 0)
+    return;
   constexpr int longest_preamble = 200;
   Scanner ahead = lines, best = lines;
   std::size_t most = 0;
@@ -524,8 +627,9 @@ void check_text(std::string_view text, const std::string& file) {
 
 // The part of the text before the first row.
 struct Head {
-  std::string_view header; // the header line
+  std::string_view header; // the header line; empty if there is none
   char delimiter = ',';
+  std::size_t begin = 0; // position of the header
   // position and number of the first line below header and units
   std::size_t end = 0, end_line = 1;
 };
@@ -538,6 +642,8 @@ Head read_head(CsvTable& table, std::string_view text, const CsvFormat& format, 
   table.header_line = lines.line();
   const std::size_t header = lines.position();
   head.header = lines.take_line();
+  for (std::size_t i = 1; i < format.header_rows && !lines.at_end(); ++i)
+    lines.take_line();
   if (format.units_row) {
     skip_blank_lines(lines, text);
     lines.take_line();
@@ -548,7 +654,17 @@ Head read_head(CsvTable& table, std::string_view text, const CsvFormat& format, 
   Scanner scanner(text, head.delimiter);
   while (scanner.position() < header)
     scanner.take_line();
-  read_header(table, scanner, format);
+  head.begin = header;
+  table.form =
+      fmt::format("text, cells by {}", head.delimiter == '\t'  ? "tabs"
+                                       : head.delimiter == ' ' ? "blanks"
+                                                               : std::string(1, head.delimiter));
+  if (!read_header(table, scanner, format)) {
+    head.header = {};
+    head.end = header;
+    head.end_line = table.header_line;
+    return head;
+  }
   if (format.units_row && !scanner.at_end()) read_units(table, scanner, text, faults);
   head.end = scanner.position();
   head.end_line = scanner.line();
@@ -605,7 +721,7 @@ CsvTable parse_csv(std::string_view text, const std::string& file, const CsvForm
   const std::string_view rows = text.substr(std::min(head.end, text.size()));
   reserve_rows(table, rows, text.size());
   Scanner scanner(rows, head.delimiter, head.end_line);
-  read_rows(table, scanner, rows, head.header, format, faults);
+  read_rows(table, scanner, rows, head.header, text.substr(0, head.begin), format, faults);
   table.notes = notes_of(table.passed_over);
   if (table.rows() == 0 && faults.empty())
     throw InputError({file, table.header_line, 0}, "there are no rows below the header");
@@ -686,7 +802,7 @@ struct CsvPieces::Data {
     const std::string_view text = with_unix_lines(piece, unix_lines);
     reserve_rows(table, text, text.size());
     Scanner scanner(text, delimiter, first_line);
-    read_rows(table, scanner, text, header_line, format, faults);
+    read_rows(table, scanner, text, header_line, {}, format, faults);
     return table;
   }
 
@@ -714,6 +830,8 @@ CsvPieces::CsvPieces(std::unique_ptr<std::istream> in, const std::string& named,
     d.whole_because = "it is in UTF-16";
   else if (format.skip_footer > 0)
     d.whole_because = "skip_footer counts from its end";
+  else if (format.segments)
+    d.whole_because = "it is cut into segments";
   else if (*d.in && d.rest.find('\n') == std::string::npos)
     d.whole_because = "its lines end with CR alone";
   if (!d.whole_because.empty()) return;
@@ -800,7 +918,9 @@ void append(CsvTable& to, CsvTable&& more) {
 CsvTable rows_of(const CsvTable& table, std::size_t first, std::size_t end) {
   CsvTable part;
   part.file = table.file;
+  part.form = table.form;
   part.header_line = table.header_line;
+  part.units_line = table.units_line;
   part.notes = table.notes;
   const auto cut = [&](const auto& from, auto& to) {
     if (!from.empty())

@@ -6,14 +6,23 @@
 #include <istream>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
 #include "core/error.h"
+#include "core/pattern.h"
 
 namespace frictab::io {
+
+// Lines that open and close a run of rows, as testing machines write steps. Named groups of
+// `begins` become columns of the run's rows; its rows are one interval.
+struct CsvSegments {
+  Pattern begins;
+  std::optional<Pattern> ends; // none: a run ends where the next begins
+};
 
 struct CsvFormat {
   // Delimiter; 0: detected from the header line; ' ' = runs of blanks
@@ -23,6 +32,10 @@ struct CsvFormat {
   std::size_t skip_rows = 0;   // physical lines before the header
   std::size_t skip_footer = 0; // physical lines at the end, not counting blank ones
   bool units_row = false;
+  bool header = true;           // false: no line of names; columns are column_1, column_2, ...
+  bool may_lack_header = false; // the same for a file whose header line would be numbers
+  std::size_t header_rows = 1;  // lines of names; those of a column are joined by blanks
+  std::shared_ptr<const CsvSegments> segments; // none: all lines below the header may be rows
   // Columns whose cells stay text even if they are numbers ("007"): by name, or by number from 1.
   std::vector<std::string> text_columns;
   std::size_t text_number = 0;
@@ -92,14 +105,17 @@ struct CsvPassedOver {
   std::size_t headers = 0;  // repeated header lines
   std::size_t in_front = 0; // lines just before a repeated header
   std::size_t delimiters_alone = 0;
+  std::size_t segments = 0, outside_segments = 0; // runs, and lines outside them
 };
 
 struct CsvTable {
-  std::string file; // name in messages
-  std::size_t header_line = 0;
+  std::string file;            // name in messages
+  std::string form;            // "text, cells by ;"
+  std::size_t header_line = 0; // of a file without a header the first row; 0 for other formats
+  std::size_t units_line = 0;  // 0: none
   std::vector<CsvColumn> columns;
   std::vector<std::size_t> line;     // physical line of each row
-  std::vector<std::size_t> interval; // number of repeated header lines before each row
+  std::vector<std::size_t> interval; // number of repeated header lines, or of runs, before each row
   CsvPassedOver passed_over;
   // Skipped lines in words: "the header line comes again 3 times"
   std::vector<std::string> notes;

@@ -73,10 +73,10 @@ void check_formula(JobReader& reader, const data::ColumnSource& source, const st
 }
 
 void check_pattern(JobReader& reader, const std::string& text, const Place& place,
-                   const std::string& path) {
+                   const std::string& path, bool groups_needed = true) {
   if (text.empty()) return;
   try {
-    if (Pattern(text, place).names().empty())
+    if (Pattern(text, place).names().empty() && groups_needed)
       reader.fault(place, path + " has no named group",
                    "what becomes a column is written (?<name>...)");
   } catch (const InputError& error) {
@@ -147,8 +147,19 @@ void check_mapping(JobReader& reader, const std::string& section, Rules& rules) 
 }
 
 // `path` is "data.files[1]" or "data.join".
+void check_segments(JobReader& reader, const std::string& path, data::SegmentRules& rules) {
+  rules.place = reader.place_of(path + ".segments.begins");
+  check_pattern(reader, rules.begins, rules.place, path + ".segments.begins", false);
+  const Place ends = reader.place_of(path + ".segments.ends");
+  check_pattern(reader, rules.ends, ends, path + ".segments.ends", false);
+  if (!rules.ends.empty() && rules.begins.empty())
+    reader.fault(ends, path + ".segments has no begins",
+                 "begins = '^Step' says which lines open a run of rows");
+}
+
 void check_rule(JobReader& reader, const std::string& path, data::FileRule& rule) {
   check_mapping(reader, path, rule);
+  check_segments(reader, path, rule.segments);
   for (const auto& [name, text] : rule.labels)
     if (data::find_quantity(name))
       reader.fault(reader.place_of(path + ".labels." + name), name + " is a quantity, no label",
@@ -184,6 +195,7 @@ void check_beside(JobReader& reader) {
     reader.fault(data.join.place, "data.join has no files", "files = \"fe/*.csv\" says which");
   data.wide_place = reader.place_of("data.wide.columns");
   data.tests_place = reader.place_of("data.tests");
+  check_segments(reader, "data", data.segments);
   if (data.wide.empty()) return;
   check_pattern(reader, data.wide, data.wide_place, "data.wide.columns");
 }

@@ -42,7 +42,11 @@ std::string dialect_lines(const GuessedFile& file) {
                 "digits stand in groups of three");
   if (file.skip_rows > 0)
     out += line(fmt::format("skip_rows = {}", file.skip_rows),
-                "lines before the one of the names: one of them holds a name as well");
+                file.header ? "lines before the one of the names" : "lines before the first row");
+  if (!file.header) out += line("header = false", "no line of names: columns are taken by number");
+  if (file.header_rows > 1)
+    out += line(fmt::format("header_rows = {}", file.header_rows),
+                "the names of one line alone are not unique");
   if (file.units_row) out += line("units_row = true", "the line below the names holds units");
   if (file.intervals)
     out += line("experiment = \"interval\"", "the header line comes again: a test each time");
@@ -51,8 +55,10 @@ std::string dialect_lines(const GuessedFile& file) {
   return out;
 }
 
-// The name in the file, without its unit where that is enough to find the column.
+// The number of the column, or its name in the file, without its unit where that is enough to find
+// it.
 std::string source_of(const GuessedColumn& column, const GuessedFile& file) {
+  if (column.number > 0) return std::to_string(column.number);
   const std::string bare = io::read_header_name(column.name).name;
   const auto alike =
       std::count_if(file.columns.begin(), file.columns.end(), [&](const GuessedColumn& c) {
@@ -77,11 +83,12 @@ std::string unit_in_name(const GuessedColumn& column) {
 
 std::string column_line(const GuessedColumn& column, const GuessedFile& file) {
   const data::Quantity* quantity = data::find_quantity(column.canonical);
-  std::string value = source_of(column, file);
-  if (column.coefficient) value = fmt::format("{{ column = {}, times = \"sigma_n_MPa\" }}", value);
+  const std::string source = source_of(column, file);
+  std::string value = column.number > 0 ? fmt::format("{{ column = {} }}", source) : source;
+  if (column.coefficient) value = fmt::format("{{ column = {}, times = \"sigma_n_MPa\" }}", source);
   const std::string named_unit = unit_in_name(column);
   if (!named_unit.empty() && named_unit != quantity->unit)
-    value = fmt::format("{{ column = {}, unit = {} }}", value, toml_quoted(named_unit));
+    value = fmt::format("{{ column = {}, unit = {} }}", source, toml_quoted(named_unit));
   std::string comment = "first values: " + shown(column.first_values);
   if (quantity && !column.coefficient)
     comment += !named_unit.empty() ? fmt::format("; in {}, by the end of its name", named_unit)
@@ -95,7 +102,7 @@ std::string column_line(const GuessedColumn& column, const GuessedFile& file) {
 // Whether a column needs no line: it has the canonical name, and the file does not give another
 // unit.
 bool says_itself(const GuessedColumn& column) {
-  return column.name == column.canonical;
+  return column.name == column.canonical && column.number == 0;
 }
 
 std::string columns_lines(const GuessedFile& file) {
@@ -108,6 +115,9 @@ std::string columns_lines(const GuessedFile& file) {
       canonical.push_back(column.name);
     else
       out += column_line(column, file);
+  if (!file.pressure.empty())
+    out += line(fmt::format("sigma_n_MPa = {{ formula = {} }}", toml_quoted(file.pressure)),
+                "the force over the area of contact, where the model is in N and mm");
   if (!canonical.empty()) out += "# known by their names: " + join(canonical, ", ") + "\n";
   if (!others.empty())
     out +=
@@ -128,16 +138,21 @@ const GuessedFile& most_common(const std::vector<GuessedFile>& files) {
 
 class Writer {
 public:
-  Writer(const std::vector<GuessedFile>& files, const data::GuessedNames& names,
+  Writer(const data::GuessedCampaign& campaign, const data::GuessedNames& names,
          const std::vector<std::string>& training)
-      : files_(files), most_(most_common(files)), names_(names), training_(training) {}
+      : campaign_(campaign), files_(campaign.files), most_(most_common(files_)), names_(names),
+        training_(training) {}
 
   GuessedJob write() {
     add_head();
     out_.text += "\n[data.columns]\n" + columns_lines(most_);
+    if (!most_.header) ask_for_names();
+    if (campaign_.tests)
+      out_.text += "# of " + campaign_.tests->label() + ":\n" + columns_lines(*campaign_.tests);
+    add_pressure_by_area();
     ask_for_units();
-    ask_for_pressure();
-    ask_for_friction();
+    if (most_.header) ask_for_pressure();
+    if (most_.header) ask_for_friction();
     add_constants();
     add_rules();
     out_.text += "\n[output]\ndirectory = \"out\"\n";
@@ -145,7 +160,9 @@ public:
   }
 
 private:
-  bool has(const char* canonical) const { return most_.find(canonical) != nullptr; }
+  bool has(const char* canonical) const {
+    return most_.find(canonical) || (campaign_.tests && campaign_.tests->find(canonical));
+  }
 
   void add_head() {
     std::vector<std::string> quoted;
@@ -155,16 +172,44 @@ private:
     out_.text =
         "# Guessed from the files; every line may be wrong. frictab data shows what is read "
         "with it,\n# frictab explain job what else there is.\n\n[data]\n";
+    const char* const noun = most_.sheet.empty() ? "file" : "sheet";
     out_.text += line("training = " + list,
-                      fmt::format("{} {}", files_.size(), files_.size() == 1 ? "file" : "files"));
+                      fmt::format("{} {}{}", files_.size(), noun, files_.size() == 1 ? "" : "s"));
+    add_sheets();
     out_.text += dialect_lines(most_);
     add_experiment();
+    add_tests();
+  }
+
+  void add_sheets() {
+    std::vector<std::string> quoted;
+    for (const std::string& name : campaign_.sheets)
+      quoted.push_back(toml_quoted(name));
+    const std::string passed =
+        campaign_.passed.empty() ? "" : "not read: " + shown(join(campaign_.passed, ", "));
+    if (quoted.empty())
+      out_.text += passed.empty() ? "" : "# " + passed + "\n";
+    else
+      out_.text += line(
+          "sheet = " + (quoted.size() == 1 ? quoted[0] : "[" + join(quoted, ", ") + "]"), passed);
+  }
+
+  // A table with one row per test.
+  void add_tests() {
+    if (!campaign_.tests) return;
+    const GuessedFile& tests = *campaign_.tests;
+    out_.text += line("tests = " + toml_quoted(tests.file),
+                      "a row per test, found by its name: " +
+                          shown(source_of(*tests.find("experiment"), tests)));
+    if (!tests.sheet.empty()) out_.text += "tests_sheet = " + toml_quoted(tests.sheet) + "\n";
   }
 
   void add_experiment() {
-    if (has("experiment") || most_.intervals || most_.rows) return;
+    if (most_.find("experiment") || most_.intervals || most_.rows) return;
     if (files_.size() > 1)
-      out_.text += line("experiment = \"file\"", "no column names the tests: each file is one");
+      out_.text += line("experiment = \"file\"",
+                        most_.sheet.empty() ? "no column names the tests: each file is one"
+                                            : "no column names the tests: each sheet is one");
     else
       ask("Which column names the tests? None was found: the file is taken as one test.",
           "# experiment = \"COLUMN\"\n");
@@ -173,6 +218,16 @@ private:
   void ask(const std::string& question, const std::string& lines) {
     out_.questions.push_back(question);
     out_.text += "# ? " + question + "\n" + lines;
+  }
+
+  void ask_for_names() {
+    std::string lines;
+    for (std::size_t i = 0; i < most_.columns.size(); ++i)
+      lines += line(fmt::format("# QUANTITY = {{ column = {} }}", i + 1),
+                    "first values: " + shown(most_.columns[i].first_values));
+    ask("Which columns are these? The files have no line of names; frictab list quantities has "
+        "those that a column may be.",
+        lines);
   }
 
   void ask_for_units() {
@@ -187,6 +242,10 @@ private:
           line(fmt::format("# {} = {{ column = {}, unit = {} }}", column.canonical,
                            source_of(column, most_), toml_quoted(others.front())),
                fmt::format("or {}, {}", unit, fmt::join(others.begin() + 1, others.end(), ", ")));
+      if (column.canonical == "F_N_N" && common_area() > 0 && !has("sigma_n_MPa"))
+        lines += fmt::format("# sigma_n_MPa = {{ column = {}, area_mm2 = {}, unit = {} }}\n",
+                             source_of(column, most_), shortest(common_area()),
+                             toml_quoted(others.front()));
     }
     if (names.empty()) return;
     ask(fmt::format(
@@ -196,8 +255,29 @@ private:
         lines);
   }
 
+  // The area of contact that all files give above their rows; 0: none.
+  double common_area() const {
+    const bool same = std::all_of(files_.begin(), files_.end(), [&](const GuessedFile& file) {
+      return file.area_mm2 == files_.front().area_mm2;
+    });
+    return same ? files_.front().area_mm2 : 0;
+  }
+
+  // Whether the normal stress is a column, or the force over an area that the files give.
+  bool has_pressure() const {
+    return has("sigma_n_MPa") || !most_.pressure.empty() ||
+           (common_area() > 0 && most_.find("F_N_N"));
+  }
+
+  void add_pressure_by_area() {
+    if (!has_pressure() || has("sigma_n_MPa") || !most_.pressure.empty()) return;
+    out_.text += line(fmt::format("sigma_n_MPa = {{ column = {}, area_mm2 = {} }}",
+                                  source_of(*most_.find("F_N_N"), most_), shortest(common_area())),
+                      "the force over the area that the lines above the names give");
+  }
+
   void ask_for_pressure() {
-    if (has("sigma_n_MPa")) return;
+    if (has_pressure()) return;
     const GuessedColumn* force = most_.find("F_N_N");
     ask("Where does the contact normal stress come from? None was found.",
         fmt::format("# sigma_n_MPa = \"COLUMN\"\n{}"
@@ -223,7 +303,7 @@ private:
   // Writes a single section, so that any of its lines can be uncommented.
   void add_constants() {
     std::string lines;
-    if (!has("sigma_n_MPa")) lines += "# sigma_n_MPa = 500.0\n";
+    if (!has_pressure()) lines += "# sigma_n_MPa = 500.0\n";
     if (has("F_R_N") && !has("F_N_N") && !has("tau_R_MPa")) lines += "# F_N_N = 50.0\n";
     if (!has("sigma_f_MPa"))
       lines +=
@@ -268,6 +348,7 @@ private:
     return out;
   }
 
+  const data::GuessedCampaign& campaign_;
   const std::vector<GuessedFile>& files_;
   const GuessedFile& most_;
   const data::GuessedNames& names_;
@@ -277,9 +358,9 @@ private:
 
 } // namespace
 
-GuessedJob guessed_job(const std::vector<GuessedFile>& files, const data::GuessedNames& names,
+GuessedJob guessed_job(const data::GuessedCampaign& campaign, const data::GuessedNames& names,
                        const std::vector<std::string>& training) {
-  return Writer(files, names, training).write();
+  return Writer(campaign, names, training).write();
 }
 
 } // namespace frictab::job

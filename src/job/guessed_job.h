@@ -15,7 +15,7 @@ struct GuessedJob {
 };
 
 // `training`: names, globs or folders of the files, as in data.training.
-GuessedJob guessed_job(const std::vector<data::GuessedFile>& files, const data::GuessedNames& names,
+GuessedJob guessed_job(const data::GuessedCampaign& campaign, const data::GuessedNames& names,
                        const std::vector<std::string>& training);
 
 } // namespace frictab::job

@@ -162,14 +162,20 @@ std::vector<KeyRule> file_keys() {
           "data.thousands", [](Job & job) -> auto& { return job.data.thousands; },
           "what stands between groups of three digits", "nothing", "\"'\"") |
           Allowed{"", groupings},
-      key<std::string>(
-          "data.sheet", [](Job & job) -> auto& { return job.data.sheet; },
-          "the sheet of a workbook (.xlsx)", "the first one", "\"Messung\""),
+      key<std::vector<std::string>>(
+          "data.sheet", [](Job & job) -> auto& { return job.data.sheets; },
+          "the sheet of a workbook (.xlsx), or several that are a test each: a name, names with *, "
+          "or a list",
+          "the sheets with the column of friction", "\"Messung\""),
       key<std::string>(
           "data.tests", [](Job & job) -> auto& { return job.data.tests; },
           "a file with one row per experiment (humidity, batch, tool) and a column experiment: its "
           "columns are joined by name",
           "none", "\"tests.csv\""),
+      key<std::string>(
+          "data.tests_sheet", [](Job & job) -> auto& { return job.data.tests_sheet; },
+          "the sheet of data.tests, if that is a workbook", "the one with the column experiment",
+          "\"Plan\""),
       key<std::string>(
           "data.wide.columns", [](Job & job) -> auto& { return job.data.wide; },
           "a regular expression: columns whose name it fits are one test each; its named groups "
@@ -187,6 +193,28 @@ std::vector<KeyRule> file_keys() {
       key<bool>(
           "data.units_row", [](Job & job) -> auto& { return job.data.units_row; },
           "the line below the header holds units"),
+      key<std::optional<bool>>(
+          "data.header", [](Job & job) -> auto& { return job.data.header; },
+          "false: there is no line of names; columns are taken by number, or as column_1, column_2",
+          "true, unless that line would be numbers and all columns are taken by number", "false"),
+      key<std::size_t>(
+          "data.header_rows", [](Job & job) -> auto& { return job.data.header_rows; },
+          "lines of names, joined by column: \"Kraft\" over \"Soll\" is \"Kraft Soll\"") |
+          at_least(1),
+      key<std::string>(
+          "data.segments.begins", [](Job & job) -> auto& { return job.data.segments.begins; },
+          "a regular expression: a line that fits it opens a run of rows, an interval; its named "
+          "groups become columns of these rows",
+          "all lines below the header may be rows", "'^Step (?<step>\\d+)'"),
+      key<std::string>(
+          "data.segments.ends", [](Job & job) -> auto& { return job.data.segments.ends; },
+          "a regular expression: a line that fits it closes the run; lines up to the next are not "
+          "read",
+          "a run ends where the next begins", "'^End of step'"),
+      key<std::vector<std::string>>(
+          "data.missing_values", [](Job & job) -> auto& { return job.data.missing_values; },
+          "cells that stand for no value: texts, or numbers as texts",
+          "empty cells, NaN, NA, n/a, #N/A and null", "[\"OVER\", \"-9999\"]"),
       key<data::Missing>(
           "data.missing", [](Job & job) -> auto& { return job.data.missing; },
           "an empty cell of a quantity: an error, or its row is left out and counted") |
@@ -297,10 +325,28 @@ template <RuleOf rule> std::vector<KeyRule> rule_keys(const std::string& section
           section + ".units_row",
           [](Job & job, const std::string& name) -> auto& { return rule(job, name).units_row; },
           "the line below the header holds units", as_all, "true"),
+      named<std::optional<bool>>(
+          section + ".header",
+          [](Job & job, const std::string& name) -> auto& { return rule(job, name).header; },
+          "false: there is no line of names", as_all, "false"),
+      named<std::optional<std::size_t>>(
+          section + ".header_rows",
+          [](Job & job, const std::string& name) -> auto& { return rule(job, name).header_rows; },
+          "lines of names", as_all, "2") |
+          at_least(1),
       named<std::string>(
+          section + ".segments.begins", [](Job & job, const std::string& name) -> auto& {
+            return rule(job, name).segments.begins;
+          },
+          "as data.segments.begins", as_all, "'^Step (?<step>\\d+)'"),
+      named<std::string>(
+          section + ".segments.ends",
+          [](Job & job, const std::string& name) -> auto& { return rule(job, name).segments.ends; },
+          "as data.segments.ends", as_all, "'^End of step'"),
+      named<std::vector<std::string>>(
           section + ".sheet",
-          [](Job & job, const std::string& name) -> auto& { return rule(job, name).sheet; },
-          "the sheet of a workbook (.xlsx)", as_all, "\"Messung\""),
+          [](Job & job, const std::string& name) -> auto& { return rule(job, name).sheets; },
+          "the sheets of a workbook, as data.sheet", as_all, "\"Messung\""),
       named<std::string>(
           section + ".from_name",
           [](Job & job, const std::string& name) -> auto& { return rule(job, name).from_name; },

@@ -126,6 +126,10 @@ const std::vector<SectionRule>& section_rules() {
        nullptr, "label", true},
       {"data.wide", "tables with one column per test: they are read as one row per value",
        "columns = 'OA(?<oa_pct>\\d+)_(?<experiment>.*)'", nullptr, nullptr},
+      {"data.segments", "lines that cut a file into runs of rows, as machines write steps",
+       "begins = '^Step (?<step>\\d+)'\nends = '^End of step'", nullptr, nullptr},
+      {"data.files.*.segments", "as data.segments", "", nullptr, nullptr},
+      {"data.join.segments", "as data.segments", "", nullptr, nullptr},
       {"data.join",
        "other files of the same tests, with a clock of their own, as their simulations: their "
        "columns are brought onto the rows of the tests, with the keys of [[data.files]]",

@@ -40,6 +40,22 @@ Json roles_json(const Dataset& data) {
   return roles;
 }
 
+Json files_json(const JobData& data) {
+  Json files = Json::array();
+  for (const Dataset* part : {&data.training, &data.validation})
+    for (const data::FileRead& file : part->files) {
+      Json json = {{"file", file.file},
+                   {"form", file.form},
+                   {"header_line", file.header_line},
+                   {"units_line", file.units_line},
+                   {"rows", file.rows},
+                   {"not_read", file.not_read}};
+      if (std::find(files.begin(), files.end(), json) == files.end())
+        files.push_back(std::move(json));
+    }
+  return files;
+}
+
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
@@ -63,12 +79,14 @@ std::string data_text(const JobData& data) {
   std::string out = words::as_text(words::tests(parts)) + "\n";
   if (const words::Section roles = words::column_roles(data.training); !roles.blocks.empty())
     out += words::as_text(roles) + "\n";
+  out += words::as_text(words::files_read(parts)) + "\n";
   return out + words::as_text(words::data_read(parts, words::Detail::full));
 }
 
 std::string data_json(const JobData& data) {
   Json json = {{"synthetic_data", calibrate::is_synthetic(data.training)},
                {"tests", Json::array()},
+               {"files", files_json(data)},
                {"read", notes_of(data)},
                {"phases", Json::object()},
                {"left_out", Json::array()},

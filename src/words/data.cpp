@@ -122,6 +122,45 @@ Section data_read(const DataParts& parts, Detail detail) {
   return section;
 }
 
+namespace {
+
+std::string line_text(std::size_t line) {
+  return line > 0 ? thousands(line) : "\u2013";
+}
+
+Row file_row(const data::FileRead& first, std::size_t files, std::size_t rows) {
+  return {{shown_path(first.file) + and_more(files - 1, "file"), first.form,
+           line_text(first.header_line), line_text(first.units_line), thousands(rows),
+           first.not_read.empty() ? "\u2013" : list_of(first.not_read)}};
+}
+
+} // namespace
+
+Section files_read(const DataParts& parts) {
+  Section section{"files", "Files", "Files"};
+  Table table{"Files",
+              {{"file"},
+               {"form"},
+               {"names in line", true},
+               {"units in line", true},
+               {"rows", true},
+               {"not read"}},
+              {}};
+  std::vector<data::FileRead> files = parts.training.files;
+  for (const data::FileRead& file : parts.validation.files)
+    if (std::none_of(files.begin(), files.end(),
+                     [&](const data::FileRead& other) { return other.file == file.file; }))
+      files.push_back(file);
+  for (std::size_t i = 0, end = 0; i < files.size(); i = end) {
+    std::size_t rows = 0;
+    for (end = i; end < files.size() && files[end].is_like(files[i]); ++end)
+      rows += files[end].rows;
+    table.rows.push_back(file_row(files[i], end - i, rows));
+  }
+  section.add(std::move(table));
+  return section;
+}
+
 Section tests(const DataParts& parts) {
   Section section{"tests", "Tests", "Tests"};
   section.say(

@@ -20,6 +20,10 @@ struct DataParts {
 // Size and findings. brief: what may change a result; full: also files, conversions and phases.
 Section data_read(const DataParts& parts, Detail detail);
 
+// A row per file, and per run of files that were read in the same way: format, lines of names and
+// units, rows, and columns that are not read.
+Section files_read(const DataParts& parts);
+
 // A row per test: rows, mean coefficients, lowest to highest value of each quantity.
 Section tests(const DataParts& parts);
 

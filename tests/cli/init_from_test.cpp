@@ -329,11 +329,12 @@ with h5py.File('a.h5', 'w') as f:
 }
 
 TEST_F(InitFrom, ReadsAWorkbook) {
-  if (!have_program("/usr/bin/python3") || !have_program("xlsx2csv"))
-    GTEST_SKIP() << "python3 or xlsx2csv is not installed";
-  ASSERT_TRUE(test::write_workbook(directory, "a.xlsx", R"(
-rows = [['Rig 7'], ['Test', 'Time [s]', 'COF', 'Pressure [MPa]']]
-rows += [['K%d' % k, 0.5 * i, 0.1 + 0.01 * (i % 2) + 0.001 * k, 100.5 + i] for k in range(3) for i in range(5)])"));
+  std::string rows = "Rig 7\nTest;Time [s];COF;Pressure [MPa]\n";
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 5; ++i)
+      rows +=
+          fmt::format("K{};{};{};{}\n", k, 0.5 * i, 0.1 + 0.01 * (i % 2) + 0.001 * k, 100.5 + i);
+  test::write_workbook(directory.path("a.xlsx"), {{{"1", test::xml_rows(rows)}}});
   EXPECT_THAT(job_from({"a.xlsx"}), HasSubstr("\nexperiment = \"Test\" "));
   EXPECT_EQ(read().tests, "K0 5, K1 5, K2 5");
 }
@@ -405,20 +406,96 @@ TEST_F(InitFrom, AsksForAnAreaUnderTheForceThatItFound) {
 
 TEST_F(InitFrom, TellsWhatIsNoTable) {
   directory.write("letter.txt", "Dear all,\nthe tests went well.\nRegards\n");
-  directory.write("numbers.csv", "1,2,3\n4,5,6\n");
   directory.write("empty.csv", "\n");
   const std::string none = ": error: no table of numbers under a line of names was found\n"
                            "  hint: frictab init DIR writes a job with every key, to be filled in "
                            "by hand\n";
   for (const auto& [file, said] :
        {std::pair<std::string, std::string>{"letter.txt", "letter.txt" + none},
-        {"numbers.csv", "numbers.csv" + none},
         {"empty.csv", "empty.csv: error: the file is empty\n"},
         {"gone.csv", "gone.csv: error: no such file\n"}}) {
     const CommandResult result = frictab({"init", "job", "--from", file});
     EXPECT_EQ(result.exit_code, 2) << file;
     EXPECT_EQ(result.err, said);
   }
+}
+
+TEST_F(InitFrom, AsksWhichColumnsAreWhichWhereNoLineNamesThem) {
+  for (int test = 1; test <= 3; ++test) {
+    std::string text = "0.05\t0.1\n";
+    for (const Row& row : rows(test))
+      text +=
+          fmt::format("{:.1f};{:.4f};{:.1f}\n", row.time_s, row.mu * row.sigma_MPa, row.sigma_MPa);
+    directory.write(fmt::format("{}.txt", test), text);
+  }
+  std::string job = job_from({"1.txt", "2.txt", "3.txt"});
+  EXPECT_THAT(job, testing::AllOf(HasSubstr("\nskip_rows = 1 "), HasSubstr("\nheader = false "),
+                                  HasSubstr("\n# ? Which columns are these?"),
+                                  HasSubstr("\n# QUANTITY = { column = 3 } ")));
+  int number = 0;
+  for (const char* quantity : {"time_s", "tau_R_MPa", "sigma_n_MPa"}) {
+    const std::string of_column = fmt::format(" = {{ column = {} }}", ++number);
+    job = replace_all(job, "# QUANTITY" + of_column, quantity + of_column);
+  }
+  directory.write("job/job.toml", job);
+  EXPECT_EQ(read().tests, "1 30, 2 30, 3 30");
+}
+
+TEST_F(InitFrom, NumbersColumnsWithoutANameOrWithEqualOnes) {
+  std::string text = "Date:;2020-01-01 10:00\n;Shear stress;p;p\nms;MPa;MPa;MPa\n";
+  for (const Row& row : rows(1))
+    text += fmt::format("{:.1f};{:.4f};{:.1f};{:.2f}\n", 1000 * row.time_s, row.mu * row.sigma_MPa,
+                        row.sigma_MPa, row.mu);
+  directory.write("1.csv", text);
+  directory.write("2.csv", text);
+  const std::string job = job_from({"1.csv", "2.csv"});
+  EXPECT_THAT(job, testing::AllOf(HasSubstr("\nskip_rows = 1 "), HasSubstr("\nunits_row = true "),
+                                  HasSubstr("\ntime_s = { column = 1 } "),
+                                  HasSubstr("\nsigma_n_MPa = { column = 3 } ")));
+  EXPECT_EQ(read().tests, "1 30, 2 30");
+}
+
+TEST_F(InitFrom, FindsTheTestsOfAPlanInAWorkbookAndTheAreaAboveTheRows) {
+  for (int test = 1; test <= 3; ++test) {
+    std::string text = "Pr\xfc"
+                       "fstand 2\nKontaktfl\xe4"
+                       "che [mm\xb2]: 2,5\n\n"
+                       "Zeit [s];Normalkraft [N];Reibkraft [N]\n";
+    for (const Row& row : rows(test))
+      text += replace_all(fmt::format("{:.1f};{:.2f};{:.4f}\n", row.time_s, 2.5 * row.sigma_MPa,
+                                      2.5 * row.mu * row.sigma_MPa),
+                          ".", ",");
+    directory.write(fmt::format("V0{}.csv", test), text);
+  }
+  test::write_workbook(
+      directory.path("plan.xlsx"),
+      {{{"Info", test::xml_rows("Rig 7\n")},
+        {"Plan", test::xml_rows("Versuch;Geschwindigkeit [mm/s]\nVersuch_001_C45;5\n"
+                                "Versuch_002_C45;50\nVersuch_003_C45;50\n")}}});
+  const std::string job = job_from({"V01.csv", "V02.csv", "V03.csv", "plan.xlsx"});
+  EXPECT_THAT(job, testing::AllOf(HasSubstr("\ntests = \"../plan.xlsx\" "),
+                                  HasSubstr("\ntests_sheet = \"Plan\"\n"),
+                                  HasSubstr("\nexperiment = \"Versuch\" "),
+                                  HasSubstr("column = \"Normalkraft\", area_mm2 = 2.5 }")));
+  const Read data = read();
+  EXPECT_EQ(data.tests, "V01 30, V02 30, V03 30");
+  EXPECT_THAT(data.text, HasSubstr("tests are found by the numbers in their names"));
+}
+
+TEST_F(InitFrom, TakesSheetsOfAWorkbookForTests) {
+  std::vector<test::XmlSheet> sheets = {{"Cover", test::xml_rows("Order 4711\n")}};
+  for (int test = 1; test <= 3; ++test) {
+    std::string text = "Time [s];COF;Pressure [MPa]\n";
+    for (const Row& row : rows(test))
+      text += fmt::format("{:.1f};{:.4f};{:.1f}\n", row.time_s, row.mu, row.sigma_MPa);
+    sheets.push_back({fmt::format("v{}_1", 5 * test), test::xml_rows(text)});
+  }
+  test::write_workbook(directory.path("tests.xlsx"), {sheets});
+  const std::string job = job_from({"tests.xlsx"});
+  EXPECT_THAT(job, testing::AllOf(HasSubstr("\ntraining = \"../tests.xlsx\"                    # 3 "
+                                            "sheets\n"),
+                                  HasSubstr("\nsheet = \"*\" "), HasSubstr("# not read: Cover\n")));
+  EXPECT_EQ(read().tests, "v10_1 30, v15_1 30, v5_1 30");
 }
 
 TEST_F(InitFrom, KeepsAJobFileThatIsThereUnlessForced) {

@@ -217,9 +217,10 @@ TEST_F(LoadFuzz, DamagedFilesAreGuessedOrRefused) {
     const std::string bytes = mutated(file, random, 8);
     write(bytes);
     try {
-      const data::GuessedFile guess = data::guess_file(file_.string(), "file.csv");
+      const data::GuessedFile guess = data::guess_file(file_.string(), "file.csv").front();
       ASSERT_FALSE(guess.columns.empty()) << bytes;
-      job::guessed_job({guess}, {}, {"file.csv"});
+      job::guessed_job({.files = {guess}, .tests = {}, .sheets = {}, .passed = {}}, {},
+                       {"file.csv"});
       ++guessed;
     } catch (const InputError& error) {
       ASSERT_FALSE(error.faults().empty());

@@ -46,10 +46,10 @@ TEST(JobMessages, NameTheNearestKnownKey) {
   EXPECT_EQ(
       with("zzzzzzzz = 1"),
       "job.toml:3:1: error: unknown key 'zzzzzzzz' in [data]\n"
-      "  hint: known: drop, columns, constants, roles, files, wide, join, training, validation, "
-      "oracle, "
-      "holdout, delimiter, decimal, thousands, sheet, tests, skip_rows, skip_footer, units_row, "
-      "missing, rows, force_zero, allow_implausible, experiment, recording, condense, bystanders");
+      "  hint: known: drop, columns, constants, roles, files, wide, segments, join, training, "
+      "validation, oracle, holdout, delimiter, decimal, thousands, sheet, tests, tests_sheet, "
+      "skip_rows, skip_footer, units_row, header, header_rows, missing_values, missing, rows, "
+      "force_zero, allow_implausible, experiment, recording, condense, bystanders");
 }
 
 TEST(JobMessages, NameTheRuleOfSomeFiles) {

@@ -278,45 +278,6 @@ TEST_F(LoadBeside, FaultOfAWideTableIsToldWithItsPlace) {
               HasSubstr("a.csv:3:3: error: tau_R_MPa: 'x' is not a number"));
 }
 
-// ---- workbooks ----
-
-TEST_F(LoadBeside, SheetOfAWorkbookIsReadByName) {
-  if (!have_program("/usr/bin/python3") || !have_program("xlsx2csv"))
-    GTEST_SKIP() << "python3 or xlsx2csv is not installed";
-  const std::string book = (directory_ / "a.xlsx").string();
-  // A workbook by hand: its parts are XML files in a ZIP archive.
-  const std::string script = (directory_ / file("make.py", R"(
-import sys, zipfile
-def sheet(rows):
-    cells = ''.join('<row r="%d">%s</row>' % (i + 1, ''.join(
-        '<c r="%s%d" %s</c>' % ('ABCD'[j], i + 1,
-        't="inlineStr"><is><t>%s</t></is>' % c if isinstance(c, str) else 's="1"><v>%r</v>' % c)
-        for j, c in enumerate(row))) for i, row in enumerate(rows))
-    return '<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>' + cells + '</sheetData></worksheet>'
-ns = 'xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main" xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships"'
-rel = 'http://schemas.openxmlformats.org/officeDocument/2006/relationships'
-with zipfile.ZipFile(sys.argv[1], 'w') as z:
-    z.writestr('[Content_Types].xml', '<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Override PartName="/xl/workbook.xml" ContentType="application/vnd.openxmlformats-officedocument.spreadsheetml.sheet.main+xml"/><Override PartName="/xl/worksheets/sheet1.xml" ContentType="application/vnd.openxmlformats-officedocument.spreadsheetml.worksheet+xml"/><Override PartName="/xl/worksheets/sheet2.xml" ContentType="application/vnd.openxmlformats-officedocument.spreadsheetml.worksheet+xml"/><Override PartName="/xl/styles.xml" ContentType="application/vnd.openxmlformats-officedocument.spreadsheetml.styles+xml"/></Types>')
-    z.writestr('_rels/.rels', '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="%s/officeDocument" Target="xl/workbook.xml"/></Relationships>' % rel)
-    z.writestr('xl/workbook.xml', '<workbook %s><sheets><sheet name="Deckblatt" sheetId="1" r:id="rId1"/><sheet name="Messung 1" sheetId="2" r:id="rId2"/></sheets></workbook>' % ns)
-    z.writestr('xl/_rels/workbook.xml.rels', '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="rId1" Type="%s/worksheet" Target="worksheets/sheet1.xml"/><Relationship Id="rId2" Type="%s/worksheet" Target="worksheets/sheet2.xml"/><Relationship Id="rId3" Type="%s/styles" Target="styles.xml"/></Relationships>' % (rel, rel, rel))
-    z.writestr('xl/styles.xml', '<styleSheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><cellXfs count="2"><xf numFmtId="0"/><xf numFmtId="2"/></cellXfs></styleSheet>')
-    z.writestr('xl/worksheets/sheet1.xml', sheet([['Labor 3']]))
-    z.writestr('xl/worksheets/sheet2.xml', sheet([['Rig 7'], ['time_s', 'F_N_N', 'F_R_N', 'sigma_n_MPa'], [0, 1000, 123.456, 5.5], [0.5, 1000, 234.567891, 5.5]]))
-)"))
-                                 .string();
-  run_program({"/usr/bin/python3", script, book}, directory_ / "log");
-  options.sheet = "Messung 1";
-  const Dataset data = load_dataset({"a.xlsx"}, options);
-  EXPECT_THAT(column(data, "F_R_N"), ElementsAre(123.456, 234.567891))
-      << "the number, not the two decimals that it is shown with";
-  options.sheet = "Messung 2";
-  EXPECT_THAT(fault_of({"a.xlsx"}), HasSubstr("a.xlsx: error: holds no sheet 'Messung 2'"));
-  options.sheet.clear();
-  file("b.xlsx", "no workbook");
-  EXPECT_THAT(fault_of({"b.xlsx"}), HasSubstr("is not a workbook that xlsx2csv can read"));
-}
-
 // ---- HDF5 ----
 
 TEST_F(LoadBeside, GroupOfAnHdf5FileIsAnExperiment) {

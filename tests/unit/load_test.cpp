@@ -187,7 +187,10 @@ TEST_F(Load, TellsMissingColumnsAndTheNearestName) {
 
 TEST_F(Load, TellsDuplicateColumnsOnlyWhereTheyAreUsed) {
   const std::string text = "sigma_n_MPa,tau_R_MPa,x,x\n1,2,3,4\n5,6,7,8\n";
+  EXPECT_TRUE(read(text).has("x (column 4)"));
+  options.columns["psi"].names = {"x"};
   EXPECT_THAT(fault(text), HasSubstr("a.csv:1: error: there are 2 columns 'x': 3, 4"));
+  options.columns.clear();
   options.bystanders = std::vector<std::string>{};
   EXPECT_EQ(read(text).columns.size(), 2u);
 }

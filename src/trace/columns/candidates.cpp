@@ -22,8 +22,8 @@
 #include "data/options.h"
 #include "data/quantity.h"
 #include "data/roles.h"
+#include "data/time_stamps.h"
 #include "stats/projection.h"
-#include "trace/columns/test_dates.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
@@ -176,7 +176,7 @@ private:
         best = rank;
       }
     if (!order || order_has_gaps(*order) || orders_nothing(*order)) return;
-    const TestDates dates = sort_dates(order->levels); // time stamps are text
+    const data::TestDates dates = data::sort_dates(order->levels); // time stamps are text
     if (!dates.fault.empty()) {
       not_an_order(*order, dates.fault, "write dates as 2024-09-01");
       return;

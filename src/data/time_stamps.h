@@ -1,10 +1,11 @@
-// Dates and times of tests, in the formats of rigs and spreadsheets.
+// Dates and times of tests and rows, in the formats of rigs and spreadsheets.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
-namespace frictab::trace {
+namespace frictab::data {
 
 struct TestDates {
   // position of each text in order of time, from 0; equal for equal times
@@ -19,4 +20,18 @@ struct TestDates {
 // order. Texts without any date are ordered as they sort.
 TestDates sort_dates(const std::vector<std::string>& texts);
 
-} // namespace frictab::trace
+// True for dates with a time of day, and for times alone: 14:03:05,120, 2:05:10 PM, 3:12.5 (minutes
+// and seconds).
+bool looks_like_time(const std::string& text);
+
+struct RowTimes {
+  std::vector<double> seconds; // since the first text
+  std::string fault;           // reason why they are not known; else empty
+  std::size_t at = 0;          // index of the text at fault
+};
+
+// Times of rows in their order. A time of day that falls back by more than half a day is of the
+// next day.
+RowTimes seconds_since_first(const std::vector<std::string>& texts);
+
+} // namespace frictab::data

@@ -2,14 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "trace/columns/test_dates.h"
+#include "data/time_stamps.h"
 
-namespace frictab::test_dates_test {
+namespace frictab::time_stamps_test {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using trace::sort_dates;
+using data::sort_dates;
 using Texts = std::vector<std::string>;
 
 TEST(TestDates, WithTheYearFirstSortAsTime) {
@@ -52,4 +52,4 @@ TEST(TestDates, TextsThatAreNoDatesSortAsTexts) {
 }
 
 } // namespace
-} // namespace frictab::test_dates_test
+} // namespace frictab::time_stamps_test

@@ -1,17 +1,19 @@
 // Tries every interpretation of three numbers as a date on all texts.
-#include "trace/columns/test_dates.h"
+#include "data/time_stamps.h"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "core/pattern.h"
+#include "core/text.h"
 
-namespace frictab::trace {
+namespace frictab::data {
 
 namespace {
 
@@ -22,13 +24,17 @@ struct Stamp {
   double seconds = 0;  // of the day
 };
 
+double number_of(const std::string& digits) {
+  return std::stod(replace_all(digits, ",", "."));
+}
+
 double seconds_of_day(const std::map<std::string, std::string>& part) {
   if (part.at("hour").empty()) return 0;
   double hour = std::stod(part.at("hour"));
   if (const std::string& half = part.at("half"); !half.empty()) // 12 AM is midnight
     hour = (hour == 12 ? 0 : hour) + (half == "p" || half == "P" ? 12 : 0);
   double seconds = 3600 * hour + 60 * std::stod(part.at("minute"));
-  if (!part.at("second").empty()) seconds += std::stod(part.at("second"));
+  if (!part.at("second").empty()) seconds += number_of(part.at("second"));
   if (!part.at("zone_hour").empty()) {
     const double zone =
         3600 * std::stod(part.at("zone_hour")) + 60 * std::stod(part.at("zone_minute"));
@@ -40,7 +46,7 @@ double seconds_of_day(const std::map<std::string, std::string>& part) {
 std::optional<Stamp> read_stamp(const std::string& text) {
   static const Pattern pattern(R"(^\s*(?<a>\d{1,4})(?<between>[-./])(?<b>\d{1,2})\g{between})"
                                R"((?<c>\d{1,4})(?:[ T]+(?<hour>\d{1,2}):(?<minute>\d{2}))"
-                               R"((?::(?<second>\d{2}(?:\.\d+)?))?(?:\s*(?<half>[AaPp])[Mm])?)"
+                               R"((?::(?<second>\d{2}(?:[.,]\d+)?))?(?:\s*(?<half>[AaPp])[Mm])?)"
                                R"((?:Z|(?<sign>[-+])(?<zone_hour>\d{2}):?(?<zone_minute>\d{2}))?)?)"
                                R"(\s*$)",
                                {});
@@ -58,13 +64,13 @@ std::optional<Stamp> read_stamp(const std::string& text) {
 }
 
 // Positions of year, month and day.
-struct Reading {
+struct DateOrder {
   std::size_t year, month, day;
 };
-constexpr Reading readings[] = {{0, 1, 2}, {2, 1, 0}, {2, 0, 1}};
+constexpr DateOrder date_orders[] = {{0, 1, 2}, {2, 1, 0}, {2, 0, 1}};
 
 // Time in seconds; none if the calendar does not have such a day.
-std::optional<double> time_of(const Stamp& stamp, const Reading& as) {
+std::optional<double> time_of(const Stamp& stamp, const DateOrder& as) {
   if (stamp.digits[as.month] > 2 || stamp.digits[as.day] > 2) return std::nullopt;
   if (stamp.points && as.day != 0 && stamp.digits[0] != 4) return std::nullopt;
   int year = stamp.field[as.year];
@@ -93,7 +99,7 @@ template <class Value> std::vector<double> places_of(const std::vector<Value>& v
 }
 
 // Positions in order of time; none if the reading does not fit all of them.
-std::optional<std::vector<double>> places(const std::vector<Stamp>& stamps, const Reading& as) {
+std::optional<std::vector<double>> places(const std::vector<Stamp>& stamps, const DateOrder& as) {
   std::vector<double> times;
   for (const Stamp& stamp : stamps) {
     const auto time = time_of(stamp, as);
@@ -103,7 +109,81 @@ std::optional<std::vector<double>> places(const std::vector<Stamp>& stamps, cons
   return places_of(times);
 }
 
+// Hours, minutes and seconds, or minutes and seconds with decimals; nullopt for other texts.
+std::optional<double> read_clock(const std::string& text) {
+  static const Pattern pattern(R"(^\s*(?:(?<hour>\d+):(?<minute>\d{1,2}):)"
+                               R"((?<second>\d{1,2}(?:[.,]\d+)?)(?:\s*(?<half>[AaPp])[Mm])?)"
+                               R"(|(?<m>\d+):(?<s>\d{1,2}[.,]\d+))\s*$)",
+                               {});
+  auto part = pattern.search(text);
+  if (!part) return std::nullopt;
+  if (part->at("hour").empty()) return 60 * number_of(part->at("m")) + number_of(part->at("s"));
+  part->insert({{"zone_hour", ""}, {"zone_minute", ""}, {"sign", ""}});
+  return seconds_of_day(*part);
+}
+
+// Differences to the first one, without the rounding of long times.
+void subtract_first(std::vector<double>& times) {
+  constexpr double finest = 1e6; // microseconds
+  for (std::size_t i = times.size(); i-- > 0;)
+    times[i] = std::round((times[i] - times.front()) * finest) / finest;
+}
+
+// Times of dated texts by the one reading of dates that fits all; readings that fit and differ in
+// any time are a fault.
+RowTimes times_of(const std::vector<Stamp>& stamps, const std::vector<std::string>& texts) {
+  RowTimes out;
+  std::vector<std::vector<double>> found;
+  for (const DateOrder& as : date_orders) {
+    std::vector<double> times;
+    for (const Stamp& stamp : stamps)
+      if (const auto time = time_of(stamp, as)) times.push_back(*time);
+    if (times.size() == stamps.size()) found.push_back(std::move(times));
+  }
+  if (found.empty()) return {{}, fmt::format("'{}' is not a date", texts.front()), 0};
+  for (std::vector<double>& times : found)
+    subtract_first(times);
+  if (std::any_of(found.begin(), found.end(), [&](const auto& t) { return t != found.front(); }))
+    return {{}, fmt::format("'{}' does not show which number is the day", texts.front()), 0};
+  out.seconds = std::move(found.front());
+  return out;
+}
+
+RowTimes clock_times(const std::vector<std::string>& texts) {
+  constexpr double day = 86400;
+  RowTimes out;
+  double days = 0, last = 0;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const auto time = read_clock(texts[i]);
+    if (!time) return {{}, fmt::format("'{}' is not a time, as others are", texts[i]), i};
+    if (i > 0 && *time < last - day / 2) days += day;
+    last = *time;
+    out.seconds.push_back(*time + days);
+  }
+  subtract_first(out.seconds);
+  return out;
+}
+
+bool has_time(const std::string& text) {
+  return text.find(':') != text.npos;
+}
+
 } // namespace
+
+bool looks_like_time(const std::string& text) {
+  return has_time(text) && (read_clock(text) || read_stamp(text));
+}
+
+RowTimes seconds_since_first(const std::vector<std::string>& texts) {
+  if (texts.empty() || !read_stamp(texts.front())) return clock_times(texts);
+  std::vector<Stamp> stamps;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const auto stamp = read_stamp(texts[i]);
+    if (!stamp) return {{}, fmt::format("'{}' is not a date, as others are", texts[i]), i};
+    stamps.push_back(*stamp);
+  }
+  return times_of(stamps, texts);
+}
 
 TestDates sort_dates(const std::vector<std::string>& texts) {
   std::vector<Stamp> stamps;
@@ -116,7 +196,7 @@ TestDates sort_dates(const std::vector<std::string>& texts) {
   if (stamps.empty()) return {places_of(texts), ""};
   if (no_date) return {{}, fmt::format("'{}' is not a date, as others are", *no_date)};
   std::vector<std::vector<double>> found;
-  for (const Reading& as : readings)
+  for (const DateOrder& as : date_orders)
     if (auto order = places(stamps, as)) found.push_back(std::move(*order));
   if (found.empty()) return {{}, fmt::format("'{}' and others are not dates", texts.front())};
   if (std::any_of(found.begin(), found.end(), [&](const auto& o) { return o != found.front(); }))
@@ -125,4 +205,4 @@ TestDates sort_dates(const std::vector<std::string>& texts) {
   return {found.front(), ""};
 }
 
-} // namespace frictab::trace
+} // namespace frictab::data

@@ -1,0 +1,167 @@
+// Forms of text that rigs write: no header, equal names, steps, clocks, marks for no value.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "unit/load_case.h"
+
+namespace frictab::load_text_forms_test {
+
+namespace {
+
+using data::Dataset;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class LoadTextForms : public test::LoadCase {};
+
+void take_by_number(data::DataOptions& options) {
+  options.columns["sigma_n_MPa"].number = 1;
+  options.columns["tau_R_MPa"].number = 2;
+}
+
+// ---- no header ----
+
+TEST_F(LoadTextForms, FileWithoutAHeaderIsReadByNumber) {
+  take_by_number(options);
+  const std::string text = "0.05 1 2\n100;20;7\n101;21;8\n";
+  options.skip_rows = 1;
+  options.delimiter = ';';
+  for (const std::optional<bool> header : {std::optional<bool>(), std::optional<bool>(false)}) {
+    options.header = header;
+    const Dataset data = read(text);
+    EXPECT_THAT(column(data, "sigma_n_MPa"), ElementsAre(100, 101));
+    EXPECT_THAT(column(data, "column_3"), ElementsAre(7, 8)) << "others are recorded";
+  }
+  options.header = true;
+  EXPECT_THAT(fault(text), HasSubstr("data.header = false takes columns by number"));
+}
+
+TEST_F(LoadTextForms, HeaderIsNotGuessedAwayWhereNamesAreWanted) {
+  take_by_number(options);
+  options.columns["tau_R_MPa"] = {};
+  options.columns["tau_R_MPa"].names = {"tau"};
+  EXPECT_THAT(fault("100;20\n101;21\n"), HasSubstr("2 of the 2 column names in this line are "
+                                                   "numbers"));
+}
+
+TEST_F(LoadTextForms, FaultOfAFileWithoutAHeaderNamesTheLine) {
+  take_by_number(options);
+  EXPECT_THAT(fault("100;20\n101;bad\n"), HasSubstr("a.csv:2:5: error: tau_R_MPa: 'bad'"));
+  EXPECT_THAT(fault("100;20\n101\n"), HasSubstr("a.csv:2: error: 1 cells, the first row has 2"));
+}
+
+// ---- names ----
+
+TEST_F(LoadTextForms, EqualNamesAreTakenByNumber) {
+  options.columns["sigma_n_MPa"].names = {"p"};
+  options.columns["tau_R_MPa"].number = 2;
+  const std::string text = "t,tau,p,t,tau\n0,10,100,0,7\n1,11,101,1,8\n";
+  const Dataset data = read(text);
+  EXPECT_THAT(column(data, "tau_R_MPa"), ElementsAre(10, 11));
+  EXPECT_THAT(column(data, "tau (column 5)"), ElementsAre(7, 8));
+  EXPECT_THAT(data.notes, testing::Contains("column 4 't' repeats column 1: it is not read"));
+  options.columns["tau_R_MPa"] = {};
+  options.columns["tau_R_MPa"].names = {"tau"};
+  EXPECT_THAT(fault(text), testing::AllOf(HasSubstr("there are 2 columns 'tau': 2, 5"),
+                                          HasSubstr("{ column = 2 }")));
+}
+
+TEST_F(LoadTextForms, NamesThatRepeatWithEqualCellsAreOneColumn) {
+  options.columns["time_s"].names = {"t"};
+  EXPECT_THAT(column(read("t,sigma_n_MPa,t,tau_R_MPa\n0,100,0,10\n1,101,1,11\n"), "time_s"),
+              ElementsAre(0, 1));
+}
+
+TEST_F(LoadTextForms, HeaderIsFoundByNamesInFormulas) {
+  options.units_row = true;
+  options.columns["sigma_n_MPa"].formula = "Load_mean/2";
+  options.columns["tau_R_MPa"].formula = "Drag_mean/100";
+  const Dataset data =
+      read("Date:;2020-01-01 10:00\nSamples:;40\n;Load mean;Drag mean\nms;N;%\n0;10;20\n1;12;22\n");
+  EXPECT_THAT(column(data, "sigma_n_MPa"), ElementsAre(5, 6));
+}
+
+TEST_F(LoadTextForms, TwoLinesOfNamesAreJoined) {
+  options.header_rows = 2;
+  options.columns["sigma_n_MPa"].names = {"Stress normal"};
+  options.columns["tau_R_MPa"].names = {"Stress shear"};
+  const std::string text =
+      "Stress;Stress;Time\nnormal [kPa];shear [kPa];\n1000;100;0\n1100;110;1\n";
+  EXPECT_THAT(column(read(text), "sigma_n_MPa"), ElementsAre(1, 1.1));
+  options.experiment = "interval";
+  EXPECT_EQ(read(text + text).experiments.size(), 2u) << "both lines come again";
+}
+
+// ---- segments ----
+
+TEST_F(LoadTextForms, SegmentsAreIntervalsWithTheirGroups) {
+  options.segments = {R"(^Step (?<step>\d+): (?<oil>\w+))", "^End", {"job.toml", 3, 1}};
+  options.experiment = "interval";
+  const std::string text =
+      "Machine 7\nsigma_n_MPa;tau_R_MPa\nStep 1: dry\n100;10\n101;11\nEnd of step\n"
+      "mean;10.5\n\nStep 2: oil\nsigma_n_MPa;tau_R_MPa\n102;12\n103;13\nEnd\nbye\n";
+  const Dataset data = read(text);
+  EXPECT_THAT(data.experiments, ElementsAre("a 1", "a 2"));
+  EXPECT_THAT(column(data, "tau_R_MPa"), ElementsAre(10, 11, 12, 13));
+  EXPECT_THAT(column(data, "step"), ElementsAre(1, 1, 2, 2));
+  EXPECT_THAT(data.find("oil")->levels, ElementsAre("dry", "oil"));
+  EXPECT_THAT(data.notes,
+              testing::Contains("2 segments of rows; 2 lines outside them are not read"));
+}
+
+TEST_F(LoadTextForms, SegmentThatBeginsAboveTheHeaderHoldsTheFirstRows) {
+  options.segments = {R"(^Load (?<F_N_N>[\d.]+))", "", {"job.toml", 3, 1}};
+  options.constants["sigma_n_MPa"] = 5;
+  options.experiment = "interval";
+  const Dataset data = read("Load 20\nF_R_N\n2\n2.1\nLoad 40\nF_R_N\n4\n4.4\n");
+  EXPECT_THAT(column(data, "F_N_N"), ElementsAre(20, 20, 40, 40));
+  EXPECT_EQ(data.experiments.size(), 2u);
+}
+
+TEST_F(LoadTextForms, ASegmentThatNeverBeginsLeavesNoRows) {
+  options.segments = {"^Step", "", {"job.toml", 3, 1}};
+  EXPECT_THAT(fault("sigma_n_MPa;tau_R_MPa\n100;10\n"), HasSubstr("no rows"));
+}
+
+// ---- marks for no value ----
+
+TEST_F(LoadTextForms, MarksForNoValueAreEmptyCells) {
+  options.missing_values = {"OVER", "-9999"};
+  options.missing = data::Missing::drop;
+  const Dataset data =
+      read("sigma_n_MPa,tau_R_MPa,Ra\n100,10,1\n101,OVER,1\n-9999.0,11,1\n102,12,-9999\n");
+  EXPECT_THAT(column(data, "sigma_n_MPa"), ElementsAre(100, 102));
+  EXPECT_TRUE(std::isnan(column(data, "Ra")[1]));
+  EXPECT_THAT(data.notes, testing::Contains(HasSubstr(
+                              "tau_R_MPa: 1 of 4 cells are empty by data.missing_values")));
+  options.missing_values = {"-9999"};
+  EXPECT_THAT(fault("sigma_n_MPa,tau_R_MPa\n100,10\n101,OVER\n"),
+              HasSubstr("'OVER' is not a number"));
+}
+
+// ---- clocks ----
+
+TEST_F(LoadTextForms, ClockTimesAreSecondsSinceTheFirst) {
+  const std::string rows = ";100;10\n";
+  const auto times = [&](const std::string& a, const std::string& b) {
+    const Dataset data = read("time_s;sigma_n_MPa;tau_R_MPa\n" + a + rows + b + rows);
+    return column(data, "time_s")[1];
+  };
+  EXPECT_EQ(times("14:03:05,120", "14:03:06,240"), 1.12);
+  EXPECT_EQ(times("23:59:59", "00:00:01"), 2) << "past midnight";
+  EXPECT_EQ(times("0:59.5", "1:00.25"), 0.75);
+  EXPECT_EQ(times("2026-03-02 14:03:05.5", "2026-03-02 14:03:06"), 0.5);
+  EXPECT_EQ(times("02.03.2026 23:59:59", "03.03.2026 00:00:01"), 2);
+  EXPECT_EQ(times("3/2/2026 1:00:00 PM", "3/2/2026 1:00:01 PM"), 1);
+}
+
+TEST_F(LoadTextForms, ATextAmongClockTimesIsAFaultInItsPlace) {
+  EXPECT_THAT(fault("time_s;sigma_n_MPa;tau_R_MPa\n14:03:05;100;10\nlater;101;11\n"),
+              HasSubstr("a.csv:3:1: error: time_s: 'later' is not a time, as others are"));
+}
+
+} // namespace
+
+} // namespace frictab::load_text_forms_test
