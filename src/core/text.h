@@ -27,6 +27,10 @@ std::string join(std::span<const std::string> parts, std::string_view separator)
 // Length in bytes of the well-formed UTF-8 sequence at the front (RFC 3629); 0 if there is none.
 std::size_t utf8_length(std::string_view text);
 
+// The text itself if it is UTF-8; otherwise taken as Latin-1, the encoding of older measuring
+// programs.
+std::string to_utf8(std::string_view text);
+
 // Display width of UTF-8 text; counts combining and wide characters as one.
 std::size_t characters(std::string_view text);
 

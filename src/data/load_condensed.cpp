@@ -13,7 +13,7 @@
 #include "data/append.h"
 #include "data/condense.h"
 #include "data/file_list.h"
-#include "data/hdf5_columns.h"
+#include "data/group_columns.h"
 #include "data/leave_out.h"
 #include "data/load_part.h"
 #include "data/plausibility.h"
@@ -257,7 +257,7 @@ double rows_of_text(const fs::path& path, std::uint64_t bytes) {
 double rows_of_hdf5(const fs::path& path, const DataOptions& options) {
   try {
     FaultList ignored;
-    return static_cast<double>(Hdf5Columns(path.string(), path.string(), options, ignored).rows());
+    return static_cast<double>(GroupColumns(path.string(), path.string(), options, ignored).rows());
   } catch (const InputError&) {
     return 0;
   }

@@ -432,7 +432,7 @@ private:
   void map_experiment() {
     if (options_.experiment == "interval") {
       if (raw_.interval.empty())
-        faults_.add(header(), "an HDF5 file has no intervals (data.experiment)",
+        faults_.add(header(), "a file without lines has no intervals (data.experiment)",
                     "one group or file per experiment, or a column that names it");
       out_.intervals = true;
       for (const std::size_t interval : raw_.interval)

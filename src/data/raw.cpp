@@ -10,8 +10,9 @@
 
 #include "core/text.h"
 #include "data/computed.h"
-#include "data/hdf5_columns.h"
+#include "data/group_columns.h"
 #include "data/quantity.h"
+#include "data/rig_files.h"
 #include "data/wide.h"
 #include "data/workbooks.h"
 #include "io/hdf5.h"
@@ -134,8 +135,9 @@ io::CsvTable whole_of(io::CsvPieces& pieces, std::uint64_t bytes, FaultList& fau
 io::CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
                       FaultList& faults) {
   check_name(path, named);
+  if (auto table = read_rig_file(path, named, options, faults)) return std::move(*table);
   if (io::looks_like_hdf5(path))
-    return Hdf5Columns(path, named, options, faults)
+    return GroupColumns(path, named, options, faults)
         .next(std::numeric_limits<std::uint64_t>::max());
   const io::CsvFormat format = csv_format(path, options);
   if (io::looks_like_workbook(path))

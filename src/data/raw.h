@@ -11,10 +11,10 @@ namespace frictab::data {
 // `what`.
 Place row_place(const io::CsvTable& table, std::size_t row, std::size_t column = 0);
 
-// Reads CSV, a sheet of a workbook (the first name of DataOptions::sheets, else the first sheet),
-// or HDF5 if the file has its signature, with one dataset per column, or one group of such datasets
-// per experiment, whose attributes are columns as well (then `line` counts rows from 1 and
-// header_line is 0).
+// Reads LabVIEW, TDMS and MATLAB files (data/rig_files.h), CSV, a sheet of a workbook (the first
+// name of DataOptions::sheets, else the first sheet), or HDF5 if the file has its signature, with
+// one dataset per column, or one group of such datasets per experiment, whose attributes are
+// columns as well (then `line` counts rows from 1 and header_line is 0).
 io::CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
                       FaultList& faults);
 

@@ -7,8 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "data/hdf5_columns.h"
+#include "data/group_columns.h"
 #include "data/mapping.h"
+#include "data/rig_files.h"
 #include "data/wide.h"
 #include "io/hdf5.h"
 #include "io/text_file.h"
@@ -123,11 +124,11 @@ void cut_pieces(const std::function<std::vector<io::CsvTable>()>& next, const Re
 
 void read_raw_parts(const std::string& path, const std::string& named, const Reading& options,
                     FaultList& faults, const TakeParts& take) {
-  const bool held = io::looks_like_workbook(path) || !options.wide.empty() ||
+  const bool held = io::looks_like_workbook(path) || is_rig_file(path) || !options.wide.empty() ||
                     !options.join.files.empty() || is_cut_whole(options);
   if (held) return read_whole(path, named, options, faults, take);
   if (io::looks_like_hdf5(path)) {
-    Hdf5Columns columns(path, named, options, faults);
+    GroupColumns columns(path, named, options, faults);
     if (!faults.empty()) return;
     const auto next = [&] {
       std::vector<io::CsvTable> pieces;

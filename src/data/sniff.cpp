@@ -17,6 +17,7 @@
 #include "data/computed.h"
 #include "data/quantity.h"
 #include "data/raw.h"
+#include "data/rig_files.h"
 #include "data/test_table.h"
 #include "data/workbooks.h"
 #include "io/hdf5.h"
@@ -45,7 +46,7 @@ const std::vector<Names>& known_names() {
        {"experiment", "test", "versuch", "versuch nr", "versuchsnummer", "versuchsnr", "run",
         "probe", "specimen", "sample", "test id", "test no", "test nr", "test name", "id"},
        {}},
-      {"time_s", false, {"time", "zeit", "t", "elapsed", "sekunden"}, {"time", "zeit"}},
+      {"time_s", false, {"time", "zeit", "t", "elapsed", "sekunden", "x value"}, {"time", "zeit"}},
       {"F_N_N",
        false,
        {"f n", "fn", "fz", "load", "last", "fnormal"},
@@ -550,12 +551,13 @@ std::vector<GuessedFile> guess_workbook(const std::string& path, const std::stri
 
 std::vector<GuessedFile> guess_file(const std::string& path, const std::string& named) {
   if (io::looks_like_workbook(path)) return guess_workbook(path, named);
-  if (!io::looks_like_hdf5(path))
+  if (!is_rig_file(path) && !io::looks_like_hdf5(path))
     return {guess_text(head_of(io::read_text_file(path, named)), named, nullptr)};
   FaultList faults;
   const io::CsvTable table = read_raw(path, named, {}, faults);
   GuessedFile guess;
   guess.file = named;
+  guess.intervals = !table.interval.empty() && table.interval.back() > 0;
   guess.columns = columns_of(table);
   finish(guess, table);
   return {guess};

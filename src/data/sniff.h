@@ -55,7 +55,8 @@ struct GuessedNames {
   std::vector<NamePart> parts;
 };
 
-// Guesses from the first 64 KiB of a text file (or sheet), or from all of an HDF5 file. One guess
+// Guesses from the first 64 KiB of a text file (or sheet), or from all of an HDF5 file
+// or one of data/rig_files.h. One guess
 // per file, and per sheet of a workbook that is a table. Throws InputError if there is none.
 std::vector<GuessedFile> guess_file(const std::string& path, const std::string& named);
 

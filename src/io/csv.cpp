@@ -35,31 +35,6 @@ bool parse_number(std::string_view cell, const CsvFormat& format, double& value)
           read_grouped_number(cell, format.decimal, format.thousands, value));
 }
 
-bool valid_utf8(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
-    if (length == 0) return false;
-    text.remove_prefix(length);
-  }
-  return true;
-}
-
-// Takes text that is not UTF-8 as Latin-1, the encoding of older measuring programs.
-std::string to_utf8(std::string_view text) {
-  if (valid_utf8(text)) return std::string(text);
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80) {
-      out += c;
-    } else {
-      out += static_cast<char>(0xc0 | (byte >> 6));
-      out += static_cast<char>(0x80 | (byte & 0x3f));
-    }
-  }
-  return out;
-}
-
 // Converts UTF-16 text to UTF-8; nullopt if the text is not UTF-16.
 std::optional<std::string> from_utf16(std::string_view text) {
   const bool little = text.starts_with("\xFF\xFE"), big = text.starts_with("\xFE\xFF");

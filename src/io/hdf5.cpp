@@ -233,10 +233,14 @@ std::optional<std::size_t> length_of_column(std::span<const std::size_t> shape) 
 }
 
 bool looks_like_hdf5(const std::filesystem::path& file) {
+  constexpr std::string_view signature("\x89HDF\r\n\x1a\n", 8);
+  constexpr std::streamoff smallest_block = 512;
   std::ifstream in(file, std::ios::binary);
-  char magic[8] = {};
-  in.read(magic, sizeof magic);
-  return in.gcount() == 8 && std::string_view(magic, 8) == std::string_view("\x89HDF\r\n\x1a\n", 8);
+  char magic[signature.size()] = {};
+  for (std::streamoff at = 0; in.seekg(at) && in.read(magic, sizeof magic);
+       at = std::max(2 * at, smallest_block))
+    if (std::string_view(magic, sizeof magic) == signature) return true;
+  return false;
 }
 
 } // namespace frictab::io

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "io/column_groups.h"
+
 namespace frictab::io {
 
 // Storage of a dataset in the file.
@@ -72,10 +74,7 @@ struct Hdf5Values { // values of one slice
 };
 
 // Any content of a group other than datasets and attributes of one number or text.
-struct Hdf5Other {
-  std::string name;
-  std::string what; // "an attribute of 2 values"
-};
+using Hdf5Other = GroupOther;
 
 // Length of the only axis longer than 1: n for n, n x 1 and 1 x n; nullopt for a scalar or with two
 // such axes.
@@ -133,7 +132,8 @@ private:
   std::unique_ptr<Data> data_;
 };
 
-// True if the file starts with the HDF5 signature.
+// True if the file has the HDF5 signature at its start, or after a user block of 512, 1024, 2048
+// ... bytes.
 bool looks_like_hdf5(const std::filesystem::path& file);
 
 } // namespace frictab::io

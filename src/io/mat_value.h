@@ -1,0 +1,52 @@
+// A MATLAB variable in memory, and the two readers that make them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "io/column_groups.h"
+
+namespace frictab::io {
+
+struct MatValue {
+  enum class Kind { numbers, texts, structs, cells, other };
+  std::string name;
+  Kind kind = Kind::other;
+  std::vector<std::size_t> dims;  // as MATLAB counts them: rows first
+  std::vector<double> numbers;    // column by column
+  std::vector<std::string> texts; // rows of a char matrix
+  std::vector<MatValue> elements; // of a cell
+  // Of a struct array, element by element: the fields, with their names.
+  std::vector<std::vector<MatValue>> structs;
+  std::string other; // "a sparse matrix"
+};
+
+// Deeper nesting is not read.
+inline constexpr int deepest_nesting = 16;
+inline constexpr const char* too_deep = "a value nested too deeply";
+inline constexpr const char* is_an_object =
+    "a table or an object, which only MATLAB reads: writetable(T, \"test.csv\") or table2struct";
+
+// Reason why a file cannot be read.
+struct MatFault : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Number of elements; throws MatFault if a file of these bytes cannot contain so many, even
+// compressed.
+std::size_t count_of(const std::vector<std::size_t>& dims, std::uint64_t file_bytes);
+// Rows of a char matrix from its characters (UTF-16 units, column by column), without the blanks
+// that pad them.
+std::vector<std::string> rows_of_text(const std::vector<std::size_t>& dims,
+                                      const std::vector<char16_t>& characters);
+
+// The variables of a file. To be called in a child process.
+std::vector<MatValue> read_mat5(const std::filesystem::path& file);  // version 4 to 7
+std::vector<MatValue> read_mat73(const std::filesystem::path& file); // version 7.3
+// Their columns and groups.
+ColumnGroups mat_groups(std::vector<MatValue>&& variables);
+
+} // namespace frictab::io
