@@ -329,13 +329,13 @@ TEST_F(Tdms, DamagedBytesGiveAFaultOrColumns) {
   const std::string bytes = sample();
   Random random(5);
   std::size_t refused = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 4000; ++i) {
     std::string damaged = bytes;
     for (std::size_t k = 1 + random.below(4); k > 0; --k)
       damaged[random.below(damaged.size())] = static_cast<char>(random.below(256));
     refused += fault(damaged) != "no fault";
   }
-  EXPECT_GT(refused, 5000u);
+  EXPECT_GT(refused, 1000u);
 }
 
 } // namespace
