@@ -10,7 +10,7 @@
 
 namespace frictab::io {
 
-// True if the file starts with "LabVIEW Measurement", whatever its name.
+// True if the file starts with "LabVIEW Measurement", under any name.
 bool looks_like_lvm(const std::filesystem::path& file);
 
 // Parses the text. Separator and decimal sign are those of the file's header; of `format` only the
