@@ -8,6 +8,7 @@
 #include "calibrate/calibration.h"
 #include "cli/job_commands.h"
 #include "core/text.h"
+#include "data/first_lines.h"
 #include "data/write_dataset.h"
 #include "report/data_page.h"
 #include "run/data_summary.h"
@@ -29,12 +30,29 @@ std::vector<std::string> texts_of(const FaultList& faults) {
   return out;
 }
 
+// Shows the first lines of the first file that is at fault as a whole, not by a cell.
+run::JobData loaded(const job::Job& job, FaultList& implausible) {
+  try {
+    return run::load_job_data(job, implausible);
+  } catch (const InputError& error) {
+    for (const Fault& fault : error.faults()) {
+      const bool is_cell = fault.place.column > 0;
+      const std::string lines = is_cell ? "" : data::first_lines(fault.place.file, job.data);
+      if (lines.empty()) continue;
+      std::fputs(fmt::format("{} begins so:\n{}", printable(fault.place.file), lines).c_str(),
+                 stderr);
+      break;
+    }
+    throw;
+  }
+}
+
 // Shows and writes everything even if most rows are implausible; the error comes after that.
 int run(const Options& options, const CommonOptions& common) {
   job::Job job = read_job(job_file(options.job), common);
   if (!options.write.empty()) job.data.condense = {0}; // writing needs single rows
   FaultList implausible;
-  const run::JobData data = run::load_job_data(job, implausible);
+  const run::JobData data = loaded(job, implausible);
   io::OutputFiles files(job.directory);
   files.write("data.html",
               report::data_html({job.file, calibrate::is_synthetic(data.training), data.judged_by,

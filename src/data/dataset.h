@@ -136,7 +136,7 @@ struct FileRead {
   std::size_t units_line = 0;
   std::size_t rows = 0;
   std::vector<std::string> not_read;         // columns, by name or number
-  bool is_like(const FileRead& other) const; // but for name and rows
+  bool is_like(const FileRead& other) const; // names and rows may differ
 };
 
 // Block means of neighbouring rows (data/condense.h).

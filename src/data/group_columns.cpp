@@ -92,6 +92,7 @@ io::CsvTable GroupColumns::next(std::uint64_t bytes) {
   rows_before_ += table_.rows();
   io::CsvTable piece = std::move(table_);
   table_ = {};
+  if (file_) piece.form = "HDF5";
   table_.file = piece.file;
   for (const io::CsvColumn& one : piece.columns)
     table_.columns.push_back({one.name, one.unit, {}, {}});

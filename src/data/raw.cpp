@@ -113,7 +113,7 @@ void check_name(const std::filesystem::path& path, const std::string& named) {
   std::error_code unknown;
   if ((extension == ".xlsx" || extension == ".xlsm") && !io::looks_like_workbook(path) &&
       std::filesystem::exists(path, unknown))
-    throw InputError({named, 0, 0}, "is no workbook, as its name says",
+    throw InputError({named, 0, 0}, "has the name of a workbook and is none",
                      "save it again as .xlsx; text is read under another name, as .csv");
 }
 

@@ -19,13 +19,19 @@ bool is_rig_file(const std::string& path) {
 
 std::optional<io::CsvTable> read_rig_file(const std::string& path, const std::string& named,
                                           const DataOptions& options, FaultList& faults) {
-  if (io::looks_like_lvm(path))
-    return io::parse_lvm(io::read_text_file(path, named), named, csv_format(path, options), faults);
+  if (io::looks_like_lvm(path)) {
+    io::CsvTable table =
+        io::parse_lvm(io::read_text_file(path, named), named, csv_format(path, options), faults);
+    table.form = "LabVIEW text";
+    return table;
+  }
   const bool is_tdms = io::looks_like_tdms(path);
   if (!is_tdms && !io::looks_like_mat(path)) return std::nullopt;
   GroupColumns columns(is_tdms ? io::read_tdms(path, named) : io::read_mat(path, named), named,
                        options, faults);
-  return columns.next(std::numeric_limits<std::uint64_t>::max());
+  io::CsvTable table = columns.next(std::numeric_limits<std::uint64_t>::max());
+  table.form = is_tdms ? "TDMS" : "MATLAB";
+  return table;
 }
 
 } // namespace frictab::data

@@ -36,66 +36,131 @@ struct Names {
   bool coefficient;
   std::vector<std::string> whole; // complete names
   std::vector<std::string> part;  // parts of names
+  std::vector<std::string> weak;  // parts that other quantities have as well
 };
 
-// Known names in lower case, without units, with blanks for other characters.
+// Known names in lower case, without units, with blanks for other characters. Letters of other
+// scripts are in the case of the start of a name.
 const std::vector<Names>& known_names() {
   static const std::vector<Names> all = {
       {"experiment",
        false,
        {"experiment", "test", "versuch", "versuch nr", "versuchsnummer", "versuchsnr", "run",
         "probe", "specimen", "sample", "test id", "test no", "test nr", "test name", "id"},
+       {},
        {}},
-      {"time_s", false, {"time", "zeit", "t", "elapsed", "sekunden", "x value"}, {"time", "zeit"}},
+      {"time_s",
+       false,
+       {"time", "zeit", "t", "elapsed", "sekunden", "tempo", "tid", "x value"},
+       {"time", "zeit", "temps", "tiempo", "czas", "Čas", "čas", "tijd", "zaman", "Время", "время",
+        "时间", "時間", "시간"},
+       {}},
       {"F_N_N",
        false,
-       {"f n", "fn", "fz", "load", "last", "fnormal"},
-       {"normal force", "normalkraft", "normal load", "prüfkraft"}},
+       {"f n", "fn", "fz", "load", "last", "fnormal", "carico", "carga", "Нагрузка", "载荷", "荷重",
+        "하중"},
+       {"normal force", "normalkraft", "normal load", "prüfkraft", "ball load", "axial load",
+        "vertical force", "clamping force", "effort normal", "force normale", "forza normale",
+        "fuerza normal", "siła normalna", "síla", "normaalkracht", "normal kuvvet"},
+       {}},
       {"F_R_N",
        false,
        {"f r", "fr", "ff", "fx", "ft", "friction", "reibung"},
-       {"friction force", "frictional force", "reibkraft", "reibungskraft", "tangential"}},
+       {"friction force", "frictional force", "reibkraft", "reibungskraft", "tangential",
+        "lateral force", "tangentiel", "attrito", "fuerza de fricci", "atrito", "siła tarcia",
+        "třecí", "Třecí", "friktionskraft", "wrijvingskracht", "sürtünme kuvveti", "Сила трения",
+        "摩擦力", "마찰력"},
+       {}},
       {"sigma_n_MPa",
        false,
-       {"p", "pressure", "sigma n", "druck", "cpress", "pressung"},
-       {"normal stress", "contact pressure", "normalspannung", "pressung", "kontaktdruck"}},
+       {"p", "pressure", "sigma n", "σ n", "druck", "cpress", "pressung"},
+       {"normal stress", "contact pressure", "surface pressure", "normalspannung", "pressung",
+        "kontaktdruck", "pression de contact"},
+       {}},
+      {"tau_R_MPa",
+       false,
+       {"tau", "tau r", "τ r", "τ", "cshear", "cshear1", "friction stress"},
+       {"shear stress", "schubspannung", "cisaillement"},
+       {}},
       {"tau_R_MPa",
        true,
        {"mu", "µ", "μ", "cof", "cf"},
-       {"coefficient of friction", "friction coefficient", "friction coeff", "reibwert", "reibzahl",
-        "reibungszahl", "reibungskoeffizient", "reibbeiwert"}},
-      {"tau_R_MPa",
-       false,
-       {"tau", "tau r", "cshear", "friction stress"},
-       {"shear stress", "schubspannung"}},
+       {"coefficient of friction",
+        "friction coeff",
+        "traction coeff",
+        "reibwert",
+        "reibzahl",
+        "reibungszahl",
+        "reibungskoeffizient",
+        "reibkoeffizient",
+        "reibbeiwert",
+        "coefficient de frottement",
+        "coefficiente di attrito",
+        "coeficiente de fricci",
+        "coeficiente de atrito",
+        "współczynnik tarcia",
+        "Współczynnik tarcia",
+        "koeficient t",
+        "friktionskoefficient",
+        "wrijvingsco",
+        "sürtünme katsay",
+        "Коэффициент трения",
+        "摩擦系数",
+        "摩擦係数",
+        "마찰계수"},
+       {"cof"}},
       {"v_rel_mm_s",
        false,
        {"v", "v rel", "vrel", "speed", "velocity"},
-       {"speed", "velocity", "geschwindigkeit"}},
+       {"speed", "velocity", "geschwindigkeit", "vitesse", "velocit", "velocidad", "速度"},
+       {}},
       {"s_mm",
        false,
-       {"s", "distance", "weg", "slip", "path", "s d"},
-       {"sliding distance", "sliding path", "gleitweg", "reibweg"}},
-      {"T_tool_C", false, {"t tool", "t werkzeug"}, {"tool temp", "werkzeugtemp", "die temp"}},
+       {"s", "distance", "distanza", "weg", "slip", "path", "s d"},
+       {"sliding distance", "sliding path", "gleitweg", "reibweg"},
+       {}},
+      {"T_tool_C", false, {"t tool", "t werkzeug"}, {"tool temp", "werkzeugtemp", "die temp"}, {}},
       {"T_contact_C",
        false,
-       {"t contact", "temperature", "temperatur", "temp", "t"},
-       {"contact temp", "kontakttemp"}},
+       {"t contact", "temperature", "temperatur", "temp", "t", "温度"},
+       {"contact temp", "kontakttemp"},
+       {"temp"}},
       {"psi",
        false,
        {"psi"},
-       {"surface expansion", "surface enlargement", "oberflächenvergr", "oberflaechenvergr"}},
+       {"surface expansion", "surface enlargement", "oberflächenvergr", "oberflaechenvergr"},
+       {}},
       {"sigma_f_MPa",
        false,
        {"sigma f", "kf", "k f"},
-       {"flow stress", "fließspannung", "fliessspannung", "fliessspg"}},
+       {"flow stress", "fließspannung", "fliessspannung", "fliessspg"},
+       {}},
   };
   return all;
 }
 
+bool is_capital(char c) {
+  return c >= 'A' && c <= 'Z';
+}
+bool is_small(char c) {
+  return c >= 'a' && c <= 'z';
+}
+
+// "NormalForce" in two words; "CoF" is one.
+std::string with_blanks_between_words(const std::string& name) {
+  std::string out;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if (i > 0 && i + 1 < name.size() && is_small(name[i - 1]) && is_capital(name[i]) &&
+        is_small(name[i + 1]))
+      out += ' ';
+    out += name[i];
+  }
+  return out;
+}
+
 std::string plain(const std::string& name) {
   std::string out;
-  for (const char c : lower_case(name))
+  for (const char c : lower_case(with_blanks_between_words(name)))
     out += std::isalnum(static_cast<unsigned char>(c)) || (c & 0x80) ? c : ' ';
   while (!out.empty() && out.back() == ' ')
     out.pop_back();
@@ -120,23 +185,54 @@ std::string of_abaqus(const std::string& name) {
   return velocity ? "v_rel_mm_s" : "";
 }
 
-// 3: the canonical name; 2: a complete name; 1: part of one; 0: no such column.
+bool has_word(const std::string& name, std::initializer_list<std::string_view> words) {
+  const std::string padded = " " + name + " ";
+  return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
+    return padded.find(" " + std::string(word) + " ") != padded.npos;
+  });
+}
+
+// Values of the surroundings, which say nothing about the contact.
+bool is_of_room(const std::string& name) {
+  return has_word(name, {"room", "ambient", "air", "raum", "umgebung"}) ||
+         name.starts_with("raumtemp") || name.starts_with("umgebungstemp");
+}
+
+// Wanted or extreme values and scatter, which are taken only if nothing else is there.
+bool is_second_choice(const std::string& name) {
+  return has_word(name, {"soll", "sollwert", "set", "setpoint", "target", "nominal", "demand",
+                         "command", "consigne", "max", "maximum", "min", "minimum", "std", "sd",
+                         "stdev", "deviation", "abweichung", "streuung"});
+}
+
+// 4: the canonical name; 3: a complete name; 2: part of one; 1: a weak part, or a second choice; 0:
+// no such column.
 int likeness(const Names& names, const GuessedColumn& column) {
-  if (column.name == names.canonical && !names.coefficient) return 3;
+  if (column.name == names.canonical && !names.coefficient) return 4;
   const Quantity* quantity = find_quantity(names.canonical);
   const std::string wanted = names.coefficient || !quantity ? "1" : quantity->unit;
   if (quantity && !column.unit.empty() && !convert(column.unit, wanted)) return 0;
   if (quantity && column.text) return 0;
   const std::string name = plain(io::read_header_name(column.name).name);
-  if (std::find(names.whole.begin(), names.whole.end(), name) != names.whole.end()) return 2;
-  if (!names.coefficient && of_abaqus(name) == names.canonical) return 2;
-  return std::any_of(names.part.begin(), names.part.end(),
-                     [&](const std::string& part) { return name.find(part) != name.npos; });
+  if (is_of_room(name)) return 0;
+  const auto has_part = [&](const std::vector<std::string>& parts) {
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const std::string& part) { return name.find(part) != name.npos; });
+  };
+  int found = 0;
+  if (std::find(names.whole.begin(), names.whole.end(), name) != names.whole.end() ||
+      (!names.coefficient && of_abaqus(name) == names.canonical))
+    found = 3;
+  else if (has_part(names.part))
+    found = 2;
+  else if (has_part(names.weak))
+    found = 1;
+  return is_second_choice(name) ? std::min(found, 1) : found;
 }
 
 // Assigns each quantity to the column with the greatest likeness, the first one of equals.
 void name_columns(std::vector<GuessedColumn>& columns) {
-  for (int least = 3; least >= 1; --least)
+  for (int least = 4; least >= 1; --least)
     for (const Names& names : known_names()) {
       const auto taken = [&](const GuessedColumn& c) { return c.canonical == names.canonical; };
       if (std::any_of(columns.begin(), columns.end(), taken)) continue;

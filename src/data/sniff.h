@@ -22,8 +22,8 @@ struct GuessedColumn {
 // A file, or one sheet of a workbook.
 struct GuessedFile {
   std::string file;
-  std::string sheet;               // empty: the file is no workbook, or has no other sheet
-  std::vector<std::string> passed; // names of the workbook's sheets that are no tables
+  std::string sheet;               // empty: a file without sheets, or with one
+  std::vector<std::string> passed; // sheets of the workbook without a table
   char delimiter = 0;              // 0: frictab detects it
   char decimal = '.';
   char thousands = 0;

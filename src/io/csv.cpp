@@ -2,6 +2,7 @@
 #include "io/csv.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <map>
 #include <optional>
@@ -361,7 +362,7 @@ class Segments {
 public:
   explicit Segments(const CsvSegments* rules) : rules_(rules) {}
 
-  // True for a line that is no row: one that begins or ends a run, or between two of them.
+  // True for a line that begins or ends a run, or stands between two of them.
   bool passes(std::string_view line) {
     if (!rules_) return false;
     const std::string text(line.substr(0, line.find('\r')));
@@ -930,10 +931,14 @@ HeaderName cut_header_name(const std::string& text, bool any_unit) {
   if (text.empty()) return {text, ""};
   if (text.back() == ']') return split(text.rfind('['), text.rfind('[') + 1, text.size() - 1);
   if (text.back() == ')') return split(text.rfind('('), text.rfind('(') + 1, text.size() - 1);
-  for (const std::string_view sign : {" / ", ", "})
+  for (const std::string_view sign : {" / ", ", ", " in "})
     if (const std::size_t at = text.rfind(sign); at != text.npos)
       if (HeaderName found = split(at, at + sign.size(), text.size()); !found.unit.empty())
         return found;
+  // "v/mm/s", as DIN 461 labels axes
+  if (const std::size_t at = text.find('/');
+      at != text.npos && !any_unit && !std::isdigit(static_cast<unsigned char>(text[0])))
+    return split(at, at + 1, text.size());
   return {text, ""};
 }
 

@@ -167,8 +167,8 @@ void append(CsvTable& to, CsvTable&& more);
 // Copies rows first .. end-1.
 CsvTable rows_of(const CsvTable& table, std::size_t first, std::size_t end);
 
-// "Normal force [kN]", "F_R (N)", "T / degC", "Speed, mm/s" split into name and unit; the whole
-// name and no unit if the suffix is not a known unit (core/units.h).
+// "Normal force [kN]", "F_R (N)", "T / degC", "Speed, mm/s", "v/mm/s", "Zeit in s" split into name
+// and unit; the whole name and no unit if the suffix is not a known unit (core/units.h).
 struct HeaderName {
   std::string name, unit;
 };

@@ -19,7 +19,7 @@ struct MatValue {
   std::vector<double> numbers;    // column by column
   std::vector<std::string> texts; // rows of a char matrix
   std::vector<MatValue> elements; // of a cell
-  // Of a struct array, element by element: the fields, with their names.
+  // The fields of a struct array with their names, element by element.
   std::vector<std::vector<MatValue>> structs;
   std::string other; // "a sparse matrix"
 };

@@ -127,11 +127,8 @@ std::string relations_of(const std::string& part) {
 } // namespace
 
 struct Workbook::Data {
-  Data(const std::filesystem::path& path, const std::string& file)
-      : named(file), archive(path, file) {}
-
   std::string named;
-  ZipArchive archive;
+  Parts parts;
   std::vector<Entry> sheets;
   std::vector<std::string> strings;
   std::vector<CellKind> kind_of_style;
@@ -152,7 +149,7 @@ struct Workbook::Data {
 
   // Calls take(root) for a part; false if there is none.
   template <class Take> bool with_part(const std::string& part, const Take& take) const {
-    std::optional<std::string> text = archive.read(part);
+    std::optional<std::string> text = parts(part);
     if (!text) return false;
     pugi::xml_document document;
     parse(part, *text, document);
@@ -193,10 +190,10 @@ struct Workbook::Data {
     });
     if (!there)
       refuse("is an archive, but no workbook of Excel",
-             archive.read("content.xml")
+             parts("content.xml")
                  ? "a workbook of LibreOffice (.ods)? File, Save as, Excel 2007-365 (.xlsx)"
-             : archive.read("xl/workbook.bin") ? "a binary workbook (.xlsb)? Save it as .xlsx"
-                                               : "unpack it, and name the files in it");
+             : parts("xl/workbook.bin") ? "a binary workbook (.xlsb)? Save it as .xlsx"
+                                        : "unpack it, and name the files in it");
   }
 
   void read_strings(const std::string& part) {
@@ -372,11 +369,19 @@ Workbook::Workbook(const std::filesystem::path& path, const std::string& named) 
   if (starts_with(path, old_sign))
     throw InputError({named, 0, 0}, "is an old workbook (.xls), or one with a password",
                      "File, Save as, Excel workbook (.xlsx), without a password");
-  data_ = std::make_unique<Data>(path, named);
+  *this = Workbook([archive = std::make_shared<ZipArchive>(path, named)](
+                       const std::string& name) { return archive->read(name); },
+                   named);
+}
+
+Workbook::Workbook(Parts parts, const std::string& named) : data_(std::make_unique<Data>()) {
+  data_->named = named;
+  data_->parts = std::move(parts);
   data_->read_all();
 }
 
 Workbook::Workbook(Workbook&&) noexcept = default;
+Workbook& Workbook::operator=(Workbook&&) noexcept = default;
 Workbook::~Workbook() = default;
 
 const std::vector<Workbook::Entry>& Workbook::sheets() const {

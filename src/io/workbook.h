@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,10 +35,14 @@ public:
     bool hidden = false;
   };
 
-  // Throws InputError, with the file's name in messages (`named`), if the file is no workbook of
-  // this kind, damaged, or protected by a password.
+  // Throws InputError, with the file's name in messages (`named`), if the file is another
+  // kind of file, damaged, or protected by a password.
   Workbook(const std::filesystem::path& path, const std::string& named);
+  // The same from the parts of a workbook; nullopt where there is none of a name.
+  using Parts = std::function<std::optional<std::string>(const std::string& name)>;
+  Workbook(Parts parts, const std::string& named);
   Workbook(Workbook&&) noexcept;
+  Workbook& operator=(Workbook&&) noexcept;
   ~Workbook();
 
   const std::vector<Entry>& sheets() const; // sheets of cells, in the order of their tabs

@@ -168,7 +168,7 @@ TEST_F(LoadTdms, OneGroupIsTheFileSeveralAreATestEach) {
 TEST_F(LoadTdms, AGuessKnowsItsUnitsAndTime) {
   test::TdmsSegment segment;
   file("a.tdms", add(segment, "Log").bytes());
-  const auto guess = data::guess_file((directory_ / "a.tdms").string(), "a.tdms");
+  const auto guess = data::guess_file((directory_ / "a.tdms").string(), "a.tdms").front();
   ASSERT_TRUE(guess.find("sigma_n_MPa"));
   EXPECT_EQ(guess.find("sigma_n_MPa")->unit, "kPa");
   EXPECT_TRUE(guess.find("time_s"));

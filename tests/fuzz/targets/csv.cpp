@@ -19,6 +19,12 @@ io::CsvFormat format_of(unsigned char bits) {
   if (bits & 32) format.delimiter = bits & 1 ? ';' : '\t';
   if (bits & 64) format.wanted = {"sigma_n_MPa", "F_N_N", "experiment"};
   if (bits & 128) format.text_columns = {"lot"};
+  const auto both = [&](unsigned char mask) { return (bits & mask) == mask; };
+  if (both(8 | 16)) format.header = false;
+  if (both(4 | 8)) format.header_rows = 2;
+  if (both(4 | 16))
+    format.segments = std::make_shared<io::CsvSegments>(
+        io::CsvSegments{Pattern("^Step (?<step>\\d+)", {}), Pattern("^End", {})});
   return format;
 }
 
