@@ -13,8 +13,8 @@
 namespace frictab::abaqus {
 
 // Rows for properties and constants. A routine reads its states in three places: properties and
-// constants once per call ("once"), temperatures and fields at each point k ("point"), the rest in
-// double precision (ftpnt).
+// constants once per call ("once"), temperatures and fields at each point k ("point"), the rest
+// where a point turns out to be in contact.
 codegen::GivenState explicit_property();
 codegen::GivenState explicit_constant();
 
@@ -39,7 +39,8 @@ struct ForceRoutine {
   std::string area;                   // "areaSec(jConSecid(k))"
   std::string nodes, node;            // "nNodSlv", "jConSlvUid(i,k)": the user's numbers
   std::string step, increment;        // "kStep", "kInc"
-  std::string states, columns, state; // "nStateVar", "1", "statev(1,jConSecid(k))"
+  std::string states, columns;        // "nStateVar", "1"
+  std::string state, of_point;        // "statev", its last indices "jConSecid(k)"; or "j,k"
   std::string state_name, state_by;   // "STATEV", "surface node"
   std::string arguments_note;         // for the recipe
   std::string user;                   // "user=friction"

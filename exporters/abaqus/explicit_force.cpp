@@ -88,15 +88,28 @@ std::vector<std::string> remarks(const ForceRoutine& routine, const ExportReques
   return lines;
 }
 
-// Adds the sizes that both parts declare.
-void add_sizes(TemplateValues& values, const std::vector<SolverInput>& inputs) {
-  values.text["n_hist"] = std::to_string(3 + history_count(inputs));
-  values.text["n_add"] = std::to_string(4 + history_count(inputs) + shown_states);
-  values.text["add_stress"] = std::to_string(4 + history_count(inputs) + 1);
-  values.text["add_mu"] = std::to_string(4 + history_count(inputs) + 2);
+// A state variable: its number, that of what is rounded off it if it is a sum, what it gains.
+TemplateValues kept(unsigned number, const std::string& gain) {
+  TemplateValues out;
+  out.text = {
+      {"number", std::to_string(number)}, {"rest", std::to_string(number + 4)}, {"gain", gain}};
+  out.flags["is_sum"] = !gain.empty();
+  out.offered = {"rest", "gain", "is_sum"};
+  return out;
 }
 
-// Adds texts and lists of the further histories.
+// Adds the loops over what a point keeps: `read`, what the law takes of it, and `kept`, the sums.
+void add_states(TemplateValues& values, const std::vector<SolverInput>& inputs) {
+  const TemplateValues slip = kept(1, "slip"), work = kept(2, "work"), peak = kept(3, "");
+  values.lists["kept"] = {slip, work};
+  Lines& read = values.lists["read"];
+  if (takes(inputs, "s_mm")) read.push_back(slip);
+  if (takes(inputs, "friction_work")) read.push_back(work);
+  if (takes(inputs, "peak_sigma_n") || uses(inputs, Source::history)) read.push_back(peak);
+  values.flags["reads_states"] = !read.empty();
+}
+
+// Adds the further histories.
 void add_past(TemplateValues& values, const ExportRequest& request,
               const std::vector<SolverInput>& inputs) {
   fortran::add_histories(values, inputs, request.units, false);
@@ -104,12 +117,11 @@ void add_past(TemplateValues& values, const ExportRequest& request,
   std::vector<std::string> grows;
   Lines& sums = values.lists["sums"];
   for (std::size_t i = 0; i < states.size(); ++i) {
-    grows.push_back(states[i].grows ? "1" : "0");
-    if (!states[i].grows) continue;
-    sums.emplace_back();
-    sums.back().text = {{"number", std::to_string(1 + i)}};
+    grows.emplace_back(states[i].grows ? "1" : "0");
+    if (states[i].grows) sums.push_back(item(std::to_string(1 + i)));
   }
   values.text["grows"] = join(grows, ",");
+  values.text["n_hist"] = std::to_string(3 + states.size());
   values.text["n_histories"] = std::to_string(states.size());
   values.text["n_kept"] = std::to_string(state_count(inputs) - shown_states);
   values.text["before_rest"] = std::to_string(explicit_states + states.size());
@@ -118,43 +130,38 @@ void add_past(TemplateValues& values, const ExportRequest& request,
 // Writes the statements after the declarations of the arguments.
 std::string body(const ForceRoutine& routine, const ExportRequest& request,
                  const std::vector<SolverInput>& inputs, std::size_t n_x) {
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  const bool refuses = fortran::refuses(request.table);
   TemplateValues values;
   values.text = {{"n_x", std::to_string(n_x)},
                  {"reads_once", fortran::reads(inputs, routine.gives, "once")},
                  {"reads", fortran::reads(inputs, routine.gives, "point", 2)},
+                 {"reads_now", fortran::reads(inputs, routine.gives, "", 4)},
                  {"time_increment", routine.time_increment},
                  {"points", routine.points},
                  {"area", routine.area},
                  {"states", routine.states},
                  {"columns", routine.columns},
-                 {"state", routine.state},
+                 {"state", routine.state + "("},
+                 {"of_point", "," + routine.of_point + ")"},
+                 {"kind", routine.state},
+                 {"at_stress", std::to_string(state_count(inputs) - 1)},
+                 {"at_mu", std::to_string(state_count(inputs))},
                  {"nodes", routine.nodes},
                  {"node", routine.node},
                  {"step", routine.step},
-                 {"increment", routine.increment}};
-  values.flags["shown"] = has_contact_fields(request);
-  add_sizes(values, inputs);
-  values.flags["unknown"] = fortran::needs_unknown(inputs, routine.gives);
+                 {"increment", routine.increment},
+                 {"to_solver", from_canonical_text(stress, Notation::fortran)},
+                 {"least", fortran_number(stress.from_canonical(fortran::least_pressure))}};
+  values.flags = {{"shown", has_contact_fields(request)},
+                  {"has_ends", !frictab::table::all_ends(request.table).empty()},
+                  {"refuses", refuses},
+                  {"several_columns", routine.columns != "1"},
+                  {"unknown", refuses || fortran::needs_unknown(inputs, routine.gives)}};
+  add_states(values, inputs);
+  add_past(values, request, inputs);
   add_speed_scale(values, request, inputs);
   return fortran::without_last_break(render_template("abaqus/explicit_force.f", values));
-}
-
-// Writes ftpnt and the state variables.
-std::string point(const ForceRoutine& routine, const ExportRequest& request,
-                  const std::vector<SolverInput>& inputs, std::size_t n_x) {
-  const SolverUnit stress = solver_unit("MPa", request.units);
-  TemplateValues values;
-  values.text = {{"n_x", std::to_string(n_x)},
-                 {"to_solver", from_canonical_text(stress, Notation::fortran)}};
-  values.flags = {{"has_ends", !frictab::table::all_ends(request.table).empty()},
-                  {"refuses", fortran::refuses(request.table)}};
-  add_sizes(values, inputs);
-  add_past(values, request, inputs);
-  values.text["reads"] = fortran::reads(inputs, routine.gives, "", 2);
-  values.text["at_stress"] = std::to_string(state_count(inputs) - 1);
-  values.text["least"] = fortran_number(stress.from_canonical(fortran::least_pressure));
-  values.text["at_mu"] = std::to_string(state_count(inputs));
-  return fortran::without_last_break(render_template("abaqus/explicit_point.f", values));
 }
 
 std::string file_of(const ForceRoutine& routine) {
@@ -181,7 +188,6 @@ std::string source(const ForceRoutine& routine, const Exporter& self, const Expo
                  {"arguments", fortran::without_last_break(render_template(
                                    "abaqus/" + routine.entry + "/arguments.f", {}))},
                  {"body", body(routine, request, inputs, n_x)},
-                 {"point", point(routine, request, inputs, n_x)},
                  {"core", core.text}};
   return render_template("abaqus/" + routine.entry + "/" + file_of(routine), values);
 }

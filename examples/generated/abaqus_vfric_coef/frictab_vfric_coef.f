@@ -299,10 +299,12 @@ C
       implicit none
       double precision a, b
       logical ftnan
+      integer(8) bits
       ftmin = a
-      if (ftnan(a)) return
-      if (ftnan(b)) then
-        ftmin = b
+C     By the bits of both at once, which spares the calls.
+      if (max(ibclr(transfer(a, bits), 63),
+     &  ibclr(transfer(b, bits), 63)) .gt. 9218868437227405312_8) then
+        if (.not. ftnan(a)) ftmin = b
       else if (b .lt. a) then
         ftmin = b
       end if
@@ -313,10 +315,12 @@ C
       implicit none
       double precision a, b
       logical ftnan
+      integer(8) bits
       ftmax = a
-      if (ftnan(a)) return
-      if (ftnan(b)) then
-        ftmax = b
+C     By the bits of both at once, which spares the calls.
+      if (max(ibclr(transfer(a, bits), 63),
+     &  ibclr(transfer(b, bits), 63)) .gt. 9218868437227405312_8) then
+        if (.not. ftnan(a)) ftmax = b
       else if (b .gt. a) then
         ftmax = b
       end if

@@ -105,10 +105,20 @@ C     rData: step time, total time, time increment, friction work.
       character*80 surfInt, surfSlv, surfMst
 C
 C     All that is computed is double precision, whatever the solver's
-C     precision.
+C     precision. A point is dealt with here, without routines of its
+C     own: in a shared library a call takes as long as the interpolation
+C     along an axis.
       double precision x(4), pnorm, area, stick, move, fprev
-      double precision against, dtime, fric, comp, hist(3), add(6)
-      logical lkeep
+      double precision against, dtime, fric, comp, press, speed, limit
+      double precision past, trial, before, slip, work, beyond, stress
+      double precision ratio, part, both, lost, fttau
+      logical ftnan
+      integer(8) bits, most, nofin
+      external fttau, ftnan
+C     The bits of infinity; above them lies NaN.
+      parameter (nofin = 9218868437227405312_8)
+      logical ftout
+      external ftout
 C
 C     sigma_f_MPa: property 2
       if (nProps .ge. 2) then
@@ -117,16 +127,18 @@ C     sigma_f_MPa: property 2
         x(4) = 480.00000000000006D0
       end if
       dtime = rData(3)
+      fTangential = 0
       do k = 1, nBlock
-        do i = 1, nFricDir
-          fTangential(i,k) = 0
-        end do
         pnorm = fNormal(k)
         area = areaCont(k)
         stick = fStickForce(k)
-        move = 0.0D0
-        fprev = 0.0D0
-        do i = 1, nDir
+        comp = dSlipFric(1,k)
+        move = comp*comp
+        comp = fTangPrev(1,k)
+        fprev = comp*comp
+C       The first local axis is the direction of the motion.
+        against = -comp
+        do i = 2, nDir
           comp = dSlipFric(i,k)
           move = move + comp*comp
           comp = fTangPrev(i,k)
@@ -134,8 +146,6 @@ C     sigma_f_MPa: property 2
         end do
         move = sqrt(move)
         fprev = sqrt(fprev)
-C       The first local axis is the direction of the motion.
-        against = -fTangPrev(1,k)
 C       T_contact_C: mean of both surfaces; property 1 where nTemp = 0
         if (nTemp .gt. 0) then
           x(3) = tempSlv(k)
@@ -149,165 +159,124 @@ C       T_contact_C: mean of both surfaces; property 1 where nTemp = 0
             x(3) = props(1)
           end if
         end if
-        do i = 1, 3
-          hist(i) = 0.0D0
-        end do
-        if (nStates .ge. 1) call ftread(nStates, nNodState,
-     &    state(1,1,k), hist)
-        call ftpnt(x, pnorm, area, stick, move, dtime, fprev,
-     &    against, hist, fric, add, lkeep)
-        if (lkeep .and. nStates .ge. 1) call ftkeep(nStates,
-     &    nNodState, state(1,1,k), add)
+C
+C       NaN first: nothing below compares with one. By the bits of all
+C       at once, which spares most points the calls.
+        fric = 0.0D0
+        most = max(ibclr(transfer(pnorm, bits), 63),
+     &    ibclr(transfer(area, bits), 63),
+     &    ibclr(transfer(stick, bits), 63),
+     &    ibclr(transfer(move, bits), 63),
+     &    ibclr(transfer(dtime, bits), 63))
+        if (most .gt. nofin) then
+          if (ftnan(dtime)) fric = dtime
+          if (ftnan(move)) fric = move
+          if (ftnan(stick)) fric = stick
+          if (ftnan(area)) fric = area
+          if (ftnan(pnorm)) fric = pnorm
+        else if (pnorm .gt. 0.0D0 .and. area .gt. 0.0D0) then
+          press = pnorm/area
+          speed = 0.0D0
+          if (dtime .gt. 0.0D0) speed = move/dtime
+C         sigma_n_MPa: fNormal/areaCont of the contact point
+          x(1) = press
+C         v_rel_mm_s: |dSlipFric|/rData(3) (0 where rData(3) = 0)
+          x(2) = speed
+          fric = fttau(x)
+          if (ibclr(transfer(fric, bits), 63) .le. nofin) then
+C           The stick force as far as friction can hold it, with its
+C           sign: under penalty contact a stuck point that moves back
+C           has a force along its motion, and would creep without it.
+            limit = max(fric*area, 0.0D0)
+            fric = max(-limit, min(limit, stick))
+            past = abs(stick - fric)
+C           A force before that is NaN is no reason to have none now:
+C           it counts as this one.
+            before = abs(fric)
+            trial = past
+            if (ibclr(transfer(fprev, bits), 63) .le. nofin) then
+              before = fprev
+              trial = abs(stick - against)
+            end if
+C           The stick force grows with the motion from the force before
+C           it to what it is now; friction stops it at fric. What is
+C           left of the motion is slip, all of a point that slides on.
+C           What a falling limit releases of the elastic part is not
+C           counted.
+            slip = move
+            if (past .lt. trial) slip = move*(past/trial)
+            if (past .le. 0.0D0) slip = 0.0D0
+            if (slip .lt. move .and. dtime .gt. 0.0D0)
+     &        speed = slip/dtime
+C           The increment that has just been done: mean of the force
+C           then and the force now, times its slip.
+            work = 0.0D0
+            if (slip .gt. 0.0D0)
+     &        work = 0.5D0*(before + abs(fric))/area*slip
+            stress = abs(fric)/area
+            ratio = stress/max(press, 0.001D0)
+            beyond = 0.0D0
+            if (ftout(x)) beyond = 1.0D0
+C           Slip and work, with what the solver's precision rounds off
+C           them in 5 and 6: increments are small against their sum.
+            do j = 1, nNodState
+              if (nStates .ge. 1) then
+                both = state(1,j,k)
+                part = 0.0D0
+                if (nStates .ge. 5)
+     &            part = state(5,j,k)
+                both = both + part + slip
+                state(1,j,k)
+     &            = real(both, kind(state))
+                if (nStates .ge. 5) then
+                  part = real(both, kind(state))
+                  lost = 0.0D0
+                  if (ibclr(transfer(part, bits), 63) .lt. nofin)
+     &              lost = both - part
+                  state(5,j,k)
+     &              = real(lost, kind(state))
+                end if
+              end if
+              if (nStates .ge. 2) then
+                both = state(2,j,k)
+                part = 0.0D0
+                if (nStates .ge. 6)
+     &            part = state(6,j,k)
+                both = both + part + work
+                state(2,j,k)
+     &            = real(both, kind(state))
+                if (nStates .ge. 6) then
+                  part = real(both, kind(state))
+                  lost = 0.0D0
+                  if (ibclr(transfer(part, bits), 63) .lt. nofin)
+     &              lost = both - part
+                  state(6,j,k)
+     &              = real(lost, kind(state))
+                end if
+              end if
+              if (nStates .ge. 3) then
+                part = state(3,j,k)
+                if (ibclr(transfer(part, bits), 63) .le. nofin) then
+                  if (press .gt. part) state(3,j,k)
+     &              = real(press, kind(state))
+                end if
+              end if
+              if (nStates .ge. 4) then
+                part = state(4,j,k)
+                state(4,j,k)
+     &            = real(part + beyond, kind(state))
+              end if
+              if (nStates .ge. 8) then
+                state(7,j,k)
+     &            = real(stress, kind(state))
+                state(8,j,k)
+     &            = real(ratio, kind(state))
+              end if
+            end do
+          end if
+        end if
         if (nFricDir .ge. 1)
      &    fTangential(1,k) = real(-fric, kind(fTangential))
-      end do
-      return
-      end
-C
-C     One contact point, in double precision. In: x as far as the entry
-C     fills it; normal force, area, stick force, relative motion of the
-C     increment and its time, the friction force before it: its size and
-C     what of it acts against the motion; hist: slip, work per area and
-C     peak pressure before it. Out: fric, against the motion; add: what
-C     the state variables gain, where lkeep.
-C     The force is the stick force as far as friction can hold it, with
-C     its sign: under penalty contact a stuck point that moves back has
-C     a force along its motion, and would creep without it.
-      subroutine ftpnt(x, pnorm, area, stick, move, dtime, fprev,
-     &  against, hist, fric, add, lkeep)
-      implicit none
-      double precision x(4), pnorm, area, stick, move, dtime, fprev
-      double precision against, hist(3), fric, add(6), press
-      double precision speed, limit, past, trial, before, slip, fttau
-      logical lkeep, ftnan
-      integer i
-      integer(8) bits, most
-      external fttau, ftnan
-      logical ftout
-      external ftout
-      lkeep = .false.
-      do i = 1, 6
-        add(i) = 0.0D0
-      end do
-C     NaN first: nothing below compares with one. By the bits of all
-C     at once, which spares most points the calls.
-      fric = 0.0D0
-      most = max(ibclr(transfer(pnorm, bits), 63),
-     &  ibclr(transfer(area, bits), 63),
-     &  ibclr(transfer(stick, bits), 63),
-     &  ibclr(transfer(move, bits), 63),
-     &  ibclr(transfer(dtime, bits), 63))
-      if (most .gt. 9218868437227405312_8) then
-        if (ftnan(dtime)) fric = dtime
-        if (ftnan(move)) fric = move
-        if (ftnan(stick)) fric = stick
-        if (ftnan(area)) fric = area
-        if (ftnan(pnorm)) fric = pnorm
-      else if (pnorm .gt. 0.0D0 .and. area .gt. 0.0D0) then
-        press = pnorm/area
-        speed = 0.0D0
-        if (dtime .gt. 0.0D0) speed = move/dtime
-C       sigma_n_MPa: fNormal/areaCont of the contact point
-        x(1) = press
-C       v_rel_mm_s: |dSlipFric|/rData(3) (0 where rData(3) = 0)
-        x(2) = speed
-        fric = fttau(x)
-        if (ftnan(fric)) return
-        limit = max(fric*area, 0.0D0)
-        fric = max(-limit, min(limit, stick))
-        past = abs(stick - fric)
-        lkeep = .true.
-C       A force before that is NaN is no reason to have none now: it
-C       counts as this one.
-        before = abs(fric)
-        trial = past
-        if (.not. ftnan(fprev)) then
-          before = fprev
-          trial = abs(stick - against)
-        end if
-C       The stick force grows with the motion from the force before it
-C       to what it is now; friction stops it at fric. What is left of
-C       the motion is slip, all of a point that slides on. What a
-C       falling limit releases of the elastic part is not counted.
-        slip = move
-        if (past .lt. trial) slip = move*(past/trial)
-        if (past .le. 0.0D0) slip = 0.0D0
-        if (slip .lt. move .and. dtime .gt. 0.0D0) speed = slip/dtime
-        add(1) = slip
-C       The increment that has just been done: mean of the force then
-C       and the force now, times its slip.
-        if (slip .gt. 0.0D0)
-     &    add(2) = 0.5D0*(before + abs(fric))/area*slip
-        add(3) = press
-        add(5) = abs(fric)/area
-        add(6) = add(5)/max(press, 0.001D0)
-        if (ftout(x)) add(4) = 1.0D0
-      end if
-      return
-      end
-C
-C     What the state variables of a point hold, as the mean of its
-C     columns: slip, work, peak pressure; 0 where there are none.
-      subroutine ftread(nst, ncol, st, hist)
-      include 'vaba_param.inc'
-      dimension st(nst,ncol)
-      double precision hist(3), part
-      do i = 1, 3
-        hist(i) = 0.0D0
-        if (nst .ge. i) then
-          do j = 1, ncol
-            part = st(i,j)
-            hist(i) = hist(i) + part
-            if (i .le. 2 .and. nst .ge. i + 4) then
-              part = st(i+4,j)
-              hist(i) = hist(i) + part
-            end if
-          end do
-          if (ncol .gt. 1) hist(i) = hist(i)/ncol
-        end if
-      end do
-      return
-      end
-C
-C     Adds an increment to each column. What the solver's precision
-C     rounds off slip and work is kept in 5 and 6: increments are small
-C     against their sum.
-      subroutine ftkeep(nst, ncol, st, add)
-      include 'vaba_param.inc'
-      dimension st(nst,ncol)
-      double precision add(6), both, part, lost
-      integer(8) bits, nofin
-C     The bits of infinity; above them lies NaN.
-      parameter (nofin = 9218868437227405312_8)
-      do j = 1, ncol
-        do i = 1, min(2,nst)
-          both = st(i,j)
-          part = 0.0D0
-          if (nst .ge. i + 4) part = st(i+4,j)
-          both = both + part + add(i)
-          st(i,j) = real(both, kind(st))
-          if (nst .ge. i + 4) then
-            part = st(i,j)
-            lost = 0.0D0
-            if (ibclr(transfer(part, bits), 63) .lt. nofin)
-     &        lost = both - part
-            st(i+4,j) = real(lost, kind(st))
-          end if
-        end do
-        if (nst .ge. 3) then
-          part = st(3,j)
-          if (ibclr(transfer(part, bits), 63) .le. nofin) then
-            if (add(3) .gt. part) st(3,j) = real(add(3), kind(st))
-          end if
-        end if
-        if (nst .ge. 4) then
-          part = st(4,j)
-          st(4,j) = real(part + add(4), kind(st))
-        end if
-        if (nst .ge. 8) then
-          st(7,j) = real(add(5), kind(st))
-          st(8,j) = real(add(6), kind(st))
-        end if
       end do
       return
       end
@@ -488,10 +457,12 @@ C
       implicit none
       double precision a, b
       logical ftnan
+      integer(8) bits
       ftmin = a
-      if (ftnan(a)) return
-      if (ftnan(b)) then
-        ftmin = b
+C     By the bits of both at once, which spares the calls.
+      if (max(ibclr(transfer(a, bits), 63),
+     &  ibclr(transfer(b, bits), 63)) .gt. 9218868437227405312_8) then
+        if (.not. ftnan(a)) ftmin = b
       else if (b .lt. a) then
         ftmin = b
       end if
@@ -502,10 +473,12 @@ C
       implicit none
       double precision a, b
       logical ftnan
+      integer(8) bits
       ftmax = a
-      if (ftnan(a)) return
-      if (ftnan(b)) then
-        ftmax = b
+C     By the bits of both at once, which spares the calls.
+      if (max(ibclr(transfer(a, bits), 63),
+     &  ibclr(transfer(b, bits), 63)) .gt. 9218868437227405312_8) then
+        if (.not. ftnan(a)) ftmax = b
       else if (b .gt. a) then
         ftmax = b
       end if

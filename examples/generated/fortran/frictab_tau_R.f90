@@ -532,10 +532,12 @@ contains
 
   pure double precision function ftmin(a, b)
     double precision, intent(in) :: a, b
+    integer(c_int64_t) bits
     ftmin = a
-    if (ftnan(a)) return
-    if (ftnan(b)) then
-      ftmin = b
+    ! By the bits of both at once, which spares the calls.
+    if (max(ibclr(transfer(a, bits), 63),&
+      &  ibclr(transfer(b, bits), 63)) .gt. 9218868437227405312_8) then
+      if (.not. ftnan(a)) ftmin = b
     else if (b .lt. a) then
       ftmin = b
     end if
@@ -543,10 +545,12 @@ contains
 
   pure double precision function ftmax(a, b)
     double precision, intent(in) :: a, b
+    integer(c_int64_t) bits
     ftmax = a
-    if (ftnan(a)) return
-    if (ftnan(b)) then
-      ftmax = b
+    ! By the bits of both at once, which spares the calls.
+    if (max(ibclr(transfer(a, bits), 63),&
+      &  ibclr(transfer(b, bits), 63)) .gt. 9218868437227405312_8) then
+      if (.not. ftnan(a)) ftmax = b
     else if (b .gt. a) then
       ftmax = b
     end if

@@ -53,7 +53,8 @@ abaqus::ForceRoutine routine() {
   r.increment = "kInc";
   r.states = "nStateVar";
   r.columns = "1";
-  r.state = "statev(1,jConSecid(k))";
+  r.state = "statev";
+  r.of_point = "jConSecid(k)";
   r.state_name = "STATEV";
   r.state_by = "surface node";
   r.arguments_note = "VFRIC's own 42 arguments; listed is where each state comes from";

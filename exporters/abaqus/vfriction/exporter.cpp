@@ -59,7 +59,8 @@ abaqus::ForceRoutine routine() {
   r.increment = "jFlags(2)";
   r.states = "nStates";
   r.columns = "nNodState";
-  r.state = "state(1,1,k)";
+  r.state = "state";
+  r.of_point = "j,k";
   r.state_name = "STATE";
   r.state_by = "contact point";
   r.arguments_note = "VFRICTION's own 39 arguments; listed is where each state comes from";

@@ -5,5 +5,4 @@ C     the same order.
 @{arguments}
 C
 @{body}
-@{point}
 @{core}

@@ -6,5 +6,4 @@ C     order is the same.
 @{arguments}
 C
 @{body}
-@{point}
 @{core}
