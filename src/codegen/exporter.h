@@ -128,6 +128,10 @@ public:
   // True if the solver gets a coefficient mu, which it multiplies by the pressure; mu is then at
   // most fortran::largest_coefficient.
   virtual bool gives_mu(const ExportRequest&) const { return false; }
+  // Returns the largest difference from the law, in MPa, that these files state: of a target which
+  // has no more than the nearest closed form, and so cannot be made to a tolerance. Verification
+  // then compares with this figure. Empty: the target follows the law.
+  virtual std::optional<double> stated_loss_MPa(const SourceBundle&) const { return std::nullopt; }
   // Returns a warning about these files for the user; empty: none.
   virtual std::string caution(const ExportRequest&) const { return ""; }
 

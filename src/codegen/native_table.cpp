@@ -314,13 +314,18 @@ NativeProblem problem_of(const ExportRequest& request, const NativeForm& form,
 
 } // namespace
 
-NativeTable native_table(const ExportRequest& request, const NativeForm& form) {
+NativeProblem native_problem(const ExportRequest& request, const NativeForm& form) {
   check_table(request.table);
+  return problem_of(request, form, native_columns(request, form),
+                    native_fixed_states(request, form));
+}
+
+NativeTable native_table(const ExportRequest& request, const NativeForm& form) {
+  NativeProblem problem = native_problem(request, form);
   NativeTable out;
   out.columns = native_columns(request, form);
   out.fixed = native_fixed_states(request, form);
   out.aim_MPa = aim_of(request.table);
-  NativeProblem problem = problem_of(request, form, out.columns, out.fixed);
   for (std::size_t c = 0; c < out.columns.size(); ++c)
     if (out.columns[c].argument.name == "sigma_n_MPa" &&
         table::below_pressures(request.table) == table::Outside::law)
@@ -339,11 +344,20 @@ NativeTable native_table(const ExportRequest& request, const NativeForm& form) {
 
 void drive_native(const NativeForm& form, const NativeValues& values, const ExportRequest& request,
                   std::size_t rows, std::span<const double* const> given, std::span<double> tau) {
+  const std::size_t columns = native_columns(request, form).size();
+  if (values.nodes.size() != columns)
+    throw std::runtime_error(fmt::format("the table was written for {} columns, it has {}", columns,
+                                         values.nodes.size()));
+  drive_coefficient(
+      form, [&](std::span<const double> x) { return values.at(x); }, values.limit, request, rows,
+      given, tau);
+}
+
+void drive_coefficient(const NativeForm& form, const NativeCoefficient& coefficient,
+                       std::optional<double> limit, const ExportRequest& request, std::size_t rows,
+                       std::span<const double* const> given, std::span<double> tau) {
   const std::vector<NativeColumn> columns = native_columns(request, form);
   const table::FixedStates held = native_fixed_states(request, form);
-  if (values.nodes.size() != columns.size())
-    throw std::runtime_error(fmt::format("the table was written for {} columns, it has {}",
-                                         columns.size(), values.nodes.size()));
   const std::vector<std::string> inputs = request.table.inputs();
   const auto column_of = [&](const std::string& name) -> const double* {
     const auto at = std::find(inputs.begin(), inputs.end(), name);
@@ -373,8 +387,8 @@ void drive_native(const NativeForm& form, const NativeValues& values, const Expo
       const double flow = flow_stress ? flow_stress[i] : held.at("sigma_f_MPa");
       factor = stress.from_canonical(shear_yield(flow));
     }
-    double answer = factor * values.at(x);
-    if (values.limit && answer > *values.limit) answer = *values.limit;
+    double answer = factor * coefficient(x);
+    if (limit && answer > *limit) answer = *limit;
     tau[i] = stress.to_canonical(answer);
   }
 }

@@ -3,7 +3,10 @@
 // back.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,6 +59,9 @@ struct NativeTable {
   bool met = false;
 };
 
+// Returns the function of the columns that such a table represents, tau_R at the fixed states.
+NativeProblem native_problem(const ExportRequest& request, const NativeForm& form);
+
 // Builds the table to the attribute tolerance_MPa of the request's table (0.5 if it has none). If
 // that table has sampled values, its own drift is subtracted first.
 NativeTable native_table(const ExportRequest& request, const NativeForm& form);
@@ -81,6 +87,13 @@ table::Table native_as_table(const NativeForm& form, const NativeValues& values,
 // they do not fit the request.
 void drive_native(const NativeForm& form, const NativeValues& values, const ExportRequest& request,
                   std::size_t rows, std::span<const double* const> columns, std::span<double> tau);
+
+// Computes tau_R from a coefficient of the columns (solver's units), at most `limit` (MPa in the
+// solver's unit), as the solver does.
+using NativeCoefficient = std::function<double(std::span<const double> columns)>;
+void drive_coefficient(const NativeForm& form, const NativeCoefficient& coefficient,
+                       std::optional<double> limit, const ExportRequest& request, std::size_t rows,
+                       std::span<const double* const> columns, std::span<double> tau);
 
 // Names of such a target's text, for its recipe and `frictab table convert`.
 struct NativeText {

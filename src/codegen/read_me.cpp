@@ -85,13 +85,15 @@ std::string law_section(const json& law, const json& recipe) {
           : "";
   TemplateValues values;
   values.text["heading"] = law.contains("name") ? "The law of " + name_of(law) : "The law";
-  values.text["facts"] = bullets(
-      {fmt::format("Law: `{}`, tau_R_MPa = `{}`{}", text_at(law, "model"),
-                   text_at(table, "combine"),
-                   text_at(law, "form") == "table" ? ", where `value` is from the table" : ""),
-       "Data: " + text_at(law, "data_origin"),
-       "Worst drift from the law: " + text_at(table, "drift") + tolerance,
-       "Units: " + units_text(recipe.at("units"))});
+  Texts facts = {
+      fmt::format("Law: `{}`, tau_R_MPa = `{}`{}", text_at(law, "model"), text_at(table, "combine"),
+                  text_at(law, "form") == "table" ? ", where `value` is from the table" : ""),
+      "Data: " + text_at(law, "data_origin"),
+      "Worst drift from the law: " + text_at(table, "drift") + tolerance,
+      "Units: " + units_text(recipe.at("units"))};
+  if (const std::string loss = text_at(law, "loss_text"); !loss.empty())
+    facts.push_back("THE NEAREST CLOSED FORM, NOT THE LAW: " + loss);
+  values.text["facts"] = bullets(facts);
   Texts rows;
   for (const json& state : law.at("arguments"))
     if (state.value("used", true)) {

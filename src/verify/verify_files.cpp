@@ -34,8 +34,12 @@ std::string failure_text(const DriftRecord& record) {
   const std::string on_rows =
       record.n_rows == 0 ? "" : fmt::format("; {:.6g} MPa on the rows", record.rows.max_abs);
   if (const std::string fault = path_fault(record); !fault.empty()) return fault;
-  return fmt::format("worst case {:.6g} MPa over the range at {}{}{}; allowed {:.6g} MPa{}",
-                     record.worst_case_MPa, state, on_rows, below, record.allowed_MPa, answered);
+  const std::string allowed =
+      record.stated_loss_MPa
+          ? fmt::format("{:.6g} MPa is what its files state", *record.stated_loss_MPa)
+          : fmt::format("allowed {:.6g} MPa", record.allowed_MPa);
+  return fmt::format("worst case {:.6g} MPa over the range at {}{}{}; {}{}", record.worst_case_MPa,
+                     state, on_rows, below, allowed, answered);
 }
 
 std::string proof_text(const DriftRecord& record) {
@@ -103,6 +107,7 @@ static void describe(Fields& f, DriftRecord& r) {
   f.unless_default("allowed_from", r.allowed_from);
   f.if_known("law_error_MPa", r.law_error_MPa);
   f.unless_default("over_law_error", r.over_law_error);
+  f.if_known("stated_loss_MPa", r.stated_loss_MPa);
   f.known("max_abs_MPa", r.rows.max_abs);
   f.known("mean_abs_MPa", r.rows.mean_abs);
   f.known("rms_MPa", r.rows.rms);

@@ -53,6 +53,9 @@ void add_notes(LawDrift& law, const DriftRecord& r) {
     note(fmt::format("drifts by up to {:.3g} MPa, and the law errs by {:.3g} MPa: "
                      "table.tolerance_MPa = \"auto\" is a twentieth of that",
                      verify::largest_drift_MPa(r), *r.law_error_MPa));
+  if (r.passed && r.stated_loss_MPa)
+    note(fmt::format("is the nearest closed form: up to {:.3g} MPa off the law",
+                     verify::largest_drift_MPa(r)));
   if (const std::string left = verify::not_representable_text(r); !left.empty()) note(left);
   if (r.fixed_states || r.subject != "table") return;
   if (!r.not_proven.empty()) law.notes.push_back(r.model + " not proven: " + r.not_proven);
@@ -376,6 +379,9 @@ std::string outside_text(const DriftRecord& r) {
 // For native tables: the fixed states and their error. For routines: rows they could not represent.
 std::string remark_on(const DriftRecord& r) {
   std::vector<std::string> parts;
+  if (r.stated_loss_MPa)
+    parts.push_back(
+        fmt::format("a closed form, {:.3g} MPa off the law by its own files", *r.stated_loss_MPa));
   if (r.fixed_states) parts.push_back(verify::cost_text(r));
   if (const std::string left = verify::not_representable_text(r); !left.empty())
     parts.push_back(left);
@@ -384,6 +390,7 @@ std::string remark_on(const DriftRecord& r) {
 
 Text result_of(const DriftRecord& r) {
   if (!r.passed) return badge("failed", "fail");
+  if (r.stated_loss_MPa) return badge("no worse than its files state", "pass");
   if (r.over_law_error) return badge("within the tolerance, but more than the law errs", "fail");
   return badge(r.over_by_proof ? "passed as found; over the tolerance by proof" : "passed", "pass");
 }

@@ -127,7 +127,9 @@ TEST_P(SlowLowPressure, EveryTargetFollowsTheLawThere) {
     for (const DriftRecord& record : records) {
       if (!record.ran) continue; // its compiler is missing; the others' own tests skip by name
       ASSERT_TRUE(record.below) << record.subject;
-      EXPECT_LE(record.below->max_abs_MPa, exporter.is_routine() ? 1e-3 : tolerance_MPa)
+      // A closed form is as far off there as its files state.
+      const double most = exporter.is_routine() ? 1e-3 : tolerance_MPa;
+      EXPECT_LE(record.below->max_abs_MPa, most + 1.02 * record.stated_loss_MPa.value_or(0))
           << record.subject;
       EXPECT_TRUE(record.passed) << record.subject;
     }
