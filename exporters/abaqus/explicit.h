@@ -34,18 +34,18 @@ struct ForceRoutine {
   codegen::TargetDescription about; // without options, which ForceTarget adds
   std::string entry;                // "vfric"
   codegen::SolverGives gives;
-  std::string points;                 // "nContact"
-  std::string time_increment;         // "dTimCur"
-  std::string area;                   // "areaSec(jConSecid(k))"
-  std::string nodes, node;            // "nNodSlv", "jConSlvUid(i,k)": the user's numbers
-  std::string step, increment;        // "kStep", "kInc"
-  std::string states, columns;        // "nStateVar", "1"
-  std::string state, of_point;        // "statev", its last indices "jConSecid(k)"; or "j,k"
-  std::string state_name, state_by;   // "STATEV", "surface node"
-  std::string arguments_note;         // for the recipe
-  std::string user;                   // "user=friction"
-  std::string deck_tail;              // the keyword lines after those of the interaction
-  codegen::LawSelector selector;      // distinguishes several laws
+  std::string points;               // "nContact"
+  std::string time_increment;       // "dTimCur"
+  std::string area;                 // "areaSec(jConSecid(k))"
+  std::string nodes, node;          // "nNodSlv", "jConSlvUid(i,k)": the user's numbers
+  std::string step, increment;      // "kStep", "kInc"
+  std::string states, columns;      // "nStateVar", "1"
+  std::string state, of_point;      // "statev", its last indices "jConSecid(k)"; or "j,k"
+  std::string state_name, state_by; // "STATEV", "surface node"
+  std::string arguments_note;       // for the recipe
+  std::string user;                 // "user=friction"
+  std::string deck_tail;            // the keyword lines after those of the interaction
+  codegen::LawSelector selector;    // distinguishes several laws
 };
 
 // Target of such a routine; its templates are abaqus/<entry>/frictab_<entry>.f and driver.f.
