@@ -69,6 +69,7 @@ public:
     for (const auto& [quantity, column] : from)
       map_quantity(*quantity, column);
     map_bystanders();
+    report_repeats();
     add_same_for_all();
     report_nameless_columns();
     for (const CsvColumn& column : raw_.columns)
@@ -498,9 +499,14 @@ private:
     const std::size_t number = std::size_t(&column - raw_.columns.data()) + 1;
     const auto found = repeats_.find(number);
     if (found == repeats_.end()) return false;
-    out_.notes.push_back(fmt::format("column {} '{}' repeats column {}: it is not read", number,
-                                     column.name, found->second));
+    repeated_[found->second].push_back(number);
     return true;
+  }
+
+  void report_repeats() {
+    for (const auto& [first, numbers] : repeated_)
+      out_.notes.push_back(fmt::format("'{}' of column {} comes again and is not read: number {}",
+                                       raw_.columns[first - 1].name, first, list(numbers)));
   }
 
   // The name of a recorded column; its number is part of it if other columns have the same name.
@@ -659,6 +665,7 @@ private:
   std::set<const CsvColumn*> used_;
   std::map<const CsvColumn*, std::size_t> uses_; // number of quantities that use its numbers
   std::map<std::size_t, std::size_t> repeats_; // numbers of equal columns of one name: later, first
+  std::map<std::size_t, std::vector<std::size_t>> repeated_; // those left out, by the first one
   std::set<std::string> ambiguous_;
 };
 

@@ -69,7 +69,7 @@ struct DriftRecord {
   // Drifts further than law_error_MPa: never "ok", even within the tolerance.
   bool over_law_error = false;
   // Largest difference from the law that the target's own files state (Exporter::stated_loss_MPa);
-  // it passes if no more is found, whatever the tolerance.
+  // the target passes if no more is found, even above the tolerance.
   std::optional<double> stated_loss_MPa = {};
   bool over_by_proof = false; // the bound exceeds the tolerance, even if the drift found does not
   // States (canonical values) that a solver's own table, or a routine with constants of the job,

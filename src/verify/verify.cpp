@@ -398,7 +398,7 @@ void judge_by_stated_loss(DriftRecord& record, double stated_MPa) {
   record.passed =
       largest_drift_MPa(record) <= (1 + share_beyond_stated) * stated_MPa + record.allowed_MPa &&
       record.n_not_refused == 0;
-  record.over_law_error = false; // verify says what it loses; the law's error is no limit for it
+  record.over_law_error = false; // the loss is stated; the law's error does not limit it
 }
 
 // A routine whose answers do not drift may still remember or return the wrong things.

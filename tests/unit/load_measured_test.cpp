@@ -86,8 +86,9 @@ TEST(LoadMeasured, ReadsPinOnDiscFilesWithDecimalCommaPreambleAndFooter) {
   options.bystanders.reset();
   options.columns["F_R_N"].number = 0;
   options.columns["F_R_N"].names = {"Friction Force"};
-  EXPECT_THAT(load_dataset({"PPS_60N_1.tsv"}, options).notes,
-              testing::Contains("column 18 'Friction Force' repeats column 15: it is not read"));
+  EXPECT_THAT(
+      load_dataset({"PPS_60N_1.tsv"}, options).notes,
+      testing::Contains("'Friction Force' of column 15 comes again and is not read: number 18"));
 }
 
 } // namespace

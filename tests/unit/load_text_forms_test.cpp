@@ -61,7 +61,8 @@ TEST_F(LoadTextForms, EqualNamesAreTakenByNumber) {
   const Dataset data = read(text);
   EXPECT_THAT(column(data, "tau_R_MPa"), ElementsAre(10, 11));
   EXPECT_THAT(column(data, "tau (column 5)"), ElementsAre(7, 8));
-  EXPECT_THAT(data.notes, testing::Contains("column 4 't' repeats column 1: it is not read"));
+  EXPECT_THAT(data.notes,
+              testing::Contains("'t' of column 1 comes again and is not read: number 4"));
   options.columns["tau_R_MPa"] = {};
   options.columns["tau_R_MPa"].names = {"tau"};
   EXPECT_THAT(fault(text), testing::AllOf(HasSubstr("there are 2 columns 'tau': 2, 5"),

@@ -169,7 +169,8 @@ TEST_F(LoadWorkbook, TwoLinesOfNamesWithMergedCellsAreJoined) {
 
 TEST_F(LoadWorkbook, ATextWithTheNameOfAWorkbookIsRefused) {
   file("b.xlsx", "sigma_n_MPa,tau_R_MPa\n1,2\n");
-  EXPECT_THAT(fault_of({"b.xlsx"}), HasSubstr("b.xlsx: error: has the name of a workbook and is none"));
+  EXPECT_THAT(fault_of({"b.xlsx"}),
+              HasSubstr("b.xlsx: error: has the name of a workbook and is none"));
   file("c.xls", "sigma_n_MPa\ttau_R_MPa\n100\t20\n101\t21\n");
   EXPECT_EQ(load_dataset({"c.xls"}, options).rows(), 2u) << "rigs call texts so";
 }

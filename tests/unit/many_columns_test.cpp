@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/random.h"
+#include "core/text.h"
 #include "stats/blocks.h"
 #include "trace/columns/candidates.h"
 #include "unit/load_case.h"
@@ -61,13 +62,18 @@ TEST_F(ManyColumns, OfATableOfTestsAreJoined) {
             columns + 3);
 }
 
-TEST_F(ManyColumns, OfOneNameAreOneFault) {
+TEST_F(ManyColumns, OfOneNameAreOneNoteOrOneFault) {
   std::string names = "experiment,time_s,sigma_n_MPa,tau_R_MPa", row = "\nA,0,500,50";
   for (std::size_t i = 0; i < columns; ++i) {
     names += ",extra";
     row += ",1";
   }
-  const std::string said = fault(names + row + row + "\n");
+  const auto notes = read(names + row + row + "\n").notes;
+  EXPECT_THAT(notes, testing::Contains(HasSubstr("'extra' of column 5 comes again and is not read: "
+                                                 "number 6, 7, ")));
+  EXPECT_LT(join(notes, "").size(), 2000u);
+  options.columns["psi"].names = {"extra"};
+  const std::string said = fault(names + row + replace_all(row, "50,1", "50,2") + "\n");
   EXPECT_THAT(said, HasSubstr("there are 100000 columns 'extra': 5, 6, 7, "));
   EXPECT_LT(said.size(), 2000u);
 }

@@ -7,9 +7,9 @@
 namespace frictab::time_stamps_test {
 namespace {
 
+using data::sort_dates;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using data::sort_dates;
 using Texts = std::vector<std::string>;
 
 TEST(TestDates, WithTheYearFirstSortAsTime) {

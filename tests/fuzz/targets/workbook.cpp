@@ -1,8 +1,8 @@
 // The XML of a workbook: the input is three parts with a 0 byte between them: styles, shared
 // strings, and a sheet.
+#include "io/workbook.h"
 #include "fuzz/target.h"
 #include "io/csv.h"
-#include "io/workbook.h"
 #include "support/workbook.h"
 
 namespace frictab::workbook_fuzz {
@@ -23,7 +23,8 @@ void read_workbook(std::string_view bytes) {
       },
       "a.xlsx");
   const io::Sheet sheet = book.read("A");
-  const auto lines = static_cast<std::size_t>(std::count(sheet.text.begin(), sheet.text.end(), '\n'));
+  const auto lines =
+      static_cast<std::size_t>(std::count(sheet.text.begin(), sheet.text.end(), '\n'));
   for (const auto& kinds : sheet.kinds)
     fuzz::promise(kinds.size() <= lines, "a line of text per row");
   fuzz::promise(sheet.text.find('\0') == sheet.text.npos, "no 0 bytes");
