@@ -41,9 +41,9 @@ bool is_friction(const DataOptions& options, const std::string& column) {
 
 // The first lines of a text, enough for a header and some rows.
 std::string_view head_lines(std::string_view text) {
-  constexpr std::size_t head_bytes = 65536;
-  if (text.size() <= head_bytes) return text;
-  return text.substr(0, text.rfind('\n', head_bytes) + 1);
+  constexpr std::size_t bytes_looked_at = 65536;
+  if (text.size() <= bytes_looked_at) return text;
+  return text.substr(0, text.rfind('\n', bytes_looked_at) + 1);
 }
 
 SheetLook look_at(const io::Workbook& book, const std::string& sheet, const std::string& named,

@@ -146,6 +146,17 @@ std::vector<DriftRecord> verified(const Case& c, const codegen::Exporter& export
                         {{&exporter, request, exporter.generate(request)}});
 }
 
+// The number of the path that is furthest off.
+std::string worst_figure(const DriftRecord& record) {
+  const codegen::PathFigure* worst = nullptr;
+  if (record.path)
+    for (const codegen::PathFigure& figure : record.path->figures)
+      if (!worst || figure.of_allowed > worst->of_allowed) worst = &figure;
+  return worst ? fmt::format(" {} {} of {}: {} times what is allowed", worst->quantity,
+                             worst->largest_error, worst->largest, worst->of_allowed)
+               : "";
+}
+
 TEST(TracedLaw, TableIsProvenLikeAnyOther) {
   for (const char* effect :
        {"humidity", "work", "tool", "peak", "curve", "surface", "curve_by_tool"}) {
@@ -184,7 +195,8 @@ void LongTracedLawOf::expect_verified(const Case& c) {
     for (const DriftRecord& record : verified(c, exporter, with_tolerance, units, held)) {
       if (!record.ran) GTEST_SKIP() << record.why_not;
       EXPECT_TRUE(record.passed) << record.subject << ' ' << units.text() << ' '
-                                 << record.worst_case_MPa << ' ' << record.rows.max_abs;
+                                 << record.worst_case_MPa << ' ' << record.rows.max_abs
+                                 << worst_figure(record);
       EXPECT_LT(record.n_rows_not_representable, record.n_rows) << record.subject;
     }
   }
