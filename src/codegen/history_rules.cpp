@@ -95,7 +95,7 @@ HistoryRule peak(C::Of of) {
 HistoryRule load_over_peak() {
   return {.now = "@{x} = ftrat(p, ftmost(@{h}, p))",
           .next = "@{h1} = ftmost(@{h}, p)",
-          .slope = "if (@{h} .gt. p) dp = dp + @{dy}/(@{h}@{from_stress})",
+          .slope = "if (@{h} .gt. max(p, 0.0D0)) dp = dp + @{dy}/(@{h}@{from_stress})",
           .meaning = "peak pressure that the load is compared with",
           .unit = "MPa",
           .grows = false};
