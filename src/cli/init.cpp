@@ -3,12 +3,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "data/file_list.h"
 #include "io/atomic_file.h"
 #include "job/guessed_job.h"
@@ -23,6 +25,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::string directory;
   std::vector<std::string> from;
+  std::vector<std::string> sheets;
 };
 
 void write_job(const fs::path& directory, bool force, const std::string& text) {
@@ -92,13 +95,48 @@ std::vector<std::string> training_names(const std::vector<std::string>& files,
   return names;
 }
 
-// Makes a job in DIR for the files; messages call them as the user does.
-job::GuessedJob guess_from(const std::vector<std::string>& files, const std::string& directory) {
+// Guesses of all files; of several, those without a table are passed over, with a line each in
+// `passed`.
+std::vector<data::GuessedFile> guesses_of(const std::vector<std::string>& files,
+                                          std::vector<std::string>& passed) {
   std::vector<data::GuessedFile> guesses;
+  std::optional<InputError> first;
   for (const std::string& file : files)
-    for (data::GuessedFile& guess : data::guess_file(file, file))
-      guesses.push_back(std::move(guess));
+    try {
+      for (data::GuessedFile& guess : data::guess_file(file, file))
+        guesses.push_back(std::move(guess));
+    } catch (const InputError& error) {
+      if (!fs::exists(file)) throw;
+      if (!first) first = error;
+      passed.push_back("not read: " + format_place(error.faults().front().place) + ": " +
+                       error.faults().front().what);
+    }
+  if (guesses.empty()) throw InputError(*first);
+  return guesses;
+}
+
+// Keeps the sheets of these names; tables of tests in other workbooks stay.
+void keep_sheets(std::vector<data::GuessedFile>& guesses, const std::vector<std::string>& sheets) {
+  std::vector<std::string> names;
+  for (const data::GuessedFile& guess : guesses)
+    if (!guess.sheet.empty()) names.push_back(guess.sheet);
+  for (const std::string& sheet : sheets)
+    if (std::find(names.begin(), names.end(), sheet) == names.end())
+      throw InputError({}, fmt::format("no workbook has a table in a sheet '{}'", sheet),
+                       suggest(sheet, names));
+  std::erase_if(guesses, [&](const data::GuessedFile& guess) {
+    return !sheets.empty() && !guess.sheet.empty() &&
+           std::find(sheets.begin(), sheets.end(), guess.sheet) == sheets.end();
+  });
+}
+
+// Makes a job in DIR for the files; messages call them as the user does.
+job::GuessedJob guess_from(const Options& options, const std::vector<std::string>& files,
+                           const std::string& directory, std::vector<std::string>& passed) {
+  std::vector<data::GuessedFile> guesses = guesses_of(files, passed);
+  keep_sheets(guesses, options.sheets);
   data::GuessedCampaign campaign = data::sort_guesses(std::move(guesses));
+  if (!options.sheets.empty()) campaign.sheets = options.sheets;
   std::vector<std::string> of_rows, names;
   for (data::GuessedFile& guess : campaign.files) {
     if (of_rows.empty() || of_rows.back() != guess.file) of_rows.push_back(guess.file);
@@ -114,11 +152,14 @@ int init_from(const Options& options, const CommonOptions& common) {
   std::vector<std::string> files;
   for (const std::string& file : data::find_files(options.from, "", {{}, 0, 0}))
     files.push_back(fs::path(file).lexically_normal().string());
-  const job::GuessedJob guessed = guess_from(files, directory);
+  std::vector<std::string> passed;
+  const job::GuessedJob guessed = guess_from(options, files, directory, passed);
   write_job(directory, common.force, guessed.text);
   const std::string file = (fs::path(directory) / "job.toml").lexically_normal().string();
   fmt::print("{}\n", file);
   std::fflush(stdout); // stdout before the lines to stderr
+  for (const std::string& line : passed)
+    note(common, line);
   for (const std::string& question : guessed.questions)
     note(common, "to be answered in it: " + question);
   note(common, fmt::format("next: frictab data {0} (shows what is read), frictab run {0}", file));
@@ -131,6 +172,9 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   app.add_option("--from", options->from,
                  "data files, folders or names with *: the job is made from what they hold")
       ->type_name("FILES")
+      ->expected(1, -1);
+  app.add_option("--sheet", options->sheets, "the sheet of a workbook with the rows, or several")
+      ->type_name("NAME")
       ->expected(1, -1);
   return [options, &common] {
     return options->from.empty() ? init_empty(*options, common) : init_from(*options, common);

@@ -223,7 +223,7 @@ int likeness(const Names& names, const GuessedColumn& column) {
   if (std::find(names.whole.begin(), names.whole.end(), name) != names.whole.end() ||
       (!names.coefficient && of_abaqus(name) == names.canonical))
     found = 3;
-  else if (has_part(names.part))
+  else if (has_part(names.part) || (names.coefficient && has_word(name, {"mu", "µ", "μ", "cof"})))
     found = 2;
   else if (has_part(names.weak))
     found = 1;

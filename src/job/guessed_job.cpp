@@ -7,6 +7,7 @@
 
 #include "core/text.h"
 #include "core/units.h"
+#include "data/computed.h"
 #include "data/quantity.h"
 #include "data/scale.h"
 #include "io/csv.h"
@@ -287,9 +288,27 @@ private:
                          "a force over the nominal contact area")));
   }
 
+  // Asks for the radius of a torque; false if there is none.
+  bool ask_for_radius() {
+    for (const GuessedColumn& column : most_.columns) {
+      const bool is_torque = convert(column.unit, "N m") && column.canonical.empty();
+      if (has("F_R_N") || !is_torque) continue;
+      const double newton_metres = convert(column.unit, "N m")->factor;
+      ask(fmt::format("At which radius does friction act? {} is a torque ({}).", shown(column.name),
+                      shown(column.unit)),
+          line(fmt::format("# F_R_N = {{ formula = \"{}{}/RADIUS_M\" }}",
+                           newton_metres == 1 ? "" : shortest(newton_metres) + "*",
+                           data::name_in_formulas(column.name)),
+               "RADIUS_M: a number, in m"));
+      return true;
+    }
+    return false;
+  }
+
   void ask_for_friction() {
     const bool friction = has("F_R_N"), normal = has("F_N_N");
     if (has("tau_R_MPa") || (friction && normal)) return;
+    if (ask_for_radius()) return;
     if (friction)
       ask("Which normal force belongs to the friction force? None was found.",
           "# F_N_N = \"COLUMN\"\n# or one value for all rows, in [data.constants] below\n");

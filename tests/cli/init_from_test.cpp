@@ -500,6 +500,45 @@ TEST_F(InitFrom, TakesSheetsOfAWorkbookForTests) {
   EXPECT_EQ(read().tests, "v10_1 30, v15_1 30, v5_1 30");
 }
 
+TEST_F(InitFrom, TakesTheSheetsThatItIsTold) {
+  std::vector<test::XmlSheet> sheets;
+  for (int test = 1; test <= 3; ++test) {
+    std::string text = "Time [s];COF;Pressure [MPa]\n";
+    for (const Row& row : rows(test))
+      text += fmt::format("{:.1f};{:.4f};{:.1f}\n", row.time_s, row.mu, row.sigma_MPa);
+    sheets.push_back({fmt::format("T{}", test), test::xml_rows(text)});
+  }
+  test::write_workbook(directory.path("tests.xlsx"), {sheets});
+  ASSERT_EQ(frictab({"init", "job", "--from", "tests.xlsx", "--sheet", "T1", "T3"}).exit_code, 0);
+  EXPECT_THAT(directory.read("job/job.toml"), HasSubstr("\nsheet = [\"T1\", \"T3\"]\n"));
+  EXPECT_EQ(read().tests, "T1 30, T3 30");
+  const CommandResult none = frictab({"init", "--from", "tests.xlsx", "--sheet", "T4"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("no workbook has a table in a sheet 'T4'"));
+}
+
+TEST_F(InitFrom, PassesOverAFileThatIsNoTableWithAWord) {
+  for (int test = 1; test <= 3; ++test)
+    directory.write(fmt::format("rig/{}.txt", test), coefficient_file(test));
+  directory.write("rig/notes.txt", "Dear all,\nthe tests went well.\n");
+  const CommandResult result = frictab({"init", "job", "--from", "rig"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("not read: rig/notes.txt: no table of numbers under a line of "
+                                    "names was found\n"));
+  EXPECT_EQ(read().tests, "1 30, 2 30, 3 30");
+}
+
+TEST_F(InitFrom, AsksForTheRadiusOfATorque) {
+  directory.write("a.csv",
+                  "Test,Load [N],Torque [N mm],Pressure [MPa]\n1,1.5,200,3\n1,1.6,210,3\n");
+  ASSERT_EQ(frictab({"init", "--from", "a.csv"}).exit_code, 0);
+  EXPECT_THAT(
+      directory.read("job.toml"),
+      testing::AllOf(HasSubstr("\n# ? At which radius does friction act? Torque [N mm] is a "
+                               "torque (N mm)."),
+                     HasSubstr("\n# F_R_N = { formula = \"0.001*Torque/RADIUS_M\" }")));
+}
+
 TEST_F(InitFrom, KeepsAJobFileThatIsThereUnlessForced) {
   directory.write("a.csv", coefficient_file(1));
   directory.write("job.toml", "mine");
