@@ -79,16 +79,16 @@ void expect_law(const models::Model& model, bool by_language = false) {
   }
 }
 
-class SlowDirectFormOfEveryFormula : public testing::TestWithParam<std::string> {};
+class LongDirectFormOfEveryFormula : public testing::TestWithParam<std::string> {};
 
 // What stands around the formula is not a law's own: one law goes through every target, with those
 // of SlowDirectForm.
-TEST_P(SlowDirectFormOfEveryFormula, IsTheLawTo1e12InEveryLanguage) {
+TEST_P(LongDirectFormOfEveryFormula, IsTheLawTo1e12InEveryLanguage) {
   const bool by_language = GetParam() != "log_coulomb";
   expect_law(test::plausible_model(*models::find_law(GetParam())), by_language);
 }
 
-TEST_P(SlowDirectFormOfEveryFormula, HasTheLawsOwnGradient) {
+TEST_P(LongDirectFormOfEveryFormula, HasTheLawsOwnGradient) {
   const AssembledLaw law(test::plausible_model(*models::find_law(GetParam())));
   const Table table = direct_of(law);
   const table::TableFunction direct(table);
@@ -105,7 +105,7 @@ TEST_P(SlowDirectFormOfEveryFormula, HasTheLawsOwnGradient) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, SlowDirectFormOfEveryFormula,
+INSTANTIATE_TEST_SUITE_P(Registry, LongDirectFormOfEveryFormula,
                          testing::ValuesIn(test::laws_by_formula()), test::law_test_name);
 
 TEST(SlowDirectForm, OfAnEnsembleOfTwentyNetsIsTheLawTo1e12InEveryTarget) {

@@ -159,11 +159,11 @@ TEST_P(SlowEditedRoutine, IsNoticedOverIncrements) {
 INSTANTIATE_TEST_SUITE_P(
     All, SlowEditedRoutine,
     testing::Values(
-        Edit{"abaqus_vfric", "add(1) = slip", "add(1) = 0.5D0*slip", "STATEV(1) slip"},
-        Edit{"abaqus_vfric", "add(2) = 0.5D0*", "add(2) = ", "STATEV(2) friction work"},
-        Edit{"abaqus_vfric", "if (ftout(x)) add(4) = 1.0D0", "if (ftout(x)) add(4) = 0.0D0",
+        Edit{"abaqus_vfric", "both + part + slip", "both + part + 0.5D0*slip", "STATEV(1) slip"},
+        Edit{"abaqus_vfric", "work = 0.5D0*(before", "work = (before", "STATEV(2) friction work"},
+        Edit{"abaqus_vfric", "if (ftout(x)) beyond = 1.0D0", "if (ftout(x)) beyond = 0.0D0",
              "STATEV(4) increments outside"},
-        Edit{"abaqus_vfriction", "add(3) = press", "add(3) = 0.9D0*press", "STATE(3) peak"},
+        Edit{"abaqus_vfriction", "real(press, kind", "real(0.9D0*press, kind", "STATE(3) peak"},
         Edit{"lsdyna_usrfrc", "scale = frc(1,lsv(ii))", "scale = frc(2,lsv(ii))", "force"},
         Edit{"abaqus_fric", "sfd = flim*ds", "sfd = 0.5D0*flim*ds", "SFD"},
         Edit{"abaqus_fric_coef", "max(s - s0(5), zero)", "s", "friction work"},

@@ -336,7 +336,7 @@ template <> double bound<Usrfrc<float>>() {
   return 2e-5;
 }
 
-template <class Point> class FurtherHistories : public test::NeedsGfortran {};
+template <class Point> class LongFurtherHistories : public test::NeedsGfortran {};
 
 using Points = testing::Types<Vfric<double>, Vfric<float>, Vfriction<double>, Vfriction<float>,
                               Usrfrc<double>, Usrfrc<float>, Fric, FricCoef, Usrbcc>;
@@ -345,9 +345,9 @@ struct PointName {
     return std::string(Point::target) + (bound<Point>() == 2e-5 ? "_single" : "_double");
   }
 };
-TYPED_TEST_SUITE(FurtherHistories, Points, PointName);
+TYPED_TEST_SUITE(LongFurtherHistories, Points, PointName);
 
-TYPED_TEST(FurtherHistories, FollowAPathOfIncrementsAsTheDefinitionSays) {
+TYPED_TEST(LongFurtherHistories, FollowAPathOfIncrementsAsTheDefinitionSays) {
   for (const std::string table : {"further", "way"})
     for (Units units : test::every_system()) {
       SCOPED_TRACE(table + " " + units.name);
@@ -365,7 +365,7 @@ TYPED_TEST(FurtherHistories, FollowAPathOfIncrementsAsTheDefinitionSays) {
     }
 }
 
-TYPED_TEST(FurtherHistories, SlipStatesStartWithTheFirstIncrementThatSlides) {
+TYPED_TEST(LongFurtherHistories, SlipStatesStartWithTheFirstIncrementThatSlides) {
   Units units;
   units.table = "state";
   TypeParam point(units);
@@ -378,7 +378,7 @@ TYPED_TEST(FurtherHistories, SlipStatesStartWithTheFirstIncrementThatSlides) {
   EXPECT_NEAR(point.step({500, 2, 0.5, 20}), 500 * rested, 46 * bound<TypeParam>());
 }
 
-TYPED_TEST(FurtherHistories, KeepNothingOfAnIncrementWhoseTemperatureIsNaN) {
+TYPED_TEST(LongFurtherHistories, KeepNothingOfAnIncrementWhoseTemperatureIsNaN) {
   Units units;
   units.table = "mean";
   TypeParam point(units);
@@ -393,7 +393,7 @@ TYPED_TEST(FurtherHistories, KeepNothingOfAnIncrementWhoseTemperatureIsNaN) {
   EXPECT_NEAR(point.step({500, 2, 0.5, 20}), 500 * 0.055, 29 * bound);
 }
 
-TYPED_TEST(FurtherHistories, AreNumbersAfterAnInfinitePressureOrALongRest) {
+TYPED_TEST(LongFurtherHistories, AreNumbersAfterAnInfinitePressureOrALongRest) {
   TypeParam point{Units()};
   point.step({500, 0, 0.5, 80});
   point.step({1e30, 0, 1e-30, 80});
@@ -402,7 +402,7 @@ TYPED_TEST(FurtherHistories, AreNumbersAfterAnInfinitePressureOrALongRest) {
     EXPECT_FALSE(std::isnan(point.step({500, 2, 0.5, 80})));
 }
 
-TYPED_TEST(FurtherHistories, AreToldInTheRecipeWithTheirNumbers) {
+TYPED_TEST(LongFurtherHistories, AreToldInTheRecipeWithTheirNumbers) {
   static const Table table = further_histories_table();
   const auto recipe = test::parse_json(
       find_exporter(TypeParam::target)->generate({table, "m-kg-s", {}}).at("recipe.json"));

@@ -93,7 +93,7 @@ TEST(GeneratedText, StopsWithTheStateInTheUnitsOfTheAnalysis) {
   EXPECT_THAT(text, HasSubstr("'v_rel_mm_ms above 0.5'"));
 }
 
-TEST(SlowGeneratedText, KeepsToItsColumns) {
+TEST(LongGeneratedText, KeepsToItsColumns) {
   for (const test::NamedTable& sample : test::sample_tables())
     for (const codegen::Exporter& exporter : codegen::all_exporters())
       for (const test::SolverScale& scale : test::every_system())

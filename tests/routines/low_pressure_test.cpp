@@ -116,9 +116,9 @@ TEST(LowPressure, VerifyHasItsOwnFigureAndFailsWhereTheLawIsNotFollowed) {
   EXPECT_EQ(again.records[0].below->n_points, good.below->n_points);
 }
 
-class SlowLowPressure : public testing::TestWithParam<const char*> {};
+class LongLowPressure : public testing::TestWithParam<const char*> {};
 
-TEST_P(SlowLowPressure, EveryTargetFollowsTheLawThere) {
+TEST_P(LongLowPressure, EveryTargetFollowsTheLawThere) {
   table::TableOptions options; // parameters without a covariance would be followed nowhere
   options.axes["sigma_n_MPa"].outside = {"law"};
   const Case c(GetParam(), options);
@@ -136,7 +136,7 @@ TEST_P(SlowLowPressure, EveryTargetFollowsTheLawThere) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, SlowLowPressure,
+INSTANTIATE_TEST_SUITE_P(Laws, LongLowPressure,
                          testing::Values("orowan", "wanheim_bay", "log_coulomb"),
                          [](const auto& law) { return std::string(law.param); });
 

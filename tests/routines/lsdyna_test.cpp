@@ -30,7 +30,7 @@ const codegen::Exporter& lsdyna() {
   return *codegen::find_exporter("lsdyna_usrfrc");
 }
 
-template <class Real> struct SlowLsDyna : test::NeedsGfortran {
+template <class Real> struct LongLsDyna : test::NeedsGfortran {
   static constexpr bool single = sizeof(Real) == 4;
   using Int = std::conditional_t<single, std::int32_t, std::int64_t>;
   using Call = calls::UsrfrcCall<Real, Int>;
@@ -79,9 +79,9 @@ struct PrecisionName {
     return sizeof(Real) == 4 ? "single" : "double";
   }
 };
-TYPED_TEST_SUITE(SlowLsDyna, Precisions, PrecisionName);
+TYPED_TEST_SUITE(LongLsDyna, Precisions, PrecisionName);
 
-TYPED_TEST(SlowLsDyna, AgreesWithFrictabForEveryKindOfArgumentAndUnit) {
+TYPED_TEST(LongLsDyna, AgreesWithFrictabForEveryKindOfArgumentAndUnit) {
   for (const test::NamedTable& sample : test::sample_tables())
     for (const test::SolverScale& scale : test::every_system()) {
       if (!test::has_every_kind_of_argument(sample)) continue;
@@ -95,7 +95,7 @@ TYPED_TEST(SlowLsDyna, AgreesWithFrictabForEveryKindOfArgumentAndUnit) {
     }
 }
 
-TYPED_TEST(SlowLsDyna, TakesBlocksOf0And1And300Nodes) {
+TYPED_TEST(LongLsDyna, TakesBlocksOf0And1And300Nodes) {
   for (const std::size_t places : {0, 1, 300}) {
     auto c = this->call(places);
     for (std::size_t i = 0; i < places; ++i)
@@ -107,7 +107,7 @@ TYPED_TEST(SlowLsDyna, TakesBlocksOf0And1And300Nodes) {
   }
 }
 
-TYPED_TEST(SlowLsDyna, TouchesActiveNodesOnlyAndFollowsTheirHistories) {
+TYPED_TEST(LongLsDyna, TouchesActiveNodesOnlyAndFollowsTheirHistories) {
   auto c = this->call(5);
   c.active = {5, 2};
   c.history_of = {1, 2, 3, 4, 1};
@@ -129,7 +129,7 @@ TYPED_TEST(SlowLsDyna, TouchesActiveNodesOnlyAndFollowsTheirHistories) {
   EXPECT_EQ(c.history[4 * 2], 0);
 }
 
-TYPED_TEST(SlowLsDyna, AddsTheForceAndKeepsItWithThePlaceForTheNextCycle) {
+TYPED_TEST(LongLsDyna, AddsTheForceAndKeepsItWithThePlaceForTheNextCycle) {
   auto c = this->call(1);
   c.force[0][0] = 10;
   c.force[2][0] = -7;
@@ -143,7 +143,7 @@ TYPED_TEST(SlowLsDyna, AddsTheForceAndKeepsItWithThePlaceForTheNextCycle) {
   EXPECT_EQ(c.last_segment[0], c.segment[0]);
 }
 
-TYPED_TEST(SlowLsDyna, GivesNoForceAlongTheNormalAndCountsTangentialSlipOnly) {
+TYPED_TEST(LongLsDyna, GivesNoForceAlongTheNormalAndCountsTangentialSlipOnly) {
   auto c = this->call(1);
   const double n[] = {0.6, 0, 0.8};
   for (int i = 0; i < 3; ++i) {
@@ -165,7 +165,7 @@ TYPED_TEST(SlowLsDyna, GivesNoForceAlongTheNormalAndCountsTangentialSlipOnly) {
   EXPECT_NEAR(c.history[0], 50 / double(c.rate), 2e-5 * 50 / double(c.rate));
 }
 
-TYPED_TEST(SlowLsDyna, NeverExceedsTheForceThatHoldsTheNode) {
+TYPED_TEST(LongLsDyna, NeverExceedsTheForceThatHoldsTheNode) {
   auto c = this->call(3);
   c.before[2] = -5, c.before[3] = 0; // held by 5, the other way
   c.before[7] = 0;                   // nothing to hold
@@ -178,7 +178,7 @@ TYPED_TEST(SlowLsDyna, NeverExceedsTheForceThatHoldsTheNode) {
   EXPECT_CLOSE(c.force[0][2], 5, TestFixture::bound);
 }
 
-TYPED_TEST(SlowLsDyna, HoldsElasticallyUntilItSlidesAtTauR) {
+TYPED_TEST(LongLsDyna, HoldsElasticallyUntilItSlidesAtTauR) {
   auto c = this->call(1);
   std::fill(c.before.begin(), c.before.end(), TypeParam(0));
   c.slip[1][0] = 0;
@@ -191,7 +191,7 @@ TYPED_TEST(SlowLsDyna, HoldsElasticallyUntilItSlidesAtTauR) {
   }
 }
 
-TYPED_TEST(SlowLsDyna, GivesNoForceWithoutPressureAndKeepsTheHistory) {
+TYPED_TEST(LongLsDyna, GivesNoForceWithoutPressureAndKeepsTheHistory) {
   auto c = this->call(2);
   c.normal = {0, 500}; // nothing, pulled
   c.history[4] = 3;
@@ -204,7 +204,7 @@ TYPED_TEST(SlowLsDyna, GivesNoForceWithoutPressureAndKeepsTheHistory) {
   EXPECT_EQ(c.history[4], 3);
 }
 
-TYPED_TEST(SlowLsDyna, TakesASpeedOf0WhereTheTimeIncrementIs0) {
+TYPED_TEST(LongLsDyna, TakesASpeedOf0WhereTheTimeIncrementIs0) {
   auto c = this->call(2);
   c.rate = TypeParam(inf);
   c.slip[1][0] = 0;
@@ -213,7 +213,7 @@ TYPED_TEST(SlowLsDyna, TakesASpeedOf0WhereTheTimeIncrementIs0) {
   EXPECT_CLOSE(c.force[0][1], this->tau(1000, 1e9), TestFixture::bound);
 }
 
-TYPED_TEST(SlowLsDyna, GivesNaNForNaNInAnyArgumentItUses) {
+TYPED_TEST(LongLsDyna, GivesNaNForNaNInAnyArgumentItUses) {
   static constexpr TypeParam bad = TypeParam(nan);
   using Spoil = void (*)(typename TestFixture::Call&);
   const std::pair<const char*, Spoil> spoils[] = {{"fni", [](auto& c) { c.normal[1] = bad; }},
@@ -240,7 +240,7 @@ TYPED_TEST(SlowLsDyna, GivesNaNForNaNInAnyArgumentItUses) {
   }
 }
 
-TYPED_TEST(SlowLsDyna, GivesNaNForANaNHistory) {
+TYPED_TEST(LongLsDyna, GivesNaNForANaNHistory) {
   auto c = this->call(2);
   c.constants = {TypeParam(flow)};
   c.history[4] = TypeParam(nan);
@@ -249,7 +249,7 @@ TYPED_TEST(SlowLsDyna, GivesNaNForANaNHistory) {
   EXPECT_TRUE(std::isnan(c.force[0][1]));
 }
 
-TYPED_TEST(SlowLsDyna, TakesInfinitiesAsFarOutsideTheTable) {
+TYPED_TEST(LongLsDyna, TakesInfinitiesAsFarOutsideTheTable) {
   auto c = this->call(2);
   c.normal[0] = TypeParam(-inf);
   for (std::size_t n = 1; n < c.temperature.size(); n += 2)
@@ -260,7 +260,7 @@ TYPED_TEST(SlowLsDyna, TakesInfinitiesAsFarOutsideTheTable) {
   EXPECT_CLOSE(c.force[0][1], this->tau(1000, 50, -1e9), TestFixture::bound);
 }
 
-TYPED_TEST(SlowLsDyna, UsesTheNearestEdgeOutsideEachSideOfEachAxis) {
+TYPED_TEST(LongLsDyna, UsesTheNearestEdgeOutsideEachSideOfEachAxis) {
   const double states[][2] = {{100, 50}, {4000, 50}, {1000, 1}, {1000, 2000}};
   auto c = this->call(4);
   for (std::size_t i = 0; i < 4; ++i)
@@ -276,7 +276,7 @@ TYPED_TEST(SlowLsDyna, UsesTheNearestEdgeOutsideEachSideOfEachAxis) {
   }
 }
 
-TYPED_TEST(SlowLsDyna, TakesTheMeanTemperatureOfTheNodeAndItsPlaceOnTheSegment) {
+TYPED_TEST(LongLsDyna, TakesTheMeanTemperatureOfTheNodeAndItsPlaceOnTheSegment) {
   auto c = this->call(2);
   c.temperature = {30, 60, 40, 0, 80, 0, 120, 0, 160, 0}; // node, then its four corners
   c.node = {1, 2};
@@ -289,14 +289,14 @@ TYPED_TEST(SlowLsDyna, TakesTheMeanTemperatureOfTheNodeAndItsPlaceOnTheSegment) 
   EXPECT_CLOSE(c.force[0][1], this->tau(1000, 50, 30), TestFixture::bound);
 }
 
-TYPED_TEST(SlowLsDyna, TakesTheReferenceTemperatureWhereNoneAreComputed) {
+TYPED_TEST(LongLsDyna, TakesTheReferenceTemperatureWhereNoneAreComputed) {
   auto c = this->call(1);
   std::fill(c.temperature.begin(), c.temperature.end(), TypeParam(nan));
   this->run(c, this->four_axes(), false);
   EXPECT_CLOSE(c.force[0][0], this->tau(1000, 50, 60), TestFixture::bound);
 }
 
-TYPED_TEST(SlowLsDyna, WritesNoHistoryBeyondNHV) {
+TYPED_TEST(LongLsDyna, WritesNoHistoryBeyondNHV) {
   for (const int histories : {0, 1, 2, 3, 5, 7, 8, 10}) {
     auto c = this->call(2);
     c.histories = histories;
@@ -313,7 +313,7 @@ TYPED_TEST(SlowLsDyna, WritesNoHistoryBeyondNHV) {
   }
 }
 
-TYPED_TEST(SlowLsDyna, AddsSlipBeforeEvaluatingAndOncePerCall) {
+TYPED_TEST(LongLsDyna, AddsSlipBeforeEvaluatingAndOncePerCall) {
   auto c = this->call(1);
   c.constants = {TypeParam(flow)};
   c.rate = 8;
@@ -327,7 +327,7 @@ TYPED_TEST(SlowLsDyna, AddsSlipBeforeEvaluatingAndOncePerCall) {
   }
 }
 
-TYPED_TEST(SlowLsDyna, AddsWorkKeepsThePeakAndCountsCyclesOutside) {
+TYPED_TEST(LongLsDyna, AddsWorkKeepsThePeakAndCountsCyclesOutside) {
   auto c = this->call(1);
   c.area[0] = 4;
   c.before[2] = 80, c.before[3] = 0;
@@ -350,7 +350,7 @@ TYPED_TEST(SlowLsDyna, AddsWorkKeepsThePeakAndCountsCyclesOutside) {
   EXPECT_EQ(c.history[3], 2);
 }
 
-TYPED_TEST(SlowLsDyna, SumsOfSmallIncrementsDoNotStandStillInSinglePrecision) {
+TYPED_TEST(LongLsDyna, SumsOfSmallIncrementsDoNotStandStillInSinglePrecision) {
   for (const int histories : {4, 8}) {
     auto c = this->call(1);
     c.constants = {};
@@ -380,7 +380,7 @@ TYPED_TEST(SlowLsDyna, SumsOfSmallIncrementsDoNotStandStillInSinglePrecision) {
   }
 }
 
-TYPED_TEST(SlowLsDyna, KeepsNoSlipAndNoWorkOfANodeThatIsHeld) {
+TYPED_TEST(LongLsDyna, KeepsNoSlipAndNoWorkOfANodeThatIsHeld) {
   auto c = this->call(1);
   c.area[0] = 4;
   c.before[2] = 80, c.before[3] = 0;
@@ -392,7 +392,7 @@ TYPED_TEST(SlowLsDyna, KeepsNoSlipAndNoWorkOfANodeThatIsHeld) {
   EXPECT_EQ(c.history[1], 0);
 }
 
-TYPED_TEST(SlowLsDyna, TakesWorkAndPeakPressureInTheSolversUnits) {
+TYPED_TEST(LongLsDyna, TakesWorkAndPeakPressureInTheSolversUnits) {
   const Table table = test::history_table();
   const TableFunction function(table);
   for (const test::SolverScale& scale : test::every_system()) {
@@ -410,7 +410,7 @@ TYPED_TEST(SlowLsDyna, TakesWorkAndPeakPressureInTheSolversUnits) {
   }
 }
 
-TYPED_TEST(SlowLsDyna, TakesConstantsAsTheJobSaysAndTypicalValuesForThoseTheDeckDoesNotGive) {
+TYPED_TEST(LongLsDyna, TakesConstantsAsTheJobSaysAndTypicalValuesForThoseTheDeckDoesNotGive) {
   auto c = this->call(1);
   c.constants.clear();
   this->run(c, this->four_axes());
@@ -426,7 +426,7 @@ TYPED_TEST(SlowLsDyna, TakesConstantsAsTheJobSaysAndTypicalValuesForThoseTheDeck
   EXPECT_TRUE(std::isnan(unknown.force[0][0])) << "a flow stress nobody knows";
 }
 
-TYPED_TEST(SlowLsDyna, MultipliesByTheSegmentsScaleFactor) {
+TYPED_TEST(LongLsDyna, MultipliesByTheSegmentsScaleFactor) {
   auto c = this->call(2);
   c.segment = {2, 1};
   c.scale = {TypeParam(0.5), 9, 0, 9};
@@ -435,7 +435,7 @@ TYPED_TEST(SlowLsDyna, MultipliesByTheSegmentsScaleFactor) {
   EXPECT_CLOSE(c.force[0][1], 0.5 * this->tau(), TestFixture::bound);
 }
 
-TYPED_TEST(SlowLsDyna, ConvertsUnitsOfMetreKilogramSecond) {
+TYPED_TEST(LongLsDyna, ConvertsUnitsOfMetreKilogramSecond) {
   auto c = this->call(1);
   c.constants[2] = TypeParam(480e6);
   this->set(c, 0, 1000e6, 0.05);
@@ -443,7 +443,7 @@ TYPED_TEST(SlowLsDyna, ConvertsUnitsOfMetreKilogramSecond) {
   EXPECT_CLOSE(c.force[0][0], this->tau() * 1e6, TestFixture::bound);
 }
 
-TYPED_TEST(SlowLsDyna, EndsTheAnalysisOutsideAndWhereTheContactGivesNoAreas) {
+TYPED_TEST(LongLsDyna, EndsTheAnalysisOutsideAndWhereTheContactGivesNoAreas) {
   const Table table = test::sides_table();
   const codegen::ExportRequest asked{table, "mm-t-s", {}};
   codegen::BuildVariant build = lsdyna().variants(asked)[TestFixture::single ? 1 : 0];
@@ -480,7 +480,7 @@ TYPED_TEST(SlowLsDyna, EndsTheAnalysisOutsideAndWhereTheContactGivesNoAreas) {
   EXPECT_EQ(bare.force[0][1], 0);
 }
 
-TYPED_TEST(SlowLsDyna, MayRunInThreadsAtOnce) {
+TYPED_TEST(LongLsDyna, MayRunInThreadsAtOnce) {
   const Library* library = test::compiled("threads", lsdyna(), {four_axis(), "mm-t-s", {}},
                                           TestFixture::variant, {"-O2"});
   *library->template find<typename TestFixture::Int>("thropt_") = 999;

@@ -81,7 +81,7 @@ void expect_everywhere(const Table& table, const std::vector<double>& pressure,
 
 constexpr Outside kinds[] = {Outside::clamp, Outside::error, Outside::law};
 
-TEST(SlowOutsideTheRange, EveryPolicyOnEachSideIsTheSameInCppCAndFortran) {
+TEST(LongOutsideTheRange, EveryPolicyOnEachSideIsTheSameInCppCAndFortran) {
   const std::vector<double> p = {500, 500, 700, 700, 900}, T = {-30, 19.5, 200.5, 1000, 110};
   // Sides are written by the core, which targets of one language share. They know nothing of each
   // other: each policy on each side in every target.
@@ -99,7 +99,7 @@ TEST(SlowOutsideTheRange, EveryPolicyOnEachSideIsTheSameInCppCAndFortran) {
 }
 
 // What a target does where the core refuses is the same for both forms: in each language.
-TEST(SlowOutsideTheRange, TheDirectFormKeepsThePoliciesOfItsTable) {
+TEST(LongOutsideTheRange, TheDirectFormKeepsThePoliciesOfItsTable) {
   const std::vector<double> p = {500, 500, 700, 700, 900}, T = {-30, 19.5, 200.5, 1000, 110};
   // Each on either side: the sides know nothing of each other.
   for (std::size_t k = 0; k < 3; ++k) {
@@ -117,7 +117,7 @@ TEST(SlowOutsideTheRange, TheDirectFormKeepsThePoliciesOfItsTable) {
   }
 }
 
-TEST(SlowOutsideTheRange, AxesThatClampAreHeldWhereAnotherGoesOnByTheLaw) {
+TEST(LongOutsideTheRange, AxesThatClampAreHeldWhereAnotherGoesOnByTheLaw) {
   const Table table = test::sides_table(); // sigma_n below: law, v below: clamp
   const TableFunction function(table);
   Table reference = test::direct_table();
@@ -130,7 +130,7 @@ TEST(SlowOutsideTheRange, AxesThatClampAreHeldWhereAnotherGoesOnByTheLaw) {
   EXPECT_EQ(bits, 3U);
 }
 
-TEST(SlowOutsideTheRange, TheLawsGradientHoldsBeyondItsSideAndIsZeroByHeldAxes) {
+TEST(LongOutsideTheRange, TheLawsGradientHoldsBeyondItsSideAndIsZeroByHeldAxes) {
   const TableFunction function(test::sides_table());
   const double state[] = {300, 1, 250, 480}; // law, clamp, law; combine takes sigma_n as it is
   double by[4];
@@ -146,7 +146,7 @@ TEST(SlowOutsideTheRange, TheLawsGradientHoldsBeyondItsSideAndIsZeroByHeldAxes) 
   EXPECT_NE(by[2], 0);
 }
 
-TEST(SlowOutsideTheRange, ALawThatGoesOnLeavesTheEdgeByNoMoreThanTheDrift) {
+TEST(LongOutsideTheRange, ALawThatGoesOnLeavesTheEdgeByNoMoreThanTheDrift) {
   for (const char* name : {"log_coulomb", "exp_coulomb", "wzl", "wanheim_bay"}) {
     const models::Model model = test::plausible_model(*models::find_law(name));
     const data::Dataset data = test::sample_data(model);
@@ -182,7 +182,7 @@ const Library& sides_in_c(bool direct) {
   return *test::compiled(direct ? "direct" : "sides", *codegen::find_exporter("c"), request, "c99");
 }
 
-TEST(SlowOutsideTheRange, CTellsBitsAndCountsByAxisAndSideIntoTheCallersOwnCounts) {
+TEST(LongOutsideTheRange, CTellsBitsAndCountsByAxisAndSideIntoTheCallersOwnCounts) {
   for (const bool direct : {false, true}) {
     const auto bits = sides_in_c(direct).find<Bits>("frictab_outside");
     EXPECT_EQ(bits(1000, 0, 50, 100, 0, 480), 0U);
@@ -199,7 +199,7 @@ TEST(SlowOutsideTheRange, CTellsBitsAndCountsByAxisAndSideIntoTheCallersOwnCount
   }
 }
 
-TEST(SlowOutsideTheRange, CCountsInThreadsWithoutAnyStateOfItsOwn) {
+TEST(LongOutsideTheRange, CCountsInThreadsWithoutAnyStateOfItsOwn) {
   const auto count = sides_in_c(false).find<Count>("frictab_count_outside");
   const std::vector<double> p(50000, 400), v(50000, 50), T(50000, 300);
   std::vector<std::vector<unsigned long>> counts(4, std::vector<unsigned long>(6));
@@ -213,7 +213,7 @@ TEST(SlowOutsideTheRange, CCountsInThreadsWithoutAnyStateOfItsOwn) {
     EXPECT_EQ(own, (std::vector<unsigned long>{50000, 0, 0, 0, 0, 50000}));
 }
 
-TEST(SlowOutsideTheRange, CGivesNaNBeyondAnErrorSideAndTheEdgeWithinRounding) {
+TEST(LongOutsideTheRange, CGivesNaNBeyondAnErrorSideAndTheEdgeWithinRounding) {
   for (const bool direct : {false, true}) {
     const auto entry = sides_in_c(direct).find<Entry>("frictab_tau_R");
     const double at_end = entry(1000, 0, 500, 100, 0, 480);

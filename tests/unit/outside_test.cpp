@@ -63,7 +63,7 @@ TEST(JobKeys, SetBothSidesOfAnAxisAtOnceOrEachOfThem) {
   EXPECT_EQ(outside("[\"law\", \"law\"]"), (Words{"law", "law"}));
 }
 
-TEST(SlowOutsideTheRange, IsWhatTheJobAsksForAndOnlyThenHoldsTheLawsFormula) {
+TEST(LongOutsideTheRange, IsWhatTheJobAsksForAndOnlyThenHoldsTheLawsFormula) {
   const Table table = built(log_coulomb(), {{"psi", {"law"}}, {"v_rel_mm_s", {"clamp", "error"}}});
   EXPECT_EQ(table.axes[1].below, Outside::law);
   EXPECT_EQ(table.axes[1].above, Outside::law);
