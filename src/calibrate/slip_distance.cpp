@@ -26,7 +26,7 @@ namespace {
 
 // Makes GSL return errors as values instead of ending the program. Its handler is shared by the
 // whole process, so a thread that changed it temporarily would affect the others.
-[[maybe_unused]] const gsl_error_handler_t* const of_the_library = gsl_set_error_handler_off();
+[[maybe_unused]] gsl_error_handler_t* const of_the_library = gsl_set_error_handler_off();
 
 constexpr std::size_t tries = 25; // of a scan: five decades in steps of 1.6
 constexpr int refinements = 12;
