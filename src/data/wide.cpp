@@ -28,7 +28,7 @@ struct Test {
 class Wide {
 public:
   Wide(const io::CsvTable& table, const std::string& columns, const Place& place)
-      : table_(table), text_(columns), place_(place) {
+      : table_(table), place_(place) {
     const Pattern pattern = test_columns(columns, place);
     for (std::size_t i = 0; i < table.columns.size(); ++i)
       if (auto groups = pattern.search(table.columns[i].name))
@@ -167,7 +167,6 @@ private:
   }
 
   const io::CsvTable& table_;
-  const std::string& text_;
   const Place& place_;
   std::vector<std::size_t> common_;
   std::vector<Test> tests_;
