@@ -66,6 +66,12 @@ NativeProblem native_problem(const ExportRequest& request, const NativeForm& for
 // that table has sampled values, its own drift is subtracted first.
 NativeTable native_table(const ExportRequest& request, const NativeForm& form);
 
+// Returns texts as comment lines without their mark, of at most 90 columns; further lines of a text
+// are indented.
+std::vector<std::string> wrapped_comments(const std::vector<std::string>& texts);
+// Returns the texts that such files begin with: law, data, units.
+std::vector<std::string> native_head(const Exporter& exporter, const ExportRequest& request);
+
 // Returns comment lines without their mark, of at most 90 columns: law, data, units, the solver's
 // interpolation, fixed states, drift of the grid.
 std::vector<std::string> native_comments(const Exporter& exporter, const ExportRequest& request,

@@ -231,19 +231,35 @@ void take_slopes(Part& part, const DataOptions& options) {
   }
 }
 
-std::vector<std::string> computed_from(const DataOptions& options, const std::string& column) {
-  std::vector<std::string> quantities;
+namespace {
+
+// Calls take(canonical, names in its formula) for the formulas of the job.
+template <class Take> void for_each_formula(const DataOptions& options, const Take& take) {
   const auto look_at = [&](const std::map<std::string, ColumnSource>& columns) {
-    for (const auto& [canonical, from] : columns) {
-      if (from.formula.empty()) continue;
-      const auto names = expr::symbols(expr::parse_expr(from.formula));
-      if (names.count(column) > 0 || names.count(name_in_formulas(column)) > 0)
-        quantities.push_back(canonical);
-    }
+    for (const auto& [canonical, from] : columns)
+      if (!from.formula.empty()) take(canonical, expr::symbols(expr::parse_expr(from.formula)));
   };
   look_at(options.columns);
   for (const FileRule& rule : options.files)
     look_at(rule.columns);
+}
+
+} // namespace
+
+std::set<std::string> names_in_formulas(const DataOptions& options) {
+  std::set<std::string> all;
+  for_each_formula(options, [&](const std::string&, const auto& names) {
+    all.insert(names.begin(), names.end());
+  });
+  return all;
+}
+
+std::vector<std::string> computed_from(const DataOptions& options, const std::string& column) {
+  std::vector<std::string> quantities;
+  for_each_formula(options, [&](const std::string& canonical, const auto& names) {
+    if (names.count(column) > 0 || names.count(name_in_formulas(column)) > 0)
+      quantities.push_back(canonical);
+  });
   return quantities;
 }
 

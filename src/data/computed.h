@@ -2,6 +2,7 @@
 // eq. 1 of the paper, the sliding distance.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ void compute_formulas(Part& part, const DataOptions& options);
 
 // A column's name as formulas write it: "Drehzahl innen [1/min]" is Drehzahl_innen.
 std::string name_in_formulas(const std::string& column);
+
+// The names that formulas of the job, for all or some files, use.
+std::set<std::string> names_in_formulas(const DataOptions& options);
 
 // The quantities whose formulas in the job, for all or some files, use a column of this name.
 std::vector<std::string> computed_from(const DataOptions& options, const std::string& column);

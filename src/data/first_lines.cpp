@@ -20,51 +20,16 @@ namespace {
 
 constexpr std::size_t lines_shown = 8, widest = 60;
 
-std::string without_blanks(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r"), end = text.find_last_not_of(" \t\r");
-  return begin == text.npos ? "" : text.substr(begin, end - begin + 1);
-}
-
-// The sign that separates most cells of a line; a blank if there is none.
-char delimiter_of(const std::string& line, char decimal) {
-  char best = ' ';
-  std::ptrdiff_t most = 0;
-  for (const char sign : {'\t', ';', ',', '|'})
-    if (const auto count = std::count(line.begin(), line.end(), sign);
-        sign != decimal && count > most) {
-      best = sign;
-      most = count;
-    }
-  return best;
-}
-
-std::vector<std::string> cells_of(const std::string& line, char delimiter) {
-  std::vector<std::string> cells;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(delimiter, begin), line.size());
-    std::string cell = without_blanks(line.substr(begin, end - begin));
-    if (delimiter != ' ' || !cell.empty()) cells.push_back(std::move(cell));
-    begin = end + 1;
-  }
-  return cells;
-}
-
 std::string described(const std::string& line, const io::CsvFormat& format) {
-  if (without_blanks(line).empty()) return "blank";
-  const char delimiter = format.delimiter ? format.delimiter : delimiter_of(line, format.decimal);
-  const std::vector<std::string> cells = cells_of(line, delimiter);
+  const std::vector<std::string> cells = io::cells_of_line(line, format);
+  if (cells.empty()) return "blank";
   double ignored = 0;
-  const auto numbers = std::count_if(cells.begin(), cells.end(), [&](const std::string& cell) {
-    return io::read_number(cell, format.decimal, ignored);
-  });
+  std::size_t numbers = 0;
   std::vector<std::string> known;
-  for (const std::string& cell : cells)
-    for (const std::string& name : {cell, io::read_header_name(cell).name})
-      if (std::count(format.wanted.begin(), format.wanted.end(), name) > 0 ||
-          (!name.empty() && format.also_wanted && format.also_wanted(name))) {
-        known.push_back(name);
-        break;
-      }
+  for (const std::string& cell : cells) {
+    numbers += io::read_number(cell, format.decimal, ignored);
+    if (io::is_wanted(cell, format)) known.push_back(io::read_header_name(cell).name);
+  }
   return fmt::format("{} {}, {} {}{}", cells.size(), cells.size() == 1 ? "cell" : "cells", numbers,
                      numbers == 1 ? "number" : "numbers",
                      known.empty() ? "" : ", known: " + join(known, ", "));
@@ -85,7 +50,8 @@ std::string lines_of(const std::string& text, const io::CsvFormat& format) {
     std::string line = to_utf8(text.substr(begin, end - begin));
     const std::string words = described(line, format);
     std::replace(line.begin(), line.end(), '\t', ' ');
-    line = printable(utf8_start(without_blanks(line), widest));
+    line.erase(line.find_last_not_of(" \r") + 1);
+    line = printable(utf8_start(line, widest));
     line.resize(line.size() + widest - std::min(characters(line), widest), ' ');
     out += fmt::format("{:>5} | {} | {}\n", number, line, words);
     begin = end + 1;

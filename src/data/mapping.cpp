@@ -100,6 +100,7 @@ public:
 private:
   // Empties the cells whose value stands for none, as the job says.
   void blank_missing(CsvColumn& column) {
+    if (options_.missing_values.empty()) return;
     std::size_t cells = 0;
     for (const std::string& missing : options_.missing_values)
       if (double number = 0; io::read_number(missing, '.', number))

@@ -37,8 +37,8 @@ std::vector<std::string> wanted_names(const DataOptions& options) {
 std::function<bool(const std::string&)> wanted_by_pattern(const DataOptions& options) {
   std::optional<Pattern> tests;
   if (!options.wide.empty()) tests = test_columns(options.wide, options.wide_place);
-  return [tests, options](const std::string& name) {
-    return (!name.empty() && !computed_from(options, name).empty()) ||
+  return [tests, formulas = names_in_formulas(options)](const std::string& name) {
+    return formulas.count(name) > 0 || formulas.count(name_in_formulas(name)) > 0 ||
            (tests && tests->search(name));
   };
 }
@@ -63,6 +63,17 @@ std::shared_ptr<const io::CsvSegments> segments_of(const SegmentRules& rules) {
 Place row_place(const io::CsvTable& table, std::size_t row, std::size_t column) {
   if (table.header_line == 0) return {table.file, 0, 0};
   return {table.file, table.line[row], column};
+}
+
+std::string_view head_of(std::string_view text) {
+  constexpr std::size_t head_bytes = 65536;
+  if (text.size() <= head_bytes) return text;
+  const bool wide = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+  std::size_t end = text.find_last_of("\n\r", head_bytes);
+  if (end == text.npos) return text;
+  end += 1;
+  if (wide) end += end % 2;
+  return text.substr(0, end);
 }
 
 io::CsvFormat csv_format(const std::string& path, const DataOptions& options) {

@@ -1,6 +1,9 @@
 // A file's columns before they get canonical names: the common form of CSV, workbooks and HDF5.
 #pragma once
 
+#include <string>
+#include <string_view>
+
 #include "core/error.h"
 #include "data/options.h"
 #include "io/csv.h"
@@ -17,6 +20,9 @@ Place row_place(const io::CsvTable& table, std::size_t row, std::size_t column =
 // columns as well (then `line` counts rows from 1 and header_line is 0).
 io::CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
                       FaultList& faults);
+
+// Whole lines from the start of a text, about 64 KiB.
+std::string_view head_of(std::string_view text);
 
 // Format in which read_raw parses text. `path`: a workbook has its own format.
 io::CsvFormat csv_format(const std::string& path, const DataOptions& options);

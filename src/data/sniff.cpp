@@ -247,20 +247,6 @@ void name_columns(std::vector<GuessedColumn>& columns) {
 
 // ---- dialects ----
 
-constexpr std::size_t head_bytes = 65536;
-
-// Whole lines from the start of a file.
-std::string head_of(std::string text) {
-  if (text.size() <= head_bytes) return text;
-  const bool wide = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
-  std::size_t end = text.find_last_of("\n\r", head_bytes);
-  if (end == text.npos) return text;
-  end += 1;
-  if (wide) end += end % 2;
-  text.resize(end);
-  return text;
-}
-
 bool is_number_column(const io::CsvColumn& column) {
   std::size_t empty = 0;
   for (const io::CsvColumn::Text& cell : column.texts)
@@ -301,17 +287,12 @@ public:
       : text_(text), named_(named) {
     if (text.find_first_not_of(" \t\r\n") == text.npos)
       throw InputError({named, 0, 0}, "the file is empty");
-    for (const char decimal : {'.', ','})
-      for (const bool units_row : {false, true})
-        for (std::size_t skip = 0; skip < longest_preamble; ++skip) {
-          io::CsvFormat format;
-          format.decimal = decimal;
-          format.units_row = units_row;
-          format.skip_rows = skip;
-          if (workbook) format.delimiter = ',';
-          if (!workbook || decimal == '.') attempt(format);
-        }
-    if (!(most_ > 0)) attempt_without_header(workbook);
+    io::CsvFormat plain, with_units, without_header;
+    with_units.units_row = true;
+    without_header.header = false;
+    attempt_all(plain, workbook);
+    attempt_all(with_units, workbook);
+    if (!(most_ > 0)) attempt_all(without_header, workbook);
     attempt_two_lines();
     for (const char between : {'.', ',', '\'', ' '}) {
       io::CsvFormat format = best;
@@ -329,14 +310,12 @@ public:
   bool any_decimal = false; // only whole numbers, so either decimal sign works
 
 private:
-  void attempt_without_header(bool workbook) {
+  // Tries decimal signs and numbers of lines before the table. A sheet has points and commas.
+  void attempt_all(io::CsvFormat format, bool workbook) {
+    if (workbook) format.delimiter = ',';
     for (const char decimal : {'.', ','})
-      for (std::size_t skip = 0; skip < longest_preamble; ++skip) {
-        io::CsvFormat format;
+      for (format.skip_rows = 0; format.skip_rows < longest_preamble; ++format.skip_rows) {
         format.decimal = decimal;
-        format.header = false;
-        format.skip_rows = skip;
-        if (workbook) format.delimiter = ',';
         if (!workbook || decimal == '.') attempt(format);
       }
   }
@@ -447,22 +426,25 @@ void name_coefficient(std::vector<GuessedColumn>& columns, const io::CsvTable& t
 
 std::vector<GuessedColumn> columns_of(const io::CsvTable& table) {
   std::vector<GuessedColumn> columns;
+  std::map<std::string, std::size_t> alike;
+  for (const io::CsvColumn& raw : table.columns)
+    ++alike[raw.name];
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const io::CsvColumn& raw = table.columns[i];
     if (raw.name.empty() && raw.unit.empty()) continue;
-    const auto alike = std::count_if(table.columns.begin(), table.columns.end(),
-                                     [&](const auto& other) { return other.name == raw.name; });
     GuessedColumn column;
     column.name = raw.name;
-    if (alike > 1 || raw.name.empty()) column.number = i + 1;
+    if (alike[raw.name] > 1 || raw.name.empty()) column.number = i + 1;
     column.unit =
         raw.unit.empty() ? io::read_header_name(raw.name).unit : io::without_brackets(raw.unit);
     column.text = !is_number_column(raw);
     column.first_values = first_values(raw);
-    column.names = names_in(raw);
+    if (column.text) column.names = names_in(raw);
     columns.push_back(std::move(column));
   }
   name_columns(columns);
+  if (GuessedColumn* const tests = find_column(columns, "experiment"))
+    tests->names = names_in(raw_of(*tests, table));
   name_clock(columns, table);
   name_coefficient(columns, table);
   return columns;
@@ -562,9 +544,10 @@ void finish(GuessedFile& guess, const io::CsvTable& table) {
   guess.rows = each_row_is_a_test(guess, table);
 }
 
-std::string first_lines_of(const std::string& text, std::size_t lines) {
+// The lines before the `line`th, from 1.
+std::string_view lines_before(std::string_view text, std::size_t line) {
   std::size_t end = 0;
-  while (lines-- > 1 && end != text.npos)
+  while (line-- > 1 && end != text.npos)
     end = text.find('\n', end == 0 ? 0 : end + 1);
   return text.substr(0, end);
 }
@@ -582,7 +565,7 @@ double last_number(std::string line, char decimal) {
 
 // The area of contact in mm2 that a line of a preamble gives ("Area [mm2]: 78.5", "Kontaktfläche"
 // in any encoding); 0: none does.
-double area_in(const std::string& preamble, char decimal) {
+double area_in(std::string_view preamble, char decimal) {
   for (std::size_t begin = 0; begin < preamble.size();) {
     const std::size_t end = std::min(preamble.find('\n', begin), preamble.size());
     const std::string line = lower_case(preamble.substr(begin, end - begin));
@@ -594,7 +577,7 @@ double area_in(const std::string& preamble, char decimal) {
 }
 
 // Guesses from a text; `cells`: the sheet of a workbook that it is from, or nullptr.
-GuessedFile guess_text(const std::string& text, const std::string& named, const io::Sheet* cells) {
+GuessedFile guess_text(std::string_view text, const std::string& named, const io::Sheet* cells) {
   GuessedFile guess;
   guess.file = named;
   Dialects dialects(text, named, cells != nullptr);
@@ -611,7 +594,7 @@ GuessedFile guess_text(const std::string& text, const std::string& named, const 
   guess.columns = columns_of(table);
   if (!is_found_by_names(text, guess, table, dialects.best))
     guess.skip_rows = dialects.best.skip_rows;
-  guess.area_mm2 = area_in(first_lines_of(text, table.header_line), guess.decimal);
+  guess.area_mm2 = area_in(lines_before(text, table.header_line), guess.decimal);
   finish(guess, table);
   return guess;
 }
@@ -647,8 +630,10 @@ std::vector<GuessedFile> guess_workbook(const std::string& path, const std::stri
 
 std::vector<GuessedFile> guess_file(const std::string& path, const std::string& named) {
   if (io::looks_like_workbook(path)) return guess_workbook(path, named);
-  if (!is_rig_file(path) && !io::looks_like_hdf5(path))
-    return {guess_text(head_of(io::read_text_file(path, named)), named, nullptr)};
+  if (!is_rig_file(path) && !io::looks_like_hdf5(path)) {
+    const std::string text = io::read_text_file(path, named);
+    return {guess_text(head_of(text), named, nullptr)};
+  }
   FaultList faults;
   const io::CsvTable table = read_raw(path, named, {}, faults);
   GuessedFile guess;
@@ -692,7 +677,7 @@ std::optional<GuessedFile> take_table_of_tests(std::vector<GuessedFile>& files) 
   for (std::size_t i = 0; i < files.size(); ++i)
     for (std::size_t c = 0; c < files[i].columns.size(); ++c) {
       const GuessedColumn& column = files[i].columns[c];
-      if (!column.text && column.canonical != "experiment") continue;
+      if (column.names.empty()) continue;
       const std::size_t found = labels_among(column.names, i, files);
       const bool by_name = found >= 2 && 2 * found >= files.size() - 1;
       if (!by_name && (files.size() < 3 || !are_numbered_alike(column.names, i, files))) continue;

@@ -15,8 +15,9 @@ struct GuessedColumn {
   std::string canonical;    // a quantity, or experiment; else empty
   bool coefficient = false; // of friction: tau_R_MPa is this times sigma_n_MPa
   bool text = false;
-  std::string first_values;       // "812.3, 813.1, 815"
-  std::vector<std::string> names; // the cells as texts, if all of them differ
+  std::string first_values; // "812.3, 813.1, 815"
+  // The cells of a column that may name tests, as texts, if all of them differ.
+  std::vector<std::string> names;
 };
 
 // A file, or one sheet of a workbook.

@@ -39,13 +39,6 @@ bool is_friction(const DataOptions& options, const std::string& column) {
   return false;
 }
 
-// The first lines of a text, enough for a header and some rows.
-std::string_view head_lines(std::string_view text) {
-  constexpr std::size_t bytes_looked_at = 65536;
-  if (text.size() <= bytes_looked_at) return text;
-  return text.substr(0, text.rfind('\n', bytes_looked_at) + 1);
-}
-
 SheetLook look_at(const io::Workbook& book, const std::string& sheet, const std::string& named,
                   const DataOptions& options, const io::CsvFormat& format) {
   SheetLook look;
@@ -54,7 +47,7 @@ SheetLook look_at(const io::Workbook& book, const std::string& sheet, const std:
   io::CsvTable table;
   FaultList ragged;
   try {
-    table = io::parse_csv(head_lines(cells.text), named, format, ragged);
+    table = io::parse_csv(head_of(cells.text), named, format, ragged);
   } catch (const InputError&) { // a cover, a picture, remarks
     return look;
   }
@@ -62,11 +55,7 @@ SheetLook look_at(const io::Workbook& book, const std::string& sheet, const std:
   for (const io::CsvColumn& column : table.columns) {
     const std::string bare = io::read_header_name(column.name).name;
     look.columns.insert({column.name, bare});
-    const auto is_wanted = [&](const std::string& name) {
-      return !name.empty() && (std::count(format.wanted.begin(), format.wanted.end(), name) > 0 ||
-                               !computed_from(options, name).empty());
-    };
-    look.wanted += is_wanted(column.name) || is_wanted(bare);
+    look.wanted += io::is_wanted(column.name, format);
     look.friction =
         look.friction || is_friction(options, column.name) || is_friction(options, bare);
   }

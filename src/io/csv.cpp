@@ -364,7 +364,6 @@ public:
 
   // True for a line that begins or ends a run, or stands between two of them.
   bool passes(std::string_view line) {
-    if (!rules_) return false;
     const std::string text(line.substr(0, line.find('\r')));
     if (auto groups = rules_->begins.search(text)) {
       groups_.push_back(std::move(*groups));
@@ -434,7 +433,7 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
       delimiters_alone += scanner.take_line().find_first_of(",;|") != std::string_view::npos;
       continue;
     }
-    if (segments.passes(line_at(text, scanner.position()))) {
+    if (segments.are_cut() && segments.passes(line_at(text, scanner.position()))) {
       scanner.take_line();
       continue;
     }
@@ -534,14 +533,6 @@ void read_units(CsvTable& table, Scanner& scanner, std::string_view text, FaultL
                                                   units.size(), table.columns.size()));
   for (std::size_t i = 0; i < std::min(units.size(), table.columns.size()); ++i)
     table.columns[i].unit = to_utf8(units[i]);
-}
-
-// True if a header cell is one of the names, with or without a unit.
-bool is_wanted(const std::string& cell, const CsvFormat& format) {
-  if (format.also_wanted && format.also_wanted(cell)) return true;
-  const std::string name = read_header_name(cell).name;
-  return std::any_of(format.wanted.begin(), format.wanted.end(),
-                     [&](const std::string& wanted) { return wanted == cell || wanted == name; });
 }
 
 // Number of wanted names in a line, for the delimiter that gives the most.
@@ -956,6 +947,24 @@ std::string without_brackets(std::string unit) {
       std::string("])").find(unit.back()) != std::string::npos)
     return unit.substr(1, unit.size() - 2);
   return unit;
+}
+
+std::vector<std::string> cells_of_line(std::string_view line, const CsvFormat& format) {
+  line = trim(line);
+  if (line.empty()) return {};
+  Scanner scanner(line,
+                  format.delimiter ? format.delimiter : find_delimiter(line, "", format.decimal));
+  std::vector<std::string> cells = read_names(scanner);
+  for (std::string& cell : cells)
+    cell = to_utf8(cell);
+  return cells;
+}
+
+bool is_wanted(const std::string& cell, const CsvFormat& format) {
+  if (format.also_wanted && format.also_wanted(cell)) return true;
+  const std::string name = read_header_name(cell).name;
+  return std::any_of(format.wanted.begin(), format.wanted.end(),
+                     [&](const std::string& wanted) { return wanted == cell || wanted == name; });
 }
 
 std::string csv_cell(const std::string& text) {

@@ -179,6 +179,12 @@ HeaderName split_header_name(const std::string& text);
 // Strips the brackets of a units row: "[kN]" and "(kN)" give kN.
 std::string without_brackets(std::string unit);
 
+// The cells of one line, trimmed, in UTF-8; the delimiter is found in it if the format has none.
+std::vector<std::string> cells_of_line(std::string_view line, const CsvFormat& format);
+
+// True if a header cell is one of the names that identify the header, with or without its unit.
+bool is_wanted(const std::string& cell, const CsvFormat& format);
+
 // Text as a cell of a comma-separated file, quoted if necessary.
 std::string csv_cell(const std::string& text);
 

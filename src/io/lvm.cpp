@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -13,6 +12,7 @@
 #include "core/no_value.h"
 #include "core/text.h"
 #include "io/number.h"
+#include "io/text_file.h"
 
 namespace frictab::io::lvm {
 
@@ -383,11 +383,8 @@ private:
 namespace frictab::io {
 
 bool looks_like_lvm(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
   using lvm::byte_order_mark, lvm::signature;
-  std::string start(byte_order_mark.size() + signature.size(), '\0');
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(in.gcount()));
+  const std::string start = first_bytes(file, byte_order_mark.size() + signature.size());
   std::string_view text = start;
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   return text.starts_with(signature);

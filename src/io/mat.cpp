@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <mutex>
 
 #include "core/error.h"
@@ -139,19 +138,11 @@ private:
   std::uint64_t most_;
 };
 
-// First bytes of a file.
-std::string head_of(const std::filesystem::path& file) {
-  constexpr std::size_t header = 128;
-  std::string head(header, '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(head.data(), header);
-  head.resize(static_cast<std::size_t>(in.gcount()));
-  return head;
-}
-
 // Versions 5 to 7, and 7.3.
-bool has_mat_header(const std::string& head) {
-  return head.size() == 128 &&
+bool has_mat_header(const std::filesystem::path& file) {
+  constexpr std::size_t size = 128;
+  const std::string head = first_bytes(file, size);
+  return head.size() == size &&
          (head.ends_with("\x01IM") || head.ends_with("\x02IM") ||
           head.ends_with(std::string("\x01\0MI", 4)) || head.ends_with(std::string("\x02\0MI", 4)));
 }
@@ -186,7 +177,7 @@ bool take_groups(os::ByteSource& in, std::uint64_t file_bytes, ColumnGroups& all
 }
 
 bool looks_like_mat(const std::filesystem::path& file) {
-  if (mat::has_mat_header(mat::head_of(file))) return true;
+  if (mat::has_mat_header(file)) return true;
   return lower_case(file.extension().string()) == ".mat" && !looks_like_hdf5(file);
 }
 

@@ -673,11 +673,8 @@ private:
 namespace frictab::io {
 
 bool looks_like_tdms(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  char magic[4] = {};
-  in.read(magic, sizeof magic);
-  const std::string_view start(magic, sizeof magic);
-  return in.gcount() == 4 && (start == "TDSm" || start == "TDSh");
+  const std::string start = first_bytes(file, 4);
+  return start == "TDSm" || start == "TDSh";
 }
 
 ColumnGroups read_tdms(const std::filesystem::path& file, const std::string& named) {

@@ -60,6 +60,14 @@ std::ifstream open_text_file(const fs::path& file, const std::string& named) {
   return in;
 }
 
+std::string first_bytes(const std::filesystem::path& file, std::size_t count) {
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes(count, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
 std::string read_text_file(const fs::path& file, const std::string& named,
                            const TextLimits& limits) {
   std::ifstream in = open_text_file(file, named);

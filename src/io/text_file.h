@@ -17,6 +17,9 @@ struct TextLimits {
 // Throws InputError if it cannot be opened.
 std::ifstream open_text_file(const std::filesystem::path& file, const std::string& named);
 
+// The first bytes of any file, fewer if it is shorter or cannot be read: its signature.
+std::string first_bytes(const std::filesystem::path& file, std::size_t count);
+
 // Throws InputError, with the file's name in messages (`named`), if the file cannot be read,
 // contains a 0 byte (UTF-16 with a BOM may), or exceeds the limits; it stops at the block that
 // shows the fault.

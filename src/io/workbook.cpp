@@ -2,10 +2,8 @@
 #include "io/workbook.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -18,6 +16,7 @@
 #include "io/csv.h"
 #include "io/number.h"
 #include "io/number_format.h"
+#include "io/text_file.h"
 #include "io/zip_archive.h"
 
 namespace frictab::io {
@@ -352,21 +351,15 @@ namespace {
 
 constexpr std::string_view archive_sign = "PK\x03\x04", old_sign = "\xD0\xCF\x11\xE0\xA1\xB1";
 
-bool starts_with(const std::filesystem::path& path, std::string_view sign) {
-  std::array<char, 8> first{};
-  std::ifstream in(path, std::ios::binary);
-  in.read(first.data(), static_cast<std::streamsize>(sign.size()));
-  return in && std::string_view(first.data(), sign.size()) == sign;
-}
-
 } // namespace
 
 bool looks_like_workbook(const std::filesystem::path& path) {
-  return starts_with(path, archive_sign) || starts_with(path, old_sign);
+  const std::string start = first_bytes(path, old_sign.size());
+  return start.starts_with(archive_sign) || start == old_sign;
 }
 
 Workbook::Workbook(const std::filesystem::path& path, const std::string& named) {
-  if (starts_with(path, old_sign))
+  if (first_bytes(path, old_sign.size()) == old_sign)
     throw InputError({named, 0, 0}, "is an old workbook (.xls), or one with a password",
                      "File, Save as, Excel workbook (.xlsx), without a password");
   *this = Workbook([archive = std::make_shared<ZipArchive>(path, named)](

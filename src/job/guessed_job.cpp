@@ -33,6 +33,14 @@ std::string shown(const std::string& text) {
   return out;
 }
 
+// One text, or a list of texts.
+std::string toml_texts(const std::vector<std::string>& texts) {
+  std::vector<std::string> quoted;
+  for (const std::string& text : texts)
+    quoted.push_back(toml_quoted(text));
+  return quoted.size() == 1 ? quoted[0] : "[" + join(quoted, ", ") + "]";
+}
+
 std::string dialect_lines(const GuessedFile& file) {
   std::string out;
   if (file.decimal != '.')
@@ -166,15 +174,11 @@ private:
   }
 
   void add_head() {
-    std::vector<std::string> quoted;
-    for (const std::string& name : training_)
-      quoted.push_back(toml_quoted(name));
-    const std::string list = quoted.size() == 1 ? quoted[0] : "[" + join(quoted, ", ") + "]";
     out_.text =
         "# Guessed from the files; every line may be wrong. frictab data shows what is read "
         "with it,\n# frictab explain job what else there is.\n\n[data]\n";
     const char* const noun = most_.sheet.empty() ? "file" : "sheet";
-    out_.text += line("training = " + list,
+    out_.text += line("training = " + toml_texts(training_),
                       fmt::format("{} {}{}", files_.size(), noun, files_.size() == 1 ? "" : "s"));
     add_sheets();
     out_.text += dialect_lines(most_);
@@ -183,16 +187,12 @@ private:
   }
 
   void add_sheets() {
-    std::vector<std::string> quoted;
-    for (const std::string& name : campaign_.sheets)
-      quoted.push_back(toml_quoted(name));
     const std::string passed =
         campaign_.passed.empty() ? "" : "not read: " + shown(join(campaign_.passed, ", "));
-    if (quoted.empty())
-      out_.text += passed.empty() ? "" : "# " + passed + "\n";
-    else
-      out_.text += line(
-          "sheet = " + (quoted.size() == 1 ? quoted[0] : "[" + join(quoted, ", ") + "]"), passed);
+    if (!campaign_.sheets.empty())
+      out_.text += line("sheet = " + toml_texts(campaign_.sheets), passed);
+    else if (!passed.empty())
+      out_.text += "# " + passed + "\n";
   }
 
   // A table with one row per test.
