@@ -112,7 +112,13 @@ struct Pictures {
   std::vector<Picture> pictures;
 };
 
-struct Block;
+// A Section holds Blocks, and a Block may be a Section. As a template this is complete only where
+// it is used, below Section: clang asks for a complete type already in the initializer of `blocks`.
+template <class S> struct BlockOf : std::variant<Paragraph, List, Code, Table, Pictures, S> {
+  using std::variant<Paragraph, List, Code, Table, Pictures, S>::variant;
+};
+struct Section;
+using Block = BlockOf<Section>;
 
 struct Section {
   std::string id = {};   // anchor in HTML; empty: none
@@ -128,10 +134,6 @@ struct Section {
   // The first table, and the nested sections in their order, to add to them.
   Table& table();
   std::vector<Section*> sections();
-};
-
-struct Block : std::variant<Paragraph, List, Code, Table, Pictures, Section> {
-  using variant::variant;
 };
 
 } // namespace frictab::words
