@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-from .faults import FrictabError
+from .faults import FrictabError, file_faults
 from .formula import Formula
 from .states import Input, States, sides, warn_outside
 
@@ -89,26 +89,25 @@ class Calibration:
         return f"<frictab calibration {self.source}: {', '.join(self.models)}>"
 
 
-def _read(path, kind):
+def _read(path, kind, make):
     path = os.fspath(path)
-    try:
+    with file_faults(path, f"a {kind}"):
         with open(path, encoding="utf-8") as file:
-            record = json.load(file)
+            try:
+                record = json.load(file)
+            except ValueError:
+                raise FrictabError("is no JSON file") from None
         schema = record.get("schema", "") if isinstance(record, dict) else ""
-    except FileNotFoundError:
-        raise FrictabError(f"{path}: no such file") from None
-    except (ValueError, OSError):
-        raise FrictabError(f"{path}: is no JSON file") from None
-    if schema != f"frictab/{kind}/1":
-        raise FrictabError(f"{path}: its schema is \"{schema}\", not \"frictab/{kind}/1\"")
-    return record, path
+        if schema != f"frictab/{kind}/1":
+            raise FrictabError(f"its schema is \"{schema}\", not \"frictab/{kind}/1\"")
+        return make(record, path)
 
 
 def read_model(path):
     """Reads models/NAME.json. Raises FrictabError where it is none."""
-    return Model(*_read(path, "model"))
+    return _read(path, "model", Model)
 
 
 def read_calibration(path):
     """Reads calibration.json. Raises FrictabError where it is none."""
-    return Calibration(*_read(path, "calibration"))
+    return _read(path, "calibration", Calibration)

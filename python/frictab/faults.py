@@ -1,4 +1,6 @@
 """What can be wrong with a file or a call, and what is said where states lie outside."""
+import os
+from contextlib import contextmanager
 
 
 class FrictabError(ValueError):
@@ -7,3 +9,20 @@ class FrictabError(ValueError):
 
 class OutsideWarning(UserWarning):
     """States lie beyond what a table or law was made for; the text counts them."""
+
+
+@contextmanager
+def file_faults(path, kind):
+    """Turns what a damaged or foreign file makes a library raise into a FrictabError."""
+    if not os.path.exists(path):
+        raise FrictabError(f"{path}: no such file")
+    if not os.path.isfile(path): # a pipe would be waited for
+        raise FrictabError(f"{path}: is no file")
+    try:
+        yield
+    except FrictabError as fault:
+        text = str(fault)
+        raise fault if path in text else FrictabError(f"{path}: {text}") from None
+    except Exception as fault:
+        raise FrictabError(f"{path}: cannot be read as {kind}: "
+                           f"{type(fault).__name__}: {fault}") from fault

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from .faults import FrictabError
+from .faults import FrictabError, file_faults
 from .formula import Formula
 from .spline import Cubic, Grid, Linear
 from .states import Input, States, sides, warn_outside
@@ -253,17 +253,37 @@ def open_table(path):
     """Reads a table file; frictab.open. Raises FrictabError where it is none."""
     import h5py
     path = os.fspath(path)
-    if not os.path.exists(path):
-        raise FrictabError(f"{path}: no such file")
-    try:
-        file = h5py.File(path, "r")
-    except OSError:
-        raise FrictabError(f"{path}: is no HDF5 file; a table is tables/NAME.h5 of a run") from None
-    with file:
+    with file_faults(path, "a friction table"):
         try:
+            file = h5py.File(path, "r")
+        except OSError:
+            raise FrictabError("is no HDF5 file; a table is tables/NAME.h5 of a run") from None
+        with file:
+            _check_in_itself(file, "", set())
             return _read(file, path)
-        except (OSError, RuntimeError, TypeError) as fault: # damaged, or of another kind
-            raise FrictabError(f"{path}: cannot be read: {fault}") from None
+
+
+def _check_in_itself(group, prefix, seen):
+    """Refuses values that lie in other files, before any is read."""
+    import h5py
+    seen.add(h5py.h5o.get_info(group.id).addr) # groups may hold each other
+    for name in group:
+        named, link = f"'{prefix}{name}'", group.get(name, getlink=True)
+        if isinstance(link, h5py.SoftLink): # ends in this file, or passes a link found below
+            continue
+        if not isinstance(link, h5py.HardLink):
+            raise FrictabError(f"{named} is a link into another file, which is not read")
+        item = group[name]
+        if isinstance(item, h5py.Group):
+            if h5py.h5o.get_info(item.id).addr not in seen:
+                _check_in_itself(item, f"{prefix}{name}/", seen)
+        elif isinstance(item, h5py.Dataset):
+            if item.external:
+                raise FrictabError(f"the values of {named} lie in another file, "
+                                   f"{item.external[0][0]}, which is not read")
+            if item.is_virtual:
+                raise FrictabError(f"{named} is a virtual dataset: its values lie in other files, "
+                                   "which are not read")
 
 
 def _read(file, path):

@@ -239,6 +239,11 @@ void describe_parameters(Fields& f, ModelFit& fit) {
   f.each("parameters", law.parameters.size(), [&](Fields& one, std::size_t p) {
     one.only_written("name", law.parameters[p].name);
     one.known("value", fit.model.parameters[p]);
+    if (one.reads() && fit.model.parameters[p] < 0 && law.parameters[p].lower >= 0)
+      throw InputError({one.file(), 0, 0},
+                       fmt::format("the parameter '{}' of law '{}' is {}, and is never below 0",
+                                   law.parameters[p].name, law.name, fit.model.parameters[p]),
+                       "calibrate again");
     one("std_error", fit.std_error[p]);
     one.only_written("unit", law.parameters[p].unit);
     one.only_written("meaning", law.parameters[p].meaning);

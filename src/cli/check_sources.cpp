@@ -2,19 +2,19 @@
 #include "cli/check_sources.h"
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/print.h"
 #include "codegen/recipe.h"
 #include "codegen/source_check.h"
 #include "core/error.h"
 #include "core/program.h"
 #include "core/text.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "io/json.h"
 
 namespace frictab::cli {
@@ -42,7 +42,7 @@ void write_stand_ins(const fs::path& recipe, const fs::path& directory) {
   if (includes == all.end()) return;
   for (const auto& [name, text] : includes->items())
     if (fs::path(name).filename() == name)
-      std::ofstream(directory / name, std::ios::binary) << text.get<std::string>();
+      io::write_file(directory / name, text.get<std::string>());
 }
 
 class Check {
@@ -68,13 +68,14 @@ public:
                            join(std::vector<std::string>(missing_.begin(), missing_.end()), "; ") +
                            " are not installed",
                        "Debian: apt-get install gfortran gcc");
-    if (compiled_ == 0) fmt::print("{}: nothing to compile\n", directory.string());
+    if (compiled_ == 0) print_out("{}: nothing to compile\n", directory.string());
     return 0;
   }
 
 private:
   void compile(const fs::path& recipe, const std::string& compiler, const std::string& name) {
     const TemporaryDirectory work;
+    const fs::path folder = fs::absolute(recipe).parent_path(); // the compiler runs elsewhere
     const fs::path source = recipe.parent_path() / name;
     io::read_file(source); // throws InputError if it is missing
     write_stand_ins(recipe, work.path());
@@ -82,11 +83,11 @@ private:
     command.insert(command.begin(), {compiler, "-c"});
     if (name.ends_with(".f90"))
       command.insert(command.end(), {compiler == "gfortran" ? "-J" : "-module", work.path()});
-    command.insert(command.end(), {"-I", recipe.parent_path(), "-I", work.path(), "-o",
-                                   work.path() / "checked.o", source});
+    command.insert(command.end(), {"-I", folder, "-I", work.path(), "-o", work.path() / "checked.o",
+                                   folder / name});
     std::string fault;
     try {
-      run_program(command, work.path() / "log");
+      run_program(command, work.path());
       ++compiled_;
     } catch (const std::runtime_error& error) {
       fault = error.what();

@@ -16,6 +16,7 @@
 #include "core/text.h"
 #include "core/text_table.h"
 #include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "io/json.h"
 #include "job/job.h"
 #include "table/table_file.h"

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <new>
@@ -19,6 +20,7 @@
 
 #include "cli/command.h"
 #include "cli/help_format.h"
+#include "cli/print.h"
 #include "core/error.h"
 #include "core/large_work.h"
 #include "core/os/machine.h"
@@ -167,28 +169,26 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, cha
     const std::vector<std::string> names = commands_of(group);
     if (names.empty()) break;
     if (std::find(names.begin(), names.end(), argv[i]) == names.end()) {
-      fmt::print(stderr, "error: unknown command '{}{}{}'\n  hint: {}\n", group,
-                 group.empty() ? "" : " ", printable(argv[i]), suggest(argv[i], names));
+      print_error("error: unknown command '{}{}{}'\n  hint: {}\n", group, group.empty() ? "" : " ",
+                  printable(argv[i]), suggest(argv[i], names));
       return 2;
     }
     group += (group.empty() ? "" : " ") + std::string(argv[i]);
   }
   if (argc == 1) {
-    fmt::print(stderr,
-               "error: no command is given\n"
-               "  hint: frictab help lists them; to begin: frictab init --from FILES makes a "
-               "job of data files,\n        frictab twin DIR a synthetic campaign with one\n");
+    print_error("error: no command is given\n"
+                "  hint: frictab help lists them; to begin: frictab init --from FILES makes a "
+                "job of data files,\n        frictab twin DIR a synthetic campaign with one\n");
     return 2;
   }
   const std::vector<std::string> below =
       group.empty() ? std::vector<std::string>() : commands_of(group);
   if (!below.empty() && error.get_name() == "RequiredError") {
-    fmt::print(stderr, "error: frictab {} needs a command\n  hint: one of {}\n", group,
-               join(below, ", "));
+    print_error("error: frictab {} needs a command\n  hint: one of {}\n", group, join(below, ", "));
     return 2;
   }
-  fmt::print(stderr, "error: {}\n  hint: run `frictab {}{}--help`\n", printable(error.what()),
-             group, group.empty() ? "" : " ");
+  print_error("error: {}\n  hint: run `frictab {}{}--help`\n", printable(error.what()), group,
+              group.empty() ? "" : " ");
   return 2;
 }
 
@@ -197,11 +197,11 @@ int finish(int exit_code) {
   std::cout.flush();
   errno = 0;
   if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return exit_code;
-  const int why = errno; // 0 if an earlier write failed
-  fmt::print(stderr,
-             "error: what was to be printed cannot be written{}\n  hint: is the disk full, "
-             "or the file or pipe of stdout closed?\n",
-             why == 0 ? "" : std::string(": ") + std::strerror(why));
+  const int why = errno;                           // 0 if an earlier write failed
+  if (os::nobody_reads_stdout()) return exit_code; // as in `frictab list | head -1`
+  print_error("error: what was to be printed cannot be written{}\n  hint: is the disk full, "
+              "or the file or pipe of stdout closed?\n",
+              why == 0 ? "" : std::string(": ") + std::strerror(why));
   return 3;
 }
 
@@ -233,25 +233,28 @@ int print_exception() {
   try {
     throw;
   } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    print_error("{}\n", error.what());
     return 2;
+  } catch (const std::filesystem::filesystem_error& error) {
+    const std::string path = printable(error.path1().string());
+    print_error("{}: error: {}\n", path, error.code().message());
+    return is_fault_of_path(error.code()) ? 2 : 3;
   } catch (const OutOfMemory& error) {
-    fmt::print(stderr, "error: {}\n  hint: {}\n", printable(error.what()), error.hint());
+    print_error("error: {}\n  hint: {}\n", printable(error.what()), error.hint());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "error: out of memory\n  hint: fewer nodes, or a smaller file\n");
+    print_error("error: out of memory\n  hint: fewer nodes, or a smaller file\n");
   } catch (const std::exception& error) {
-    if (!std::ferror(stdout)) // otherwise finish reports the error
-      fmt::print(stderr, "error: {}\n", printable(error.what()));
+    print_error("error: {}\n", printable(error.what()));
   }
   return 3;
 }
 
 void show(const std::string& text) {
-  fmt::print("{}", printable(text));
+  print_out("{}", printable(text));
 }
 
 void note(const CommonOptions& common, const std::string& line) {
-  if (!common.quiet) fmt::print(stderr, "{}\n", printable(line));
+  if (!common.quiet) print_error("{}\n", printable(line));
 }
 
 void commit(io::OutputFiles& files, const std::string& directory, const CommonOptions& common) {
@@ -259,6 +262,16 @@ void commit(io::OutputFiles& files, const std::string& directory, const CommonOp
     throw InputError({directory, 0, 0}, "has other files of these names already",
                      "name another directory, or --force to replace them");
   files.commit();
+}
+
+int check_stack() {
+  constexpr double least = 1 << 20; // of what threads get as well; the usual is eight times that
+  const double stack = os::stack_limit();
+  if (stack >= least) return 0;
+  print_error("error: the stack is limited to {}, and at least {} are needed\n"
+              "  hint: raise it in this shell: ulimit -s 8192\n",
+              human_bytes(stack), human_bytes(least));
+  return 3;
 }
 
 int run_command_line(int argc, char** argv) {

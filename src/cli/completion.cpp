@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/command_tree.h"
+#include "cli/print.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -241,11 +242,11 @@ int run(const CLI::App& app, const std::string& shell) {
   const CommandText root = command_tree(app);
   const std::vector<const CommandText*> commands = all_commands(root);
   if (shell == "bash")
-    fmt::print("{}", bash(commands));
+    print_out("{}", bash(commands));
   else if (shell == "zsh")
-    fmt::print("{}", zsh(commands));
+    print_out("{}", zsh(commands));
   else if (shell == "fish")
-    fmt::print("{}", fish(commands));
+    print_out("{}", fish(commands));
   else
     throw InputError({}, fmt::format("there is no completion for '{}'", shell),
                      "frictab completion bash, zsh or fish");

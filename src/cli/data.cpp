@@ -7,6 +7,7 @@
 
 #include "calibrate/calibration.h"
 #include "cli/job_commands.h"
+#include "cli/print.h"
 #include "core/text.h"
 #include "data/first_lines.h"
 #include "data/write_dataset.h"
@@ -39,8 +40,7 @@ run::JobData loaded(const job::Job& job, FaultList& implausible) {
       const bool is_cell = fault.place.column > 0;
       const std::string lines = is_cell ? "" : data::first_lines(fault.place.file, job.data);
       if (lines.empty()) continue;
-      std::fputs(fmt::format("{} begins so:\n{}", printable(fault.place.file), lines).c_str(),
-                 stderr);
+      print_error("{} begins so:\n{}", printable(fault.place.file), lines);
       break;
     }
     throw;

@@ -6,19 +6,20 @@
 #include <thread>
 
 #include <CLI/CLI.hpp>
-#include <Eigen/Core>
 #include <fmt/format.h>
-#include <hdf5.h>
 #include <nlohmann/json.hpp>
-#include <nlopt.h>
 
 #include "cli/command.h"
+#include "cli/library_versions.h"
+#include "cli/print.h"
 #include "codegen/exporter.h"
 #include "core/os/files.h"
+#include "core/os/library.h"
 #include "core/os/process.h"
 #include "core/program.h"
 #include "core/text.h"
 #include "core/version.h"
+#include "core/wrapped.h"
 #include "models/law.h"
 
 namespace frictab::cli::doctor_command {
@@ -36,6 +37,7 @@ struct Finding {
   bool needed = true; // a failure where it is missing
   std::string text;
   std::string mend;
+  bool in_text = true; // false: in JSON alone
 };
 
 struct Compiler {
@@ -60,18 +62,19 @@ std::string package_of(const std::string& program) {
 }
 
 void add_libraries(std::vector<Finding>& out) {
-  unsigned major = 0, minor = 0, release = 0;
-  H5get_libversion(&major, &minor, &release);
-  int nlopt_major = 0, nlopt_minor = 0, nlopt_bugfix = 0;
-  nlopt_version(&nlopt_major, &nlopt_minor, &nlopt_bugfix);
-  const auto add = [&](const char* name, const std::string& version) {
-    out.push_back({"library", name, true, true, version, ""});
-  };
-  add("frictab", tool_version());
-  add("HDF5", fmt::format("{}.{}.{}", major, minor, release));
-  add("NLopt", fmt::format("{}.{}.{}", nlopt_major, nlopt_minor, nlopt_bugfix));
-  add("Eigen",
-      fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
+  out.push_back({"library", "frictab", true, true, tool_version(), ""});
+  std::vector<std::string> versions;
+  for (const auto& [name, version] : library_versions()) {
+    out.push_back({"library", name, true, true, version, "", false});
+    versions.push_back(name + " " + version);
+  }
+  const std::vector<os::LoadedLibrary> loaded = os::loaded_libraries();
+  for (const os::LoadedLibrary& library : loaded)
+    out.push_back({"library", library.name, true, true, library.file.string(), "", false});
+  out.push_back({"library", "libraries", true, true,
+                 fmt::format("{} shared ones are loaded (--json lists them); {}", loaded.size(),
+                             join(versions, ", ")),
+                 ""});
 }
 
 void add_compilers(std::vector<Finding>& out) {
@@ -153,14 +156,17 @@ const char* mark_of(const Finding& finding) {
 void print_text(const std::vector<Finding>& findings) {
   std::size_t width = 0;
   for (const Finding& finding : findings)
-    width = std::max(width, finding.name.size());
+    if (finding.in_text) width = std::max(width, finding.name.size());
+  const std::size_t indent = 2 + 7 + 2 + width + 2;
   std::string topic;
   for (const Finding& finding : findings) {
-    if (finding.topic != topic) fmt::print("{}{}\n", topic.empty() ? "" : "\n", finding.topic);
+    if (!finding.in_text) continue;
+    if (finding.topic != topic) print_out("{}{}\n", topic.empty() ? "" : "\n", finding.topic);
     topic = finding.topic;
-    fmt::print("  {:<7}  {:<{}}  {}\n", mark_of(finding), finding.name, width, finding.text);
+    print_out("  {:<7}  {:<{}}  {}\n", mark_of(finding), finding.name, width,
+              wrapped(finding.text, page_width, indent));
     if (!finding.mend.empty())
-      fmt::print("  {:<7}  {:<{}}  mend: {}\n", "", "", width, finding.mend);
+      print_out("  {:<7}  {:<{}}  mend: {}\n", "", "", width, finding.mend);
   }
 }
 
@@ -173,7 +179,7 @@ void print_json(const std::vector<Finding>& findings) {
                     {"needed", f.needed},
                     {"text", f.text},
                     {"mend", f.mend}});
-  fmt::print("{}\n", list.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  print_out("{}\n", list.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 int run(const CommonOptions& common) {

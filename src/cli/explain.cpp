@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/explanation.h"
 #include "cli/job_commands.h"
+#include "cli/print.h"
 #include "cli/printed_explanation.h"
 #include "cli/topics.h"
 #include "core/error.h"
@@ -36,7 +37,7 @@ void print_json(const Explanation& it) {
     entry.update(json_of(item.fields));
     out[it.items_label].push_back(std::move(entry));
   }
-  fmt::print("{}\n", out.dump(2));
+  print_out("{}\n", out.dump(2));
 }
 
 // Explains a law of the named job, or of job.toml in this directory.
@@ -55,7 +56,7 @@ int print_toml(const std::string& name) {
   if (text.empty())
     throw InputError({"--toml"}, fmt::format("'{}' is not a law of the literature", name),
                      "`frictab list models` names them");
-  fmt::print("{}", text);
+  print_out("{}", text);
   return 0;
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/print.h"
 #include "cli/printed_explanation.h"
 #include "cli/topics.h"
 #include "core/error.h"
@@ -38,9 +39,9 @@ int run(const CLI::App& root, const std::vector<std::string>& words) {
   }
   // App::help() would print help for the subcommand that was called, which for the root is this
   // one.
-  fmt::print("{}",
-             at->get_formatter()->make_help(at, (above.empty() ? "" : above + " ") + at->get_name(),
-                                            CLI::AppFormatMode::Normal));
+  print_out("{}",
+            at->get_formatter()->make_help(at, (above.empty() ? "" : above + " ") + at->get_name(),
+                                           CLI::AppFormatMode::Normal));
   return 0;
 }
 

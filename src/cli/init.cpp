@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/print.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "data/file_list.h"
@@ -48,7 +49,7 @@ int init_empty(const Options& options, const CommonOptions& common) {
                      "frictab init DIR, or frictab init --from FILES");
   write_job(options.directory, common.force, job::job_template());
   const std::string file = (fs::path(options.directory) / "job.toml").string();
-  fmt::print("{}\n", file);
+  print_out("{}\n", file);
   note(common, fmt::format("next: put the tribometer data next to it, set data.training, then: "
                            "frictab run {}\n(no data yet? frictab twin DIR makes a synthetic "
                            "campaign; data files there? frictab init DIR --from FILES)",
@@ -156,7 +157,7 @@ int init_from(const Options& options, const CommonOptions& common) {
   const job::GuessedJob guessed = guess_from(options, files, directory, passed);
   write_job(directory, common.force, guessed.text);
   const std::string file = (fs::path(directory) / "job.toml").lexically_normal().string();
-  fmt::print("{}\n", file);
+  print_out("{}\n", file);
   std::fflush(stdout); // stdout before the lines to stderr
   for (const std::string& line : passed)
     note(common, line);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/print.h"
 #include "codegen/exporter.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -73,16 +74,16 @@ void print(const std::vector<Line>& lines) {
   bool by_name = false;
   for (const Line& line : lines) {
     if (line.by_name && !by_name)
-      fmt::print("\nwhere models.use names them, as [\"all\", \"{}\"]:\n", line.name);
+      print_out("\nwhere models.use names them, as [\"all\", \"{}\"]:\n", line.name);
     by_name = line.by_name;
-    fmt::print("{:<{}}  {}\n", line.name, width, wrapped(line.title, page_width, width + 2));
+    print_out("{:<{}}  {}\n", line.name, width, wrapped(line.title, page_width, width + 2));
   }
 }
 
 int run(const std::string& what, const CommonOptions& common) {
   if (!what.empty()) {
     const std::vector<Line> lines = lines_of(what);
-    common.json ? fmt::print("{}\n", json_of(lines).dump(2)) : print(lines);
+    common.json ? print_out("{}\n", json_of(lines).dump(2)) : print(lines);
     return 0;
   }
   nlohmann::ordered_json all;
@@ -90,10 +91,10 @@ int run(const std::string& what, const CommonOptions& common) {
     const std::vector<Line> lines = lines_of(name);
     all[name] = json_of(lines);
     if (common.json) continue;
-    fmt::print("{}{} (frictab list {}):\n", name == lists().front() ? "" : "\n", name, name);
+    print_out("{}{} (frictab list {}):\n", name == lists().front() ? "" : "\n", name, name);
     print(lines);
   }
-  if (common.json) fmt::print("{}\n", all.dump(2));
+  if (common.json) print_out("{}\n", all.dump(2));
   return 0;
 }
 

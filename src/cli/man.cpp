@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/command_tree.h"
+#include "cli/print.h"
 #include "cli/topics.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -126,7 +127,7 @@ int run(const CommandText& root, const std::vector<std::string>& words,
   for (const CommandText* command : commands) {
     known.push_back(command->name);
     if (command->name != name) continue;
-    fmt::print("{}", page_of(*command));
+    print_out("{}", page_of(*command));
     return 0;
   }
   throw InputError({}, fmt::format("there is no command '{}'", name), suggest(name, known));

@@ -2,9 +2,9 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "cli/job_commands.h"
+#include "cli/print.h"
 #include "cli/table_command.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -47,7 +47,7 @@ int predict(const Options& options, const CommonOptions& common) {
   if (common.json)
     show(run::prediction_json(prediction));
   else if (!common.quiet)
-    fmt::print(stderr, "{}", printable(run::prediction_text(prediction)));
+    print_error("{}", printable(run::prediction_text(prediction)));
   return 0;
 }
 

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "cli/print.h"
 #include "core/wrapped.h"
 
 namespace frictab::cli {
@@ -21,18 +20,18 @@ void print_fields(const Fields& fields, std::size_t indent) {
     width = std::max(width, label.size());
   for (const auto& [label, text] : fields)
     if (!text.empty())
-      fmt::print("{:{}}{:<{}}  {}\n", "", indent, label + ":", width + 1,
-                 wrapped(text, page_width, indent + width + 3));
+      print_out("{:{}}{:<{}}  {}\n", "", indent, label + ":", width + 1,
+                wrapped(text, page_width, indent + width + 3));
 }
 
 } // namespace
 
 void print_explanation(const Explanation& it) {
-  fmt::print("{} ({})\n  {}\n", it.name, it.kind, wrapped(it.title, page_width, 2));
+  print_out("{} ({})\n  {}\n", it.name, it.kind, wrapped(it.title, page_width, 2));
   print_fields(it.fields, 2);
-  if (!it.items.empty()) fmt::print("  {}:\n", it.items_label);
+  if (!it.items.empty()) print_out("  {}:\n", it.items_label);
   for (const Explanation::Item& item : it.items) {
-    fmt::print("    {}\n      {}\n", item.name, wrapped(item.text, page_width, 6));
+    print_out("    {}\n      {}\n", item.name, wrapped(item.text, page_width, 6));
     print_fields(item.fields, 6);
   }
 }

@@ -1,8 +1,8 @@
 // frictab schema: the keys of the job file for editors.
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/print.h"
 #include "job/json_schema.h"
 
 namespace frictab::cli::schema_command {
@@ -11,7 +11,7 @@ namespace {
 
 std::function<int()> declare(CLI::App&, const CommonOptions&) {
   return [] {
-    fmt::print("{}", job::json_schema());
+    print_out("{}", job::json_schema());
     return 0;
   };
 }

@@ -3,8 +3,7 @@
 
 #include <filesystem>
 
-#include <fmt/format.h>
-
+#include "cli/print.h"
 #include "core/error.h"
 
 namespace frictab::cli {
@@ -25,7 +24,7 @@ void commit_and_list(io::OutputFiles& output, const CommonOptions& common) {
   const std::vector<std::string> files = output.paths();
   commit(output, common.output, common);
   for (const std::string& file : files)
-    fmt::print("{}\n", (std::filesystem::path(common.output) / file).string());
+    print_out("{}\n", (std::filesystem::path(common.output) / file).string());
 }
 
 } // namespace frictab::cli

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/job_commands.h"
+#include "core/os/files.h"
 #include "io/atomic_file.h"
 #include "io/json.h"
 #include "run/job_data.h"
@@ -25,9 +26,8 @@ struct StageStatus {
 // Returns the first law that table.model names and that has no table.
 std::string law_without_table(const job::Job& job) {
   std::vector<std::string> tables;
-  std::error_code none; // no directory: no tables
-  for (const auto& file : std::filesystem::directory_iterator(job.directory + "/tables", none))
-    tables.push_back(file.path().stem().string());
+  for (const std::filesystem::path& file : os::entries_of(job.directory + "/tables"))
+    tables.push_back(file.stem().string());
   for (const std::string& law : job.table.model)
     if (std::none_of(tables.begin(), tables.end(), [&](const std::string& table) {
           return table == law || table.starts_with(law + "_q"); // table of a quantile
@@ -82,6 +82,18 @@ std::string next_command(const std::vector<StageStatus>& all, const job::Job& jo
   return fmt::format("frictab {} {}", open.size() == 1 ? open.front() : "run", job.arguments());
 }
 
+// Compares every file with the hash that its stage stored.
+int check(const job::Job& job, const CommonOptions& common) {
+  io::finish_interrupted(job.directory);
+  const std::vector<std::string> differences = run::differences_in(job.directory);
+  if (common.json)
+    show(io::json_text({{"directory", job.directory}, {"differences", differences}}));
+  for (const std::string& line : differences)
+    if (!common.json) show(line + "\n");
+  if (!common.json && differences.empty()) show("all files are as they were written\n");
+  return differences.empty() ? 0 : 1;
+}
+
 int run(const std::string& file, const CommonOptions& common) {
   const job::Job job = read_job(file, common);
   const std::vector<StageStatus> all = status_of(job);
@@ -101,8 +113,14 @@ int run(const std::string& file, const CommonOptions& common) {
 
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   const auto file = std::make_shared<std::string>();
+  const auto checks = std::make_shared<bool>(false);
   add_job(app, *file);
-  return [file, &common] { return run(job_file(*file), common); };
+  app.add_flag("--check", *checks,
+               "Compare all files with the hashes they were stored with; exit 1 where one differs");
+  return [file, checks, &common] {
+    return *checks ? check(read_job(job_file(*file), common), common)
+                   : run(job_file(*file), common);
+  };
 }
 
 const Registered<Command> registered{[] {
@@ -112,6 +130,7 @@ const Registered<Command> registered{[] {
                  declare,
                  uses_output | uses_threads | uses_json | uses_seed | uses_set,
                  {{"frictab status", "of job.toml in this folder"},
+                  {"frictab status --check", "are all files as they were written?"},
                   {"frictab status job.toml --json", "for a script"}}};
 }};
 

@@ -7,10 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/print.h"
 #include "core/error.h"
 #include "core/shard.h"
 #include "core/text.h"
 #include "io/json.h"
+#include "study/check_study.h"
 #include "study/plan.h"
 #include "study/report_study.h"
 #include "study/run_study.h"
@@ -80,11 +82,10 @@ int run(const Options& options, const CommonOptions& common) {
   const study::RunCounts counts = run_study(plan, {shard, options.retry});
   tell(counts, common);
   if (counts.failed > 0 && !options.failures_ok) {
-    fmt::print(stderr,
-               "error: {} failed\n  hint: `frictab study status {}` says why; with "
-               "--failures-ok they are left to the report\n",
-               counts.failed == 1 ? "1 campaign" : thousands(counts.failed) + " campaigns",
-               printable(plan.study.file));
+    print_error("error: {} failed\n  hint: `frictab study status {}` says why; with "
+                "--failures-ok they are left to the report\n",
+                counts.failed == 1 ? "1 campaign" : thousands(counts.failed) + " campaigns",
+                printable(plan.study.file));
     return counts.broken > 0 ? 3 : 2;
   }
   return counts.missed > 0 ? 1 : 0;
@@ -95,6 +96,22 @@ int report(const Options& options, const CommonOptions& common) {
   const study::Tally tally = report_study(plan);
   show(common.json ? report_json(plan, tally) : report_text(plan, tally));
   return 0;
+}
+
+int check(const Options& options, const CommonOptions& common) {
+  const study::Plan plan = read_plan(options, common);
+  const study::Found found(plan.study.directory);
+  const std::vector<std::string> lines = check_study(plan, found);
+  const study::Counts counts = counts_of(plan, found);
+  if (common.json)
+    show(io::json_text({{"schema", "frictab/study-check/1"},
+                        {"checked", counts.done + counts.damaged},
+                        {"differences", lines}}));
+  else
+    show(fmt::format("{}{} results checked, {}\n", join(lines, "\n") + (lines.empty() ? "" : "\n"),
+                     thousands(counts.done + counts.damaged),
+                     lines.empty() ? "all as they were written" : "not all as they were written"));
+  return lines.empty() ? 0 : 1;
 }
 
 // Declares "frictab study NAME STUDY" with the options that all of them have.
@@ -149,6 +166,14 @@ const Registered<Command> status_command{[] {
                  study_uses,
                  {{"frictab study status study.toml", "with the first failures"},
                   {"frictab study status study.toml --json", "for a script"}}};
+}};
+const Registered<Command> check_command{[] {
+  return Command{"study check",
+                 19,
+                 "Compare all results with the hashes they were stored with",
+                 declare<check>,
+                 study_uses,
+                 {{"frictab study check study.toml", "exit 1 where something is off"}}};
 }};
 const Registered<Command> report_command{[] {
   return Command{"study report",

@@ -1,5 +1,4 @@
 // frictab table: the group of commands that inspect table files.
-#include <fstream>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -8,6 +7,7 @@
 #include "cli/table_command.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/file_streams.h"
 
 namespace frictab::cli {
 
@@ -27,10 +27,9 @@ void write_result(const CommonOptions& common, const std::function<void(std::ost
   io::OutputFiles output(file.has_parent_path() ? file.parent_path() : fs::path("."),
                          io::OutputFiles::Claim::one_file);
   const std::string name = file.filename().string();
-  std::ofstream out(output.stage(name), std::ios::binary);
+  io::OutputFile out(output.stage(name));
   write(out);
-  out.close();
-  if (!out) throw std::runtime_error("cannot write " + file.string());
+  out.finish();
   if (!common.force && output.would_change())
     throw InputError({file.string(), 0, 0}, "is there already",
                      "name another file, or --force to replace it");

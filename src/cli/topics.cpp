@@ -91,6 +91,19 @@ Explanation about_rules() {
   return out;
 }
 
+Explanation about_compilers() {
+  return {"compilers",
+          "topic",
+          "programs that verify and export --check start: compilers, and interpreters of Lua",
+          {{"looked for", "in the folders of PATH that are absolute, not the working directory and "
+                          "not writable by everybody; frictab doctor shows what is found"},
+           {"time", "120 s each; FRICTAB_COMPILE_SECONDS=N in the environment allows N"},
+           {"memory", "8 GiB for each of its processes; FRICTAB_COMPILE_GIB=N allows N"},
+           {"files", "of at most 2 GiB; of what it prints the beginning and the end are kept"}},
+          "",
+          {}};
+}
+
 Explanation about_exit_codes() {
   return {
       "exit-codes",
@@ -122,6 +135,7 @@ const std::vector<Topic>& topics() {
                                          {"units", about_units},
                                          {"csv", about_csv},
                                          {"rules", about_rules},
+                                         {"compilers", about_compilers},
                                          {"exit-codes", about_exit_codes}};
   return all;
 }

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/command.h"
+#include "cli/print.h"
 #include "core/error.h"
 #include "data/write_dataset.h"
 #include "io/atomic_file.h"
@@ -92,7 +93,7 @@ int run(Options& options, const CommonOptions& common) {
   commit(files, options.directory, common);
 
   const std::string text = common.json ? json : twin::twin_text(twin, summary, options.directory);
-  std::fputs(text.c_str(), stdout);
+  print_out("{}", text);
   return 0;
 }
 

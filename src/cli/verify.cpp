@@ -13,7 +13,9 @@
 #include "cli/combined.h"
 #include "cli/job_commands.h"
 #include "core/error.h"
+#include "core/os/standard_streams.h"
 #include "data/load.h"
+#include "io/file_streams.h"
 #include "run/compare_alone.h"
 #include "run/results.h"
 #include "run/summary.h"
@@ -97,7 +99,7 @@ public:
 private:
   static void refuse() {
     if (!running_) return;
-    std::fputs("error: a routine has ended the program while it was verified\n", stderr);
+    os::put(stderr, "error: a routine has ended the program while it was verified\n");
     std::_Exit(3);
   }
   static inline bool running_ = false;

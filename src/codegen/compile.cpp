@@ -1,14 +1,12 @@
 // Runs compilers and loads the libraries they make.
 #include "codegen/compile.h"
 
-#include <cerrno>
-#include <fstream>
 #include <stdexcept>
-#include <system_error>
 
 #include "codegen/prefix.h"
 #include "core/program.h"
 #include "core/text.h"
+#include "io/file_streams.h"
 
 namespace frictab::codegen {
 
@@ -19,12 +17,7 @@ namespace fs = std::filesystem;
 void write_files(const SourceBundle& files, const fs::path& directory) {
   for (const auto& [path, content] : files) {
     fs::create_directories((directory / path).parent_path());
-    std::ofstream out(directory / path, std::ios::binary);
-    out << content;
-    out.close();
-    if (!out)
-      throw std::system_error(errno, std::generic_category(),
-                              "cannot write " + (directory / path).string());
+    io::write_file(directory / path, content);
   }
 }
 
@@ -34,7 +27,6 @@ fs::path compile_library(const SourceBundle& bundle, const BuildVariant& variant
                          const fs::path& work_dir) {
   const fs::path directory = fs::absolute(work_dir);
   const fs::path library = directory / ("lib" + variant.name + ".so");
-  const fs::path log = directory / (variant.name + ".log");
   fs::create_directories(directory);
   write_files(bundle, directory);
   write_files(variant.extra, directory);
@@ -42,7 +34,7 @@ fs::path compile_library(const SourceBundle& bundle, const BuildVariant& variant
   for (const std::string& word : variant.command)
     command.push_back(
         replace_all(replace_all(word, "@{out}", library.string()), "@{dir}", directory.string()));
-  run_program(command, log);
+  run_program(command, directory);
   return library;
 }
 

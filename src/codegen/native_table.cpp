@@ -15,7 +15,7 @@
 #include "core/error.h"
 #include "data/quantity.h"
 #include "expr/program.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "io/number.h"
 #include "table/drift.h"
 #include "table/outside.h"

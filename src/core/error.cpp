@@ -66,4 +66,9 @@ void FaultsByCause::tell(FaultList& faults, const std::string& noun) const {
     faults.add(cause.first.place, cause.first.what + and_more(cause.more, noun), cause.first.hint);
 }
 
+bool is_fault_of_path(const std::error_code& why) {
+  return why == std::errc::too_many_symbolic_link_levels || why == std::errc::filename_too_long ||
+         why == std::errc::not_a_directory || why == std::errc::permission_denied;
+}
+
 } // namespace frictab

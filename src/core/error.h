@@ -5,6 +5,7 @@
 #include <exception>
 #include <map>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace frictab {
@@ -83,5 +84,9 @@ private:
 
 // "place: error: what\n  hint: ..." per fault; the text that `InputError::what()` returns.
 std::string format_faults(const std::vector<Fault>& faults);
+
+// True if a call failed by the path it was given: a link that leads to itself, a name too long, a
+// file where a directory is needed, no permission.
+bool is_fault_of_path(const std::error_code& why);
 
 } // namespace frictab

@@ -15,6 +15,7 @@
 
 #include "core/os/interrupt.h"
 #include "core/os/machine.h"
+#include "core/os/standard_streams.h"
 
 namespace frictab {
 
@@ -81,17 +82,14 @@ private:
     if (works_.size() > 1) states.push_back(works_.back()->state());
     // Most terminals wrap a line that fills the last column.
     const std::string text = progress_text(states, os::terminal_width() - 1);
-    if (in_place)
-      fmt::print(stderr, "\r\x1b[K{}", text);
-    else
-      fmt::print(stderr, "{}\n", text);
+    os::put(stderr, in_place ? "\r\x1b[K" + text : text + "\n");
     std::fflush(stderr);
     drawn_ = in_place;
   }
 
   void erase() {
     if (!drawn_) return;
-    fmt::print(stderr, "\r\x1b[K");
+    os::put(stderr, "\r\x1b[K");
     std::fflush(stderr);
     drawn_ = false;
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <mutex>
 
@@ -18,6 +17,7 @@
 #include "data/load_part.h"
 #include "data/plausibility.h"
 #include "data/raw_parts.h"
+#include "io/file_streams.h"
 #include "io/hdf5.h"
 
 namespace frictab::data {
@@ -243,10 +243,7 @@ private:
 
 // Estimates the rows of a text file from its size and the length of its first few thousand lines.
 double rows_of_text(const fs::path& path, std::uint64_t bytes) {
-  std::ifstream in(path, std::ios::binary);
-  std::string start(std::size_t{1} << 18, '\0');
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(in.gcount()));
+  const std::string start = io::first_bytes(path, std::size_t{1} << 18);
   const auto lines = std::count(start.begin(), start.end(), '\n');
   return lines == 0 ? 0
                     : static_cast<double>(bytes) * static_cast<double>(lines) /

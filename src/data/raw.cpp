@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <memory>
 
@@ -15,6 +14,7 @@
 #include "data/rig_files.h"
 #include "data/wide.h"
 #include "data/workbooks.h"
+#include "io/file_streams.h"
 #include "io/hdf5.h"
 #include "io/text_file.h"
 #include "io/workbook.h"
@@ -155,8 +155,8 @@ io::CsvTable read_raw(const std::string& path, const std::string& named, const D
     return read_sheet(path, named, options.sheets.empty() ? "" : options.sheets.front(), format,
                       faults);
   if (const std::uint64_t bytes = bytes_of_large(path); bytes > 0) {
-    io::CsvPieces pieces(std::make_unique<std::ifstream>(io::open_text_file(path, named)), named,
-                         format, piece_of_text);
+    io::CsvPieces pieces(std::make_unique<io::InputFile>(path, named), named, format,
+                         piece_of_text);
     if (pieces.whole_because().empty()) return whole_of(pieces, bytes, faults);
   }
   return io::parse_csv(io::read_text_file(path, named), named, format, faults);

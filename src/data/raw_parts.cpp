@@ -1,7 +1,6 @@
 // Cuts the rows of a file where an experiment ends.
 #include "data/raw_parts.h"
 
-#include <fstream>
 #include <memory>
 #include <unordered_set>
 
@@ -11,8 +10,8 @@
 #include "data/mapping.h"
 #include "data/rig_files.h"
 #include "data/wide.h"
+#include "io/file_streams.h"
 #include "io/hdf5.h"
-#include "io/text_file.h"
 #include "io/workbook.h"
 
 namespace frictab::data {
@@ -138,7 +137,7 @@ void read_raw_parts(const std::string& path, const std::string& named, const Rea
     };
     return cut_pieces(next, options, faults, take);
   }
-  io::CsvPieces pieces(std::make_unique<std::ifstream>(io::open_text_file(path, named)), named,
+  io::CsvPieces pieces(std::make_unique<io::InputFile>(path, named), named,
                        csv_format(path, options), options.piece_bytes);
   if (!pieces.whole_because().empty()) return read_whole(path, named, options, faults, take);
   cut_pieces([&] { return pieces.next(faults); }, options, faults, take);

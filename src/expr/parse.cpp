@@ -107,10 +107,16 @@ private:
       if (accept("*"))
         e = counted(e * unary());
       else if (accept("/"))
-        e = counted(e / unary());
+        e = counted(e / divisor());
       else
         return e;
     }
+  }
+
+  Expr divisor() {
+    Expr e = unary();
+    if (e.is_constant(0)) fail("division by 0");
+    return e;
   }
 
   Expr unary() {

@@ -2,9 +2,7 @@
 #include "io/atomic_file.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <fstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -12,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "core/hash.h"
 #include "core/os/files.h"
+#include "io/file_streams.h"
 
 namespace frictab::io {
 
@@ -26,15 +24,13 @@ const std::string staging_prefix = ".frictab-", one_file_prefix = ".frictab-file
 const std::string new_files = "new", old_files = "old", journal_name = "journal",
                   keep_name = "keep";
 
-[[noreturn]] void cannot_write(const fs::path& file,
-                               std::error_code why = {errno, std::generic_category()}) {
-  throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), why.message()));
-}
-
 void rename_file(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::rename(from, to, error);
-  if (error) cannot_write(to, error);
+  if (error)
+    throw std::runtime_error(fmt::format("cannot write {}: {}", to.string(), error.message()));
+  if (fs::exists(fs::symlink_status(from, error)))
+    throw std::runtime_error("the disk has not moved a file to " + to.string());
 }
 
 // Requires a relative path inside the directory; no folder on its way may be a symbolic link.
@@ -78,10 +74,10 @@ struct Journal {
 };
 
 std::optional<Journal> read_journal(const fs::path& file, const fs::path& directory) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
+  if (!fs::exists(file)) return std::nullopt;
+  const std::string text = read_file(file);
   try {
-    const nlohmann::json json = nlohmann::json::parse(in);
+    const nlohmann::json json = nlohmann::json::parse(text);
     Journal journal;
     for (const nlohmann::json& one : json.at("renames"))
       journal.renames.push_back({one.at(0), one.at(1)});
@@ -100,10 +96,7 @@ std::optional<Journal> read_journal(const fs::path& file, const fs::path& direct
 
 void write_journal(const fs::path& staging, const Journal& journal) {
   const fs::path draft = staging / (journal_name + ".draft");
-  std::ofstream out(draft, std::ios::binary);
-  out << journal.text();
-  out.close();
-  if (!out) cannot_write(draft);
+  write_file(draft, journal.text());
   os::flush_to_disk(draft);
   rename_file(draft, staging / journal_name);
   os::flush_to_disk(staging);
@@ -191,13 +184,6 @@ private:
   std::size_t renamed_ = 0, removed_ = 0;
   bool taken_back_ = false;
 };
-
-void write_text(const fs::path& file, std::string_view content) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(content.data(), static_cast<std::streamsize>(content.size()));
-  out.close();
-  if (!out) cannot_write(file);
-}
 
 // ---- leftovers of earlier processes ----
 
@@ -297,10 +283,9 @@ void OutputFiles::abandon() noexcept {
 void OutputFiles::keep(const std::string& name, std::string_view record) {
   stage(name);
   const fs::path file = staging_ / new_files / name, draft = file.string() + ".draft";
-  write_text(draft, record);
+  write_file(draft, record);
   rename_file(draft, file);
-  hashes_[name] = hash_of(record);
-  std::ofstream(staging_ / keep_name);
+  write_file(staging_ / keep_name, "");
 }
 
 void OutputFiles::take_kept(const std::string& path) {
@@ -314,14 +299,12 @@ void OutputFiles::write(const std::string& path, std::string_view content) {
   const fs::path file = stage(path);
   std::error_code ignored;
   fs::remove(file, ignored); // may be a hard link to a kept file
-  write_text(file, content);
-  hashes_[path] = hash_of(content);
+  write_file(file, content);
 }
 
 fs::path OutputFiles::stage(const std::string& path) {
   check_inside(directory_, path);
   if (std::find(paths_.begin(), paths_.end(), path) == paths_.end()) paths_.push_back(path);
-  hashes_.erase(path);
   fs::path file = staging_ / new_files / path;
   fs::create_directories(file.parent_path());
   return file;
@@ -340,11 +323,7 @@ void OutputFiles::commit() {
   Journal journal;
   for (const std::string& path : paths_) {
     const fs::path from = staged(path);
-    const auto hash = hashes_.find(path);
     os::flush_to_disk(from);
-    if (hash != hashes_.end() && hash_of(read_file(from)) != hash->second)
-      throw std::runtime_error("the disk gives back something else than was written to " +
-                               (directory_ / path).string());
     journal.renames.push_back({from.lexically_relative(directory_).string(), path});
     fs::create_directories((directory_ / path).parent_path());
     if (fs::is_directory(directory_ / path))
@@ -374,7 +353,7 @@ void OutputFiles::commit() {
 bool OutputFiles::would_change() const {
   return std::any_of(paths_.begin(), paths_.end(), [&](const std::string& path) {
     const fs::path target = directory_ / path;
-    return fs::exists(target) && read_file(target) != read_file(staging_ / new_files / path);
+    return fs::exists(target) && !are_equal(target, staged(path));
   });
 }
 
@@ -398,25 +377,6 @@ void finish_interrupted(const fs::path& directory) {
                      "let its owner run any frictab command on it, `frictab status JOB` say");
   const DirectoryLock lock(directory, DirectoryLock::Wish::if_free);
   if (lock.is_locked()) clear_abandoned(directory, true);
-}
-
-std::string read_file(const fs::path& file) {
-  std::error_code error;
-  if (fs::is_directory(file, error))
-    throw InputError({file.string(), 0, 0}, "is a directory, a file is needed");
-  std::ifstream in(file, std::ios::binary);
-  if (!in && !fs::exists(file, error)) throw InputError({file.string(), 0, 0}, "no such file");
-  if (!in) throw InputError({file.string(), 0, 0}, "cannot be read", "check its permissions");
-  std::string text; // read in large pieces: one character at a time is ten times slower
-  std::size_t size = 0;
-  do {
-    text.resize(std::max<std::size_t>(
-        2 * size, fs::is_regular_file(file, error) ? fs::file_size(file, error) + 1 : 65536));
-    in.read(text.data() + size, static_cast<std::streamsize>(text.size() - size));
-    size += static_cast<std::size_t>(in.gcount());
-  } while (in);
-  text.resize(size);
-  return text;
 }
 
 } // namespace frictab::io

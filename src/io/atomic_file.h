@@ -1,9 +1,7 @@
 // Output that appears complete or not at all.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,9 +19,9 @@ inline constexpr const char* kept_name = ".frictab-kept";
 // and moved into place by commit(); without commit() nothing changes. Paths are relative to the
 // directory and may neither leave it nor pass through a symbolic link.
 //
-// commit() is all or nothing. It syncs the files, compares texts with what was to be written, and
-// leaves a journal of its renames in the staging directory. If a rename fails, the earlier ones are
-// undone; if the process dies, the next writer in this directory finishes them.
+// commit() is all or nothing. It syncs the files and leaves a journal of its renames in the staging
+// directory. If a rename fails, the earlier ones are undone; if the process dies, the next writer
+// in this directory finishes them.
 class OutputFiles {
 public:
   // directory: the only writer in its directory. one_file: writes one file among others' files and
@@ -35,7 +33,8 @@ public:
   OutputFiles& operator=(const OutputFiles&) = delete;
 
   void write(const std::string& path, std::string_view content);
-  // Path for a file that is written by other means (HDF5) and committed like the others.
+  // Path for a file that is written by other means (an OutputFile, a table) and committed like the
+  // others.
   std::filesystem::path stage(const std::string& path);
   // Location of a file of paths() until commit().
   std::filesystem::path staged(const std::string& path) const;
@@ -68,7 +67,6 @@ private:
   // Constructed before the lock, because the lock has to go before the directory can.
   std::optional<os::WhenInterrupted> directory_when_interrupted_, when_interrupted_;
   std::vector<std::string> paths_;
-  std::map<std::string, std::uint64_t> hashes_; // of texts, by path
   std::vector<std::string> old_;
 };
 
@@ -76,8 +74,5 @@ private:
 // Does nothing while another process writes there. Throws InputError if the commit cannot be
 // finished.
 void finish_interrupted(const std::filesystem::path& directory);
-
-// Reads a whole file. Throws InputError if it cannot be read.
-std::string read_file(const std::filesystem::path& file);
 
 } // namespace frictab::io

@@ -967,10 +967,23 @@ bool is_wanted(const std::string& cell, const CsvFormat& format) {
                      [&](const std::string& wanted) { return wanted == cell || wanted == name; });
 }
 
+namespace {
+
+// Spreadsheet programs compute a cell that begins so: "=cmd|...", "+SUM(...)", but not "-12 degC".
+bool looks_like_spreadsheet_formula(std::string_view text) {
+  if (text.size() < 2) return false;
+  const auto next = static_cast<unsigned char>(text[1]);
+  return text[0] == '=' || text[0] == '@' ||
+         ((text[0] == '+' || text[0] == '-') && (std::isalpha(next) || next == '(' || next == '@'));
+}
+
+} // namespace
+
 std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n;\t ") == std::string::npos && !text.empty()) return text;
+  const std::string shown = (looks_like_spreadsheet_formula(text) ? "'" : "") + printable(text);
+  if (shown.find_first_of(",\"\r\n;\t ") == std::string::npos && !shown.empty()) return shown;
   std::string out = "\"";
-  for (const char c : text) {
+  for (const char c : shown) {
     if (c == '"') out += '"';
     out += c;
   }

@@ -185,7 +185,8 @@ std::vector<std::string> cells_of_line(std::string_view line, const CsvFormat& f
 // True if a header cell is one of the names that identify the header, with or without its unit.
 bool is_wanted(const std::string& cell, const CsvFormat& format);
 
-// Text as a cell of a comma-separated file, quoted if necessary.
+// Text as a cell of a comma-separated file, quoted if necessary. Control characters become \x1b and
+// the like; an apostrophe goes before what a spreadsheet program would compute.
 std::string csv_cell(const std::string& text);
 
 } // namespace frictab::io

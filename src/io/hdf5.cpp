@@ -2,10 +2,10 @@
 #include "io/hdf5.h"
 
 #include <algorithm>
-#include <fstream>
 #include <mutex>
 
 #include "core/error.h"
+#include "io/file_streams.h"
 #include "io/hdf5_handle.h"
 #include "io/hdf5_scan.h"
 
@@ -40,8 +40,7 @@ struct Hdf5Reader::Data {
            const std::function<bool(os::ByteSource&)>& take) const {
     // no other thread uses the library during the fork
     const std::lock_guard lock(hdf5::library());
-    os::ChildLimits limits;
-    limits.cpu_seconds += static_cast<unsigned>(file_bytes >> 22);
+    const os::ChildLimits limits = os::limits_to_read(file_bytes);
     const auto of_child = [&](os::ByteSink& out) {
       hdf5::library(true);
       work(out);
@@ -54,11 +53,9 @@ struct Hdf5Reader::Data {
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, std::string named)
     : data_(std::make_unique<Data>()) {
-  std::error_code ignored;
   data_->file = file;
   data_->named = std::move(named);
-  const auto bytes = std::filesystem::file_size(file, ignored);
-  data_->file_bytes = ignored ? 0 : bytes;
+  data_->file_bytes = InputFile(file, data_->named).size();
   data_->ask(
       [&](os::ByteSink& out) { scan_hdf5(file, out); },
       [&](os::ByteSource& in) { return take_contents(in, data_->file_bytes, data_->contents); });
@@ -234,10 +231,12 @@ std::optional<std::size_t> length_of_column(std::span<const std::size_t> shape) 
 
 bool looks_like_hdf5(const std::filesystem::path& file) {
   constexpr std::string_view signature("\x89HDF\r\n\x1a\n", 8);
-  constexpr std::streamoff smallest_block = 512;
-  std::ifstream in(file, std::ios::binary);
+  constexpr std::uint64_t smallest_block = 512;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return false;
+  InputFile in(file, file.string());
   char magic[signature.size()] = {};
-  for (std::streamoff at = 0; in.seekg(at) && in.read(magic, sizeof magic);
+  for (std::uint64_t at = 0; in.read_at(at, magic) == sizeof magic;
        at = std::max(2 * at, smallest_block))
     if (std::string_view(magic, sizeof magic) == signature) return true;
   return false;

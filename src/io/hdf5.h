@@ -26,8 +26,8 @@ struct Hdf5Storage {
   bool chunked() const { return chunk > 0 || compress > 0 || fletcher32; }
 };
 
-// Writes an HDF5 file. Throws std::runtime_error if the disk or the library fails. No times are
-// stored: the same content gives the same bytes.
+// Writes an HDF5 file, which is in memory until close(). Throws std::runtime_error if the disk or
+// the library fails. No times are stored: the same content gives the same bytes.
 class Hdf5Writer {
 public:
   explicit Hdf5Writer(const std::filesystem::path& file);
@@ -46,8 +46,7 @@ public:
                  std::span<const double> values);
   // Makes `scale` a dimension scale (netCDF-4 coordinate) and attaches it to one axis of `dataset`.
   void dimension_scale(const std::string& dataset, std::size_t axis, const std::string& scale);
-  // Flushes, reads the file again and compares. Throws if the contents differ, and InputError if
-  // the file cannot be read.
+  // Writes the file and compares, as OutputFile does.
   void close();
 
 private:

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <hdf5_hl.h>
 
-#include "core/os/files.h"
+#include "io/hdf5_guard.h"
 #include "io/hdf5_handle.h"
 
 namespace frictab::io {
@@ -315,20 +315,19 @@ void read_values(const std::string& name, hid_t set, const std::vector<std::size
   });
 }
 
-Unreadable not_opened(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) return {"no such file", ""};
-  if (std::filesystem::is_directory(file, error)) return {"is a directory, a file is needed", ""};
-  if (!os::may_read(file)) return {"cannot be read", "check its permissions"};
-  return {"cannot be opened as HDF5",
-          "it may be cut short or of another format; write it again, or give a CSV file"};
-}
-
 class Scan {
 public:
   explicit Scan(const std::filesystem::path& file)
       : file_(H5Fopen(file.string().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose) {
-    if (!file_.ok()) throw not_opened(file);
+    if (!file_.ok())
+      throw Unreadable{
+          "cannot be opened as HDF5",
+          "it may be cut short or of another format; write it again, or give a CSV file"};
+    try {
+      check_in_itself(file_);
+    } catch (const Elsewhere& found) {
+      throw Unreadable{found.what, found.hint};
+    }
     H5Fget_filesize(file_, &bytes_);
   }
 
@@ -627,9 +626,12 @@ std::size_t Hdf5Dataset::count() const {
 
 void scan_hdf5(const std::filesystem::path& file, os::ByteSink& out) {
   silence();
+  guard_library();
   Hdf5Contents all;
   try {
     all = Scan(file).contents();
+    // An attribute that cannot be read is otherwise one that has no value.
+    if (has_failed_read()) throw Unreadable{"cannot be read: the disk fails", "copy it again"};
   } catch (const Unreadable& error) {
     all.fault = error.what;
     all.hint = error.hint;
@@ -653,6 +655,7 @@ void scan_hdf5(const std::filesystem::path& file, os::ByteSink& out) {
 void scan_values(const std::filesystem::path& file, const std::string& dataset, std::size_t most,
                  os::ByteSink& out) {
   silence();
+  guard_library();
   Unreadable fault;
   try {
     Scan(file).values(dataset, most, out);
@@ -667,6 +670,7 @@ void scan_values(const std::filesystem::path& file, const std::string& dataset, 
 void scan_slices(const std::filesystem::path& file, std::span<const Hdf5Slice> wanted,
                  os::ByteSink& out) {
   silence();
+  guard_library();
   try {
     const Scan scan(file);
     for (const Hdf5Slice& slice : wanted)

@@ -7,12 +7,33 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/hash.h"
 
 namespace frictab::io {
 
 std::string json_text(const nlohmann::ordered_json& value) {
   // Names from a user's file may contain invalid UTF-8: replaced, not refused.
   return value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+namespace {
+
+constexpr std::string_view end_of_object = "\n}\n", seal_key = ",\n  \"content\": \"";
+constexpr std::size_t seal_size = 16; // hex digits, then a quotation mark
+
+} // namespace
+
+std::string sealed(std::string json) {
+  json.resize(json.size() - end_of_object.size());
+  const std::string hash = hash_text(hash_of(json));
+  return json.append(seal_key).append(hash).append("\"").append(end_of_object);
+}
+
+Seal seal_of(std::string_view json) {
+  const std::size_t at = json.rfind(seal_key);
+  if (at == json.npos) return Seal::none;
+  return sealed(std::string(json.substr(0, at)).append(end_of_object)) == json ? Seal::right
+                                                                               : Seal::broken;
 }
 
 nlohmann::ordered_json parse_json(std::string_view text, const std::string& file) {

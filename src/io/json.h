@@ -14,6 +14,13 @@ namespace frictab::io {
 // same bits; NaN and infinities become null.
 std::string json_text(const nlohmann::ordered_json& value);
 
+// Adds a hash of all that stands before it as the last key, "content", to an object as json_text
+// writes it.
+std::string sealed(std::string json);
+// none: the text ends without a hash, as files of earlier versions do.
+enum class Seal { none, right, broken };
+Seal seal_of(std::string_view json);
+
 // Throws InputError with file:line:col if the text is not valid JSON.
 nlohmann::ordered_json parse_json(std::string_view text, const std::string& file);
 

@@ -11,8 +11,8 @@
 
 #include "core/no_value.h"
 #include "core/text.h"
+#include "io/file_streams.h"
 #include "io/number.h"
-#include "io/text_file.h"
 
 namespace frictab::io::lvm {
 

@@ -7,10 +7,10 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "io/file_streams.h"
 #include "io/hdf5.h"
 #include "io/hdf5_handle.h"
 #include "io/mat_value.h"
-#include "io/text_file.h"
 
 namespace frictab::io::mat {
 
@@ -182,13 +182,11 @@ bool looks_like_mat(const std::filesystem::path& file) {
 }
 
 ColumnGroups read_mat(const std::filesystem::path& file, const std::string& named) {
-  open_text_file(file, named); // reports a file that cannot be opened
-  const std::uint64_t bytes = std::filesystem::file_size(file);
+  const std::uint64_t bytes = InputFile(file, named).size();
   const bool is_hdf5 = looks_like_hdf5(file);
   ColumnGroups all;
   std::string fault;
-  os::ChildLimits limits;
-  limits.cpu_seconds += static_cast<unsigned>(bytes >> 22);
+  const os::ChildLimits limits = os::limits_to_read(bytes);
   // no other thread uses the HDF5 library during the fork
   const std::lock_guard lock(hdf5::library());
   const auto work = [&](os::ByteSink& out) {

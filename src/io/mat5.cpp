@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <fstream>
 #include <memory>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include <zlib.h>
 
 #include "core/text.h"
+#include "io/file_streams.h"
 #include "io/mat_value.h"
 
 namespace frictab::io::mat5 {
@@ -185,20 +185,22 @@ private:
   std::uint64_t file_bytes_;
 };
 
+constexpr std::uint64_t tag_bytes = 8; // type and size of an element
+
 // Throws MatFault unless the compressed data are whole; the library does not check them.
-void check_compressed(std::ifstream& in, std::uint64_t at, std::uint64_t size) {
+void check_compressed(InputFile& in, std::uint64_t at, std::uint64_t size) {
   constexpr std::uint64_t at_once = std::uint64_t{1} << 16;
   std::vector<unsigned char> packed(at_once), unpacked(at_once);
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
   const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
   int state = Z_OK;
-  while (state == Z_OK && (size > 0 || stream.avail_in > 0)) {
+  const std::uint64_t end_of_data = at + size;
+  for (std::uint64_t next = at; state == Z_OK && (next < end_of_data || stream.avail_in > 0);) {
     if (stream.avail_in == 0) {
-      const std::uint64_t part = std::min(size, at_once);
-      in.read(reinterpret_cast<char*>(packed.data()), static_cast<std::streamsize>(part));
-      if (!in) break;
-      size -= part;
+      const std::uint64_t part = std::min(end_of_data - next, at_once);
+      if (in.read_at(next, {reinterpret_cast<char*>(packed.data()), part}) != part) break;
+      next += part;
       stream.next_in = packed.data();
       stream.avail_in = static_cast<unsigned>(part);
     }
@@ -207,19 +209,20 @@ void check_compressed(std::ifstream& in, std::uint64_t at, std::uint64_t size) {
     state = inflate(&stream, Z_NO_FLUSH);
   }
   if (state != Z_STREAM_END)
-    throw MatFault(fmt::format("the compressed variable at byte {} is damaged", thousands(at)));
+    throw MatFault(
+        fmt::format("the compressed variable at byte {} is damaged", thousands(at - tag_bytes)));
 }
 
 // Offsets of the variables of a file of version 5 to 7; empty for version 4. The library does not
 // distinguish the end of the file from a variable that it cannot read.
 std::vector<std::uint64_t> offsets_of(const std::filesystem::path& file, std::uint64_t bytes) {
-  constexpr std::uint64_t header = 128, tag = 8, padding = 8, subsystem_at = 116;
+  constexpr std::uint64_t header = 128, padding = 8, subsystem_at = 116;
   constexpr std::uint32_t compressed = 15;
-  std::ifstream in(file, std::ios::binary);
+  InputFile in(file, file.string());
   std::array<char, header> start{};
-  in.read(start.data(), start.size());
+  const bool is_whole = in.read_at(0, start) == start.size();
   const std::string_view mark(&start[header - 2], 2);
-  if (!in || (mark != "IM" && mark != "MI")) return {};
+  if (!is_whole || (mark != "IM" && mark != "MI")) return {};
   const auto number = [&](const char* at) {
     std::array<unsigned char, 4> b{};
     std::memcpy(b.data(), at, b.size());
@@ -230,16 +233,15 @@ std::vector<std::uint64_t> offsets_of(const std::filesystem::path& file, std::ui
   const std::uint64_t subsystem = number(&start[subsystem_at]);
   std::vector<std::uint64_t> offsets;
   for (std::uint64_t at = header; at < bytes;) {
-    std::array<char, tag> element{};
-    in.seekg(static_cast<std::streamoff>(at));
-    in.read(element.data(), element.size());
+    std::array<char, tag_bytes> element{};
+    const bool is_there = in.read_at(at, element) == element.size();
     const std::uint64_t size = number(&element[4]);
-    if (!in || size > bytes - at - tag)
+    if (!is_there || size > bytes - at - tag_bytes)
       throw MatFault(fmt::format("the variable at byte {} ends after the file", thousands(at)));
     if (at != subsystem) offsets.push_back(at);
     const bool padded = number(element.data()) != compressed;
-    if (!padded) check_compressed(in, at, size);
-    at += tag + (padded ? (size + padding - 1) / padding * padding : size);
+    if (!padded) check_compressed(in, at + tag_bytes, size);
+    at += tag_bytes + (padded ? (size + padding - 1) / padding * padding : size);
   }
   return offsets;
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "io/hdf5_guard.h"
 #include "io/hdf5_handle.h"
 #include "io/mat_value.h"
 
@@ -43,6 +44,11 @@ public:
       : file_(H5Fopen(file.string().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose),
         file_bytes_(std::filesystem::file_size(file)) {
     if (!file_.ok()) throw MatFault("HDF5, the form of version 7.3, cannot open it");
+    try {
+      check_in_itself(file_);
+    } catch (const Elsewhere& found) {
+      throw MatFault(found.what);
+    }
   }
 
   std::vector<MatValue> variables() {
@@ -253,7 +259,10 @@ namespace frictab::io {
 
 std::vector<MatValue> read_mat73(const std::filesystem::path& file) {
   hdf5::silence();
-  return mat73::Reader(file).variables();
+  hdf5::guard_library();
+  std::vector<MatValue> variables = mat73::Reader(file).variables();
+  if (hdf5::has_failed_read()) throw MatFault("the disk fails");
+  return variables;
 }
 
 } // namespace frictab::io

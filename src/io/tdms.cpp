@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <span>
@@ -15,9 +14,9 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "io/file_streams.h"
 #include "io/tdms_format.h"
 #include "io/tdms_scales.h"
-#include "io/text_file.h"
 
 namespace frictab::io::tdms {
 
@@ -37,13 +36,9 @@ std::uint64_t with_more(std::uint64_t sum, std::uint64_t count, std::uint64_t si
 class Bytes {
 public:
   Bytes(const std::filesystem::path& file, const std::string& named)
-      : in_(open_text_file(file, named)), named_(named) {
-    in_.seekg(0, std::ios::end);
-    const auto end = in_.tellg();
-    size_ = end < 0 ? 0 : static_cast<std::uint64_t>(end);
-  }
+      : in_(file, named), named_(named) {}
 
-  std::uint64_t size() const { return size_; }
+  std::uint64_t size() const { return in_.size(); }
 
   [[noreturn]] void fail(std::uint64_t at, const std::string& what) const {
     throw InputError({named_, 0, 0}, fmt::format("is damaged at byte {}: {}", thousands(at), what),
@@ -52,16 +47,12 @@ public:
 
   // The bytes must be within the file.
   void read(std::uint64_t at, std::span<char> bytes) {
-    in_.clear();
-    in_.seekg(static_cast<std::streamoff>(at));
-    in_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (static_cast<std::size_t>(in_.gcount()) != bytes.size()) fail(at, "it cannot be read");
+    if (in_.read_at(at, bytes) != bytes.size()) fail(at, "it ends here");
   }
 
 private:
-  std::ifstream in_;
+  InputFile in_;
   const std::string& named_;
-  std::uint64_t size_ = 0;
 };
 
 struct Segment {

@@ -1,10 +1,13 @@
 // Reads block by block, so that a disk image is refused before it is read completely.
 #include "io/text_file.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "io/file_streams.h"
 
 namespace frictab::io {
 
@@ -50,46 +53,25 @@ private:
 
 } // namespace
 
-std::ifstream open_text_file(const fs::path& file, const std::string& named) {
-  std::error_code error;
-  if (fs::is_directory(file, error))
-    throw InputError({named, 0, 0}, "is a directory, a file is needed");
-  std::ifstream in(file, std::ios::binary);
-  if (!in && !fs::exists(file, error)) throw InputError({named, 0, 0}, "no such file");
-  if (!in) throw InputError({named, 0, 0}, "cannot be read", "check its permissions");
-  return in;
-}
-
-std::string first_bytes(const std::filesystem::path& file, std::size_t count) {
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes(count, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(count));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
-  return bytes;
-}
-
 std::string read_text_file(const fs::path& file, const std::string& named,
                            const TextLimits& limits) {
-  std::ifstream in = open_text_file(file, named);
+  InputFile in(file, named);
   Judge judge(named, limits);
-  std::error_code error;
-  std::uint64_t expected = 0;
-  if (fs::is_regular_file(file, error)) expected = fs::file_size(file, error);
   // Reads a small file in one block, with one byte more so that its end is detected.
-  const std::size_t block =
-      expected > 0 && expected < block_bytes ? static_cast<std::size_t>(expected) + 1 : block_bytes;
+  const std::size_t block = std::min<std::uint64_t>(in.size() + 1, block_bytes);
   std::string text;
-  for (std::size_t size = 0; in; size = text.size()) {
+  std::size_t size = 0;
+  do {
     judge.size(size);
     text.resize(size + block);
-    in.read(text.data() + size, static_cast<std::streamsize>(block));
-    text.resize(size + static_cast<std::size_t>(in.gcount()));
+    const std::size_t got = in.read_at(size, {text.data() + size, block});
+    text.resize(size + got);
     judge.block(text, size);
     // Reserves memory for the whole file only after its first block looks like text.
-    if (size == 0 && expected <= limits.bytes) text.reserve(expected + block);
-  }
+    if (size == 0 && in.size() <= limits.bytes) text.reserve(in.size() + block);
+    size = got < block ? 0 : text.size();
+  } while (size > 0);
   judge.size(text.size());
-  if (in.bad()) throw InputError({named, 0, 0}, "cannot be read to its end", "copy it again");
   return text;
 }
 

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 namespace frictab::io {
@@ -13,12 +12,6 @@ struct TextLimits {
   std::uint64_t bytes = std::uint64_t{8} << 30;
   std::uint64_t line_bytes = std::uint64_t{64} << 20;
 };
-
-// Throws InputError if it cannot be opened.
-std::ifstream open_text_file(const std::filesystem::path& file, const std::string& named);
-
-// The first bytes of any file, fewer if it is shorter or cannot be read: its signature.
-std::string first_bytes(const std::filesystem::path& file, std::size_t count);
 
 // Throws InputError, with the file's name in messages (`named`), if the file cannot be read,
 // contains a 0 byte (UTF-16 with a BOM may), or exceeds the limits; it stops at the block that

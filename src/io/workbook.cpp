@@ -14,9 +14,9 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "io/csv.h"
+#include "io/file_streams.h"
 #include "io/number.h"
 #include "io/number_format.h"
-#include "io/text_file.h"
 #include "io/zip_archive.h"
 
 namespace frictab::io {

@@ -15,6 +15,7 @@ struct ZipLimits {
   std::uint64_t bytes = std::uint64_t{512} << 20;
   std::uint64_t ratio = 200;
   std::uint64_t bytes_of_any_ratio = std::uint64_t{8} << 20;
+  std::uint64_t file_bytes = std::uint64_t{2} << 30; // of the archive itself
 };
 
 class ZipArchive {

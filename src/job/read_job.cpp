@@ -9,7 +9,7 @@
 #include "data/file_list.h"
 #include "data/quantity.h"
 #include "expr/expr.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "io/text_file.h"
 #include "job/literature.h"
 #include "job/reader.h"

@@ -9,7 +9,7 @@
 #include "calibrate/calibration_file.h"
 #include "codegen/recipe.h"
 #include "core/error.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "run/chosen.h"
 #include "run/law_accuracy.h"
 #include "run/stage_functions.h"

@@ -6,7 +6,9 @@
 #include "calibrate/calibration_file.h"
 #include "codegen/recipe.h"
 #include "core/error.h"
+#include "core/os/files.h"
 #include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "models/law.h"
 #include "table/table_file.h"
 #include "trace/trace_file.h"
@@ -26,10 +28,8 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
 // or at the ends of bands.
 void add_model_names(std::vector<std::string>& names, const fs::path& directory,
                      const models::Laws& laws) {
-  if (!fs::is_directory(directory)) return;
-  for (const auto& entry : fs::directory_iterator(directory))
-    if (const std::string name = entry.path().stem().string();
-        models::read_model_name(name, laws).base)
+  for (const fs::path& path : os::entries_of(directory))
+    if (const std::string name = path.stem().string(); models::read_model_name(name, laws).base)
       add_once(names, name);
 }
 
@@ -45,9 +45,9 @@ ResultDirectory::ResultDirectory(const job::Job& job, fs::path directory)
 
 std::vector<std::string> ResultDirectory::all_files() const {
   std::vector<std::string> files;
-  std::error_code ignored;
-  for (const auto& entry : fs::recursive_directory_iterator(directory_, ignored))
-    if (entry.is_regular_file(ignored))
+  if (!fs::exists(directory_)) return files;
+  for (const auto& entry : fs::recursive_directory_iterator(directory_))
+    if (entry.is_regular_file())
       files.push_back(entry.path().lexically_relative(directory_).string());
   std::sort(files.begin(), files.end());
   return files;
@@ -62,13 +62,10 @@ calibrate::Calibration ResultDirectory::calibration() const {
 }
 
 std::vector<fs::path> ResultDirectory::table_paths() const {
-  const fs::path directory = directory_ / "tables";
-  std::vector<fs::path> files;
-  if (fs::is_directory(directory))
-    for (const auto& entry : fs::directory_iterator(directory))
-      if (entry.path().extension() == ".h5" && entry.path().filename().string().front() != '.')
-        files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
+  std::vector<fs::path> files = os::entries_of(directory_ / "tables");
+  std::erase_if(files, [](const fs::path& path) {
+    return path.extension() != ".h5" || path.filename().string().front() == '.';
+  });
   return files;
 }
 

@@ -3,12 +3,12 @@
 #include "run/results.h"
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 
 #include "core/text.h"
 #include "data/file_list.h"
 #include "io/directory_lock.h"
+#include "io/file_streams.h"
 #include "run/stage.h"
 
 namespace frictab::run {
@@ -48,12 +48,7 @@ void check_not_read(const job::Job& job, const std::vector<std::string>& paths) 
 
 std::string beginning_of(const fs::path& file) {
   // Covers the first attributes of an HDF5 file.
-  constexpr std::streamsize enough = std::streamsize{1} << 16;
-  std::string text(enough, '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(text.data(), enough);
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  return text;
+  return io::first_bytes(file, std::size_t{1} << 16);
 }
 
 // True if stages.json lists the file. Pages are never listed: they are known as soon as stages.json
@@ -114,8 +109,7 @@ void record_files(StageRecord& stages, const io::OutputFiles& files) {
   for (const std::string& path : files.old())
     stages.forget_file(path);
   for (const std::string& path : files.paths())
-    if (path != stages_file && !path.starts_with(report))
-      stages.record_file(path, files.staged(path));
+    if (path != stages_file) stages.record_file(path, files.staged(path));
 }
 
 void commit_results(const job::Job& job, StageRecord& stages, io::OutputFiles& files) {

@@ -6,10 +6,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/error.h"
 #include "core/hash.h"
 #include "core/text.h"
 #include "core/version.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "io/json.h"
 #include "run/stage.h"
 
@@ -19,12 +20,8 @@ namespace {
 
 constexpr const char* schema = "frictab/stages/1";
 
-std::string hash_text(const std::string& text) {
-  return fmt::format("{:016x}", hash_of(text));
-}
-
 std::string file_fingerprint(const std::filesystem::path& file) {
-  return hash_text(io::read_file(file));
+  return hash_text(io::hash_of_file(file, file.string()));
 }
 
 // True if later stages read this file of the stage; "models/" is a whole folder.
@@ -43,12 +40,25 @@ std::string sections_text(const Stage& stage) {
 
 } // namespace
 
+namespace {
+
+constexpr const char* mend = "remove it, then `frictab run`";
+
+nlohmann::ordered_json read_record(const std::filesystem::path& file) {
+  const std::string text = io::read_file(file);
+  if (io::seal_of(text) == io::Seal::broken)
+    throw InputError({file.string(), 0, 0}, "was changed or damaged: its hash does not fit", mend);
+  return io::parse_json(text, file.string());
+}
+
+} // namespace
+
 StageRecord::StageRecord(const job::Job& job, const std::filesystem::path& directory)
     : job_(job), directory_(directory) {
   const auto file = directory / "stages.json";
   if (!std::filesystem::exists(file)) return;
-  const auto json = io::parse_json(io::read_file(file), file.string());
-  io::read_json(file.string(), "remove it, then `frictab run`", [&] {
+  const auto json = read_record(file);
+  io::read_json(file.string(), mend, [&] {
     if (json.at("schema") != schema) return; // written by another version: nothing is known
     for (const auto& [name, inputs] : json.at("stages").items())
       made_[name] = {inputs.at("data"), inputs.at("job"), inputs.at("laws"), inputs.at("from"),
@@ -63,7 +73,7 @@ StageRecord::StageRecord(const job::Job& job, const std::filesystem::path& direc
 
 std::string StageRecord::key(const std::string& stage) const {
   const StageInputs& made = made_.at(stage);
-  return hash_text(made.data + made.job + made.laws + made.from + made.version);
+  return hash_text(hash_of(made.data + made.job + made.laws + made.from + made.version));
 }
 
 // Returns the last recorded stage before `stage`. This skips trace if it has not run.
@@ -85,7 +95,8 @@ StageInputs StageRecord::now(const std::string& stage, const std::string& data) 
   if (first) job += fmt::format("seed {}", job_.calibration.seed);
   const std::string laws = stage == "tabulate" ? join(job_.table.model, ", ") : "";
   const std::string last = before(stage);
-  return {first ? data : "", hash_text(job), laws, last.empty() ? "" : key(last), tool_version()};
+  return {first ? data : "", hash_text(hash_of(job)), laws, last.empty() ? "" : key(last),
+          tool_version()};
 }
 
 void StageRecord::begin(const std::string& stage, const std::string& data) {
@@ -155,7 +166,21 @@ std::string StageRecord::json() const {
                                    {"version", found->second.version}};
   if (!open_.empty()) out["unfinished"] = open_;
   out["files"] = files_;
-  return io::json_text(out);
+  return io::sealed(io::json_text(out));
+}
+
+std::vector<std::string> differences_in(const std::filesystem::path& directory) {
+  const auto file = directory / "stages.json";
+  const auto json = read_record(file);
+  std::map<std::string, std::string> files;
+  io::read_json(file.string(), mend, [&] { json.at("files").get_to(files); });
+  std::vector<std::string> found;
+  for (const auto& [path, fingerprint] : files)
+    if (!std::filesystem::exists(directory / path))
+      found.push_back(path + " is missing");
+    else if (file_fingerprint(directory / path) != fingerprint)
+      found.push_back(path + " was changed");
+  return found;
 }
 
 } // namespace frictab::run

@@ -73,4 +73,8 @@ private:
   std::set<std::string> had_files_;
 };
 
+// Compares the files of a result directory with its stages.json: "models/shear.json is missing",
+// "trace.json was changed". Throws InputError if there is no stages.json, or if it is damaged.
+std::vector<std::string> differences_in(const std::filesystem::path& directory);
+
 } // namespace frictab::run

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "calibrate/experiment_errors.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "report/report.h"
 #include "run/law_accuracy.h"
 #include "run/stage_functions.h"

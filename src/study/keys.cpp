@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -18,19 +17,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t piece_bytes = std::size_t{16} << 20;
-
-// Hashes piece by piece, so that a large file needs no memory.
-std::string hash_of_file(const std::string& base, const std::string& file) {
-  std::ifstream in(fs::path(base) / file, std::ios::binary);
-  if (!in) throw no_such_file(file);
-  std::string hashes, piece(piece_bytes, '\0');
-  do {
-    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    const auto bytes = static_cast<std::size_t>(in.gcount());
-    hashes += fmt::format("{:016x}", hash_of(std::string_view(piece).substr(0, bytes)));
-  } while (in);
-  return hashes;
+std::uint64_t hash_of_data(const std::string& base, const std::string& file, WatchedFiles& files) {
+  std::error_code error;
+  const fs::path path = fs::path(base) / file;
+  if (!fs::exists(path, error)) throw no_such_file(file);
+  return files.add(path, file);
 }
 
 // Whether rules match a file's folders; then these are part of the key.
@@ -40,23 +31,24 @@ bool looks_at_folders(const data::DataOptions& options) {
   });
 }
 
-std::string files_text(const std::vector<std::string>& named, const data::DataOptions& options) {
+std::string files_text(const std::vector<std::string>& named, const data::DataOptions& options,
+                       WatchedFiles& watched) {
   std::string text;
   const bool folders = looks_at_folders(options);
   const auto files = data::find_files(named, options.base, options.place);
   for (const data::FilePlan& plan : data::plan_files(files, data::ReadRequest(options)).files)
     text += fmt::format("\n{} {} {}", plan.label,
                         folders ? plan.file : fs::path(plan.file).filename().string(),
-                        hash_of_file(options.base, plan.file));
+                        hash_text(hash_of_data(options.base, plan.file, watched)));
   return text;
 }
 
-std::string data_text(const Study& study, const Campaign& campaign) {
+std::string data_text(const Study& study, const Campaign& campaign, WatchedFiles& files) {
   if (campaign.twin)
     return fmt::format("twin {} {}", study.twins[campaign.twin->block].text, campaign.twin->seed);
   const data::DataOptions& options = study.jobs[campaign.job].job.data;
-  return "training" + files_text(campaign.training, options) + "\nvalidation" +
-         files_text(campaign.validation, options);
+  return "training" + files_text(campaign.training, options, files) + "\nvalidation" +
+         files_text(campaign.validation, options, files);
 }
 
 } // namespace
@@ -66,13 +58,14 @@ InputError no_such_file(const std::string& file) {
                     "files of a campaign are named relative to the study");
 }
 
-std::uint64_t key_of(const Study& study, const Campaign& campaign) {
+std::uint64_t key_of(const Study& study, const Campaign& campaign, WatchedFiles& files) {
   return hash_of(fmt::format("{}\n{}\n{}\n{}", tool_version(), stage_name(study.stage),
-                             study.jobs[campaign.job].fingerprint, data_text(study, campaign)));
+                             study.jobs[campaign.job].fingerprint,
+                             data_text(study, campaign, files)));
 }
 
 std::string key_text(std::uint64_t key) {
-  return fmt::format("{:016x}", key);
+  return hash_text(key);
 }
 
 std::optional<std::uint64_t> read_key(std::string_view text) {

@@ -14,8 +14,8 @@ namespace frictab::study {
 // XXH64 of the version of frictab, the last stage, the resolved job, and the bytes of the
 // campaign's files with their names (an experiment may be called after its file) but not their
 // folders; for a twin, of its block and seed. Throws InputError where files cannot be read or do
-// not fit the job's rules.
-std::uint64_t key_of(const Study& study, const Campaign& campaign);
+// not fit the job's rules. Adds the campaign's files to `files`.
+std::uint64_t key_of(const Study& study, const Campaign& campaign, WatchedFiles& files);
 
 // The error that key_of throws for a file that cannot be read.
 InputError no_such_file(const std::string& file);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/os/files.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/text.h"
@@ -54,7 +55,8 @@ Plan plan_of(Study study) {
   const Progress progress("hashing data", campaigns.size());
   parallel_for(campaigns.size(), [&](std::size_t i) {
     try {
-      plan.keys[i] = key_of(plan.study, campaigns[i]);
+      WatchedFiles files; // watched from the time when they are read
+      plan.keys[i] = key_of(plan.study, campaigns[i], files);
     } catch (const InputError& error) {
       errors[i] = error;
     }
@@ -71,27 +73,56 @@ Plan plan_of(Study study) {
 }
 
 const char* state_name(State state) {
-  if (state == State::done) return "done";
-  return state == State::failed ? "failed" : "missing";
+  constexpr const char* names[] = {"missing", "done", "failed", "damaged"};
+  return names[static_cast<std::size_t>(state)];
 }
 
+namespace {
+
+// The first difference of each result from what was written; empty: none.
+std::vector<std::string> first_differences(const std::string& directory,
+                                           const std::vector<std::uint64_t>& keys) {
+  std::vector<std::string> found(keys.size());
+  parallel_for(keys.size(), [&](std::size_t i) {
+    const auto all = differences_of_result(directory, keys[i]);
+    if (!all.empty()) found[i] = all.front();
+  });
+  return found;
+}
+
+} // namespace
+
 Found::Found(const std::string& directory) {
-  std::error_code none; // no directory, no results
-  for (const auto& entry : fs::directory_iterator(fs::path(directory) / results_folder, none)) {
-    const std::string name = entry.path().filename().string();
+  std::vector<std::uint64_t> results, failures;
+  for (const fs::path& path : os::entries_of(fs::path(directory) / results_folder)) {
+    const std::string name = path.filename().string();
     if (const auto key = read_key(name)) {
-      done.insert(*key);
+      results.push_back(*key);
     } else if (name.starts_with(".") && name.size() > 17) { // .KEY.XXXXXX
       ++unfinished;
       if (const auto open = read_key(std::string_view(name).substr(1, 16))) begun.insert(*open);
     }
   }
-  for (const auto& entry : fs::directory_iterator(fs::path(directory) / failures_folder, none))
-    if (const auto key = read_key(entry.path().stem().string())) failed.insert(*key);
+  for (const fs::path& path : os::entries_of(fs::path(directory) / failures_folder))
+    if (const auto key = read_key(path.stem().string())) failures.push_back(*key);
+  const std::vector<std::string> wrong = first_differences(directory, results);
+  for (std::size_t i = 0; i < results.size(); ++i)
+    if (wrong[i].empty())
+      done.insert(results[i]);
+    else
+      damaged.emplace(results[i], wrong[i]);
+  for (const std::uint64_t key : failures)
+    try {
+      read_failure(directory, key);
+      failed.insert(key);
+    } catch (const InputError& error) {
+      damaged.emplace(key, error.faults().front().what);
+    }
 }
 
 State Found::state(std::uint64_t key) const {
   if (done.count(key) > 0) return State::done;
+  if (damaged.count(key) > 0) return State::damaged;
   return failed.count(key) > 0 ? State::failed : State::missing;
 }
 
@@ -102,16 +133,19 @@ Counts counts_of(const Plan& plan, const Found& found) {
     counts.done += state == State::done;
     counts.failed += state == State::failed;
     counts.missing += state == State::missing;
+    counts.damaged += state == State::damaged;
   }
   return counts;
 }
 
-namespace {
-
 std::string counts_text(const Counts& counts) {
-  return fmt::format("{} done, {} failed, {} missing", thousands(counts.done),
-                     thousands(counts.failed), thousands(counts.missing));
+  std::string text = fmt::format("{} done, {} failed, {} missing", thousands(counts.done),
+                                 thousands(counts.failed), thousands(counts.missing));
+  if (counts.damaged > 0) text += fmt::format(", {} damaged", thousands(counts.damaged));
+  return text;
 }
+
+namespace {
 
 std::string head_text(const Plan& plan, const Found& found) {
   const Study& study = plan.study;
@@ -124,7 +158,8 @@ std::string head_text(const Plan& plan, const Found& found) {
 }
 
 std::string next_text(const Plan& plan, const Found& found) {
-  const bool open = counts_of(plan, found).missing > 0;
+  const Counts counts = counts_of(plan, found);
+  const bool open = counts.missing + counts.damaged > 0;
   return fmt::format("next: frictab study {} {}{}\n", open ? "run" : "report",
                      shell_word(plan.study.file), plan.study.command_line_options);
 }
@@ -139,7 +174,8 @@ Json head_json(const Plan& plan, const Found& found) {
           {"campaigns", plan.keys.size()},
           {"done", counts.done},
           {"failed", counts.failed},
-          {"missing", counts.missing}};
+          {"missing", counts.missing},
+          {"damaged", counts.damaged}};
 }
 
 } // namespace
@@ -181,6 +217,16 @@ std::vector<Failure> failures_of(const Plan& plan, const Found& found) {
   return failures;
 }
 
+// Returns the first damaged results.
+std::vector<Failure> damages_of(const Plan& plan, const Found& found) {
+  std::vector<Failure> damages;
+  for (std::size_t i = 0; i < plan.keys.size() && damages.size() < most_listed; ++i)
+    if (const auto at = found.damaged.find(plan.keys[i]);
+        found.state(plan.keys[i]) == State::damaged)
+      damages.push_back({plan.study.campaigns[i].name, at->second});
+  return damages;
+}
+
 } // namespace
 
 std::string status_text(const Plan& plan, const Found& found) {
@@ -190,6 +236,8 @@ std::string status_text(const Plan& plan, const Found& found) {
                         thousands(found.unfinished));
   for (const Failure& failure : failures_of(plan, found))
     text += fmt::format("failed: {}: {}\n", failure.campaign, failure.message);
+  for (const Failure& damage : damages_of(plan, found))
+    text += fmt::format("damaged: {}: {}\n", damage.campaign, damage.message);
   return text + next_text(plan, found);
 }
 
@@ -202,6 +250,9 @@ std::string status_json(const Plan& plan, const Found& found) {
     json["first_failures"].push_back({{"campaign", failure.campaign},
                                       {"by_input", failure.by_input},
                                       {"message", failure.message}});
+  json["first_damaged"] = Json::array();
+  for (const Failure& damage : damages_of(plan, found))
+    json["first_damaged"].push_back({{"campaign", damage.campaign}, {"message", damage.message}});
   return io::json_text(json);
 }
 

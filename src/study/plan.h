@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <unordered_set>
 #include <vector>
@@ -23,15 +24,17 @@ Plan plan_of(Study study);
 // Number of campaigns that a text lists; further ones are only counted.
 inline constexpr std::size_t most_listed = 10;
 
-enum class State { missing, done, failed };
+// damaged: a result that is cut, changed, or another campaign's; it is made again.
+enum class State { missing, done, failed, damaged };
 const char* state_name(State state);
 
-// Keys with a result in the study's directory; read once.
+// Keys with a result in the study's directory; every result is read once.
 struct Found {
   explicit Found(const std::string& directory);
   State state(std::uint64_t key) const;
 
   std::unordered_set<std::uint64_t> done, failed;
+  std::map<std::uint64_t, std::string> damaged; // with what is wrong
   // Keys with a working directory, of a process that runs or was killed, and the number of such
   // directories.
   std::unordered_set<std::uint64_t> begun;
@@ -40,9 +43,10 @@ struct Found {
 
 // Number of campaigns by state.
 struct Counts {
-  std::size_t done = 0, failed = 0, missing = 0;
+  std::size_t done = 0, failed = 0, missing = 0, damaged = 0;
 };
 Counts counts_of(const Plan& plan, const Found& found);
+std::string counts_text(const Counts& counts); // "3 done, 1 failed, 0 missing"
 
 std::string plan_text(const Plan& plan, const Found& found);
 std::string plan_json(const Plan& plan, const Found& found);

@@ -7,7 +7,7 @@
 
 #include "core/text.h"
 #include "data/file_list.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "study/campaign_list.h"
 #include "study/campaigns_csv.h"
 #include "study/keys.h"

@@ -2,7 +2,6 @@
 #include "study/report_study.h"
 
 #include <algorithm>
-#include <fstream>
 #include <unordered_set>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include "core/text.h"
 #include "core/version.h"
 #include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "io/json.h"
 #include "study/campaigns_csv.h"
 #include "study/law_order.h"
@@ -37,25 +37,25 @@ public:
     const std::uint64_t key = plan_.keys[i];
     const State state = found_.state(key);
     if (state == State::missing) return write_row_without(table_, campaign, key, state, "");
+    if (state == State::damaged) return take_damaged(i, found_.damaged.at(key));
     try {
       if (state == State::done) return take_result(i);
       take_failure(i, read_failure(directory_, key).message);
     } catch (const InputError& error) { // a damaged file does not affect the other campaigns
-      if (state == State::done) {
-        --tally_.counts.done;
-        ++tally_.counts.failed;
-      }
-      take_failure(i, fmt::format("its result cannot be read: {}: remove {}, and `frictab study "
-                                  "run` rebuilds it",
-                                  error.faults().front().what, file_of(state, key).string()));
+      --(state == State::done ? tally_.counts.done : tally_.counts.failed);
+      ++tally_.counts.damaged;
+      take_damaged(i, error.faults().front().what);
     }
   }
 
   Tally take_tally() { return std::move(tally_); }
 
 private:
-  std::filesystem::path file_of(State state, std::uint64_t key) const {
-    return state == State::done ? result_directory(directory_, key) : failure_path(directory_, key);
+  void take_damaged(std::size_t i, const std::string& damage) {
+    const std::string message =
+        fmt::format("its result is damaged: {}; `frictab study run` makes it again", damage);
+    write_row_without(table_, plan_.study.campaigns[i], plan_.keys[i], State::damaged, message);
+    tally_.failed.push_back({i, message});
   }
 
   void take_failure(std::size_t i, const std::string& message) {
@@ -66,8 +66,7 @@ private:
   // Writes the rows; identical campaigns count once in the tally.
   void take_result(std::size_t i) {
     const std::uint64_t key = plan_.keys[i];
-    const auto file = result_directory(directory_, key) / result_file;
-    CampaignResult result = parse_result(io::read_file(file), file.string());
+    CampaignResult result = read_result(directory_, key);
     write_rows(table_, plan_.study.campaigns[i], key, result);
     if (seen_.insert(key).second) tally_.add(i, std::move(result));
   }
@@ -82,15 +81,14 @@ private:
 
 Tally read_results(const Plan& plan, const Found& found, const Counts& counts,
                    const std::filesystem::path& table) {
-  std::ofstream out(table, std::ios::binary);
+  io::OutputFile out(table);
   Reading reading(plan, found, counts, out);
   const Progress progress("reading results", plan.keys.size());
   for (std::size_t i = 0; i < plan.keys.size(); ++i) {
     reading.take(i);
     progress.tick();
   }
-  out.close();
-  if (!out) throw std::runtime_error("cannot write " + table.string());
+  out.finish();
   return reading.take_tally();
 }
 
@@ -114,8 +112,7 @@ Tally report_study(const Plan& plan) {
 std::string report_text(const Plan& plan, const Tally& tally) {
   const Counts& counts = tally.counts;
   std::string text =
-      fmt::format("{} campaigns: {} done, {} failed, {} missing{}\n", thousands(plan.keys.size()),
-                  thousands(counts.done), thousands(counts.failed), thousands(counts.missing),
+      fmt::format("{} campaigns: {}{}\n", thousands(plan.keys.size()), counts_text(counts),
                   tally.synthetic > 0 ? " - SYNTHETIC data among them" : "");
   text += words::as_text(laws_over_campaigns(tally));
   for (std::size_t i = 0; i < std::min(tally.failed.size(), most_listed); ++i)
@@ -132,6 +129,7 @@ std::string report_json(const Plan& plan, const Tally& tally) {
                                  {"done", tally.counts.done},
                                  {"failed", tally.counts.failed},
                                  {"missing", tally.counts.missing},
+                                 {"damaged", tally.counts.damaged},
                                  {"synthetic", tally.synthetic},
                                  {"laws", nlohmann::ordered_json::array()},
                                  {"effects", nlohmann::ordered_json::array()}};

@@ -8,7 +8,7 @@
 
 #include "core/hash.h"
 #include "data/file_list.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "job/toml_tree.h"
 #include "study/toml_values.h"
 
@@ -75,12 +75,12 @@ std::vector<std::string> shared_files(const job::Job& job) {
   return files;
 }
 
-std::string fingerprint_of(const job::Job& job, const std::string& words) {
+std::string fingerprint_of(const job::Job& job, const std::string& words, WatchedFiles& shared) {
   std::string text = words;
   for (const std::string& file : shared_files(job))
-    text += fmt::format("\n{} {:016x}", fs::path(file).filename().string(),
-                        hash_of(io::read_file(fs::path(job.data.base) / file)));
-  return fmt::format("{:016x}", hash_of(text));
+    text += fmt::format("\n{} {}", fs::path(file).filename().string(),
+                        hash_text(shared.add(fs::path(job.data.base) / file, file)));
+  return hash_text(hash_of(text));
 }
 
 } // namespace
@@ -110,7 +110,7 @@ ResolvedJob ResolvedJobs::resolve(const std::vector<std::string>& set) const {
   data.training.clear();
   data.validation.clear();
   data.oracle.clear();
-  resolved.fingerprint = fingerprint_of(resolved.job, words_of(text_, file_, all));
+  resolved.fingerprint = fingerprint_of(resolved.job, words_of(text_, file_, all), resolved.shared);
   return resolved;
 }
 

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include "calibrate/judgement_json.h"
 #include "core/no_value.h"
 #include "core/text.h"
 #include "effects/effect.h"
+#include "io/json.h"
 #include "io/json_fields.h"
 
 namespace frictab::study {
@@ -16,7 +19,7 @@ using io::Fields;
 
 namespace {
 
-constexpr const char* schema = "frictab/study-result/1";
+constexpr const char* schema = "frictab/study-result/2";
 
 double best_p_value(const calibrate::Comparisons& comparisons, const std::string& law) {
   const auto at = std::find(comparisons.laws.begin(), comparisons.laws.end(), law);
@@ -111,6 +114,7 @@ static void describe(Fields& f, EffectResult& effect) {
 
 static void describe(Fields& f, CampaignResult& result) {
   f("data", result.data_hash);
+  f("stages", result.stages_hash);
   f("synthetic_data", result.synthetic);
   f("judged_by", result.judged_by);
   f("experiments", result.experiments);
@@ -122,10 +126,17 @@ static void describe(Fields& f, CampaignResult& result) {
 }
 
 std::string result_json(const CampaignResult& result, const std::string& key) {
-  return io::record_text(schema, [&](Fields& f) {
+  return io::sealed(io::record_text(schema, [&](Fields& f) {
     f.only_written("key", key);
     describe(f, io::to_write(result));
-  });
+  }));
+}
+
+std::string damage_of_result(std::string_view text, const std::string& key) {
+  if (io::seal_of(text) != io::Seal::right) return "its hash does not fit";
+  return text.find(fmt::format("\"key\": \"{}\"", key)) == text.npos
+             ? "it is the result of another campaign"
+             : "";
 }
 
 CampaignResult parse_result(std::string_view text, const std::string& file) {

@@ -39,6 +39,7 @@ struct EffectResult {
 
 struct CampaignResult {
   std::string data_hash, judged_by;
+  std::string stages_hash; // of stages.json, which has those of all other files
   bool synthetic = false;
   std::size_t experiments = 0, rows = 0; // training and validation
   std::vector<LawResult> laws;           // by rank, as calibrated: without traced effects
@@ -51,8 +52,10 @@ struct CampaignResult {
 CampaignResult result_of(const calibrate::Calibration& calibration, const run::JobData& data);
 void add_effects(CampaignResult& result, const std::vector<trace::Trace>& traces);
 
-// `key`: 16 hex digits.
+// `key`: 16 hex digits. The text ends with a hash of its content.
 std::string result_json(const CampaignResult& result, const std::string& key);
+// Says what is wrong with the text as result_json's of this key; empty: nothing.
+std::string damage_of_result(std::string_view text, const std::string& key);
 // Throws InputError if the text was not written by result_json.
 CampaignResult parse_result(std::string_view text, const std::string& file);
 

@@ -10,10 +10,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/version.h"
 #include "io/atomic_file.h"
 #include "io/directory_lock.h"
+#include "io/file_streams.h"
 #include "io/json.h"
+#include "run/stage_record.h"
 #include "study/keys.h"
 
 namespace frictab::study {
@@ -30,6 +33,27 @@ fs::path result_directory(const std::string& directory, std::uint64_t key) {
   return fs::path(directory) / results_folder / key_text(key);
 }
 
+CampaignResult read_result(const std::string& directory, std::uint64_t key) {
+  const fs::path file = result_directory(directory, key) / result_file;
+  const std::string text = io::read_file(file);
+  if (const std::string damage = damage_of_result(text, key_text(key)); !damage.empty())
+    throw InputError({file.string(), 0, 0}, damage, "`frictab study run` makes it again");
+  return parse_result(text, file.string());
+}
+
+std::vector<std::string> differences_of_result(const std::string& directory, std::uint64_t key) {
+  const fs::path folder = result_directory(directory, key), stages = folder / "stages.json";
+  try {
+    const CampaignResult result = read_result(directory, key);
+    if (hash_text(io::hash_of_file(stages, stages.string())) != result.stages_hash)
+      return {"stages.json was changed"};
+    return run::differences_in(folder);
+  } catch (const InputError& error) {
+    const Fault& fault = error.faults().front();
+    return {fs::path(fault.place.file).filename().string() + ": " + fault.what};
+  }
+}
+
 fs::path failure_path(const std::string& directory, std::uint64_t key) {
   return fs::path(directory) / failures_folder / (key_text(key) + ".json");
 }
@@ -37,17 +61,19 @@ fs::path failure_path(const std::string& directory, std::uint64_t key) {
 void write_failure(const std::string& directory, std::uint64_t key, const Failure& failure) {
   const fs::path file = failure_path(directory, key);
   io::OutputFiles output(file.parent_path(), io::OutputFiles::Claim::one_file);
-  output.write(file.filename().string(), io::json_text({{"schema", failure_schema},
-                                                        {"tool_version", tool_version()},
-                                                        {"key", key_text(key)},
-                                                        {"campaign", failure.campaign},
-                                                        {"by_input", failure.by_input},
-                                                        {"message", failure.message}}));
+  output.write(file.filename().string(), io::sealed(io::json_text({{"schema", failure_schema},
+                                                                   {"tool_version", tool_version()},
+                                                                   {"key", key_text(key)},
+                                                                   {"campaign", failure.campaign},
+                                                                   {"by_input", failure.by_input},
+                                                                   {"message", failure.message}})));
   output.commit();
 }
 
 Failure parse_failure(std::string_view text, const std::string& file) {
   const std::string mends = "remove it: `frictab study run` tries the campaign again";
+  if (io::seal_of(text) == io::Seal::broken)
+    throw InputError({file, 0, 0}, "its hash does not fit", mends);
   const nlohmann::ordered_json json = io::parse_json(text, file);
   io::check_schema(json, failure_schema, file, mends);
   Failure failure;
@@ -62,8 +88,17 @@ Failure read_failure(const std::string& directory, std::uint64_t key) {
   return parse_failure(io::read_file(file), file.string());
 }
 
+namespace {
+
+bool is_damaged(const std::string& directory, std::uint64_t key) {
+  return fs::exists(result_directory(directory, key)) &&
+         !differences_of_result(directory, key).empty();
+}
+
+} // namespace
+
 WorkDirectory::WorkDirectory(const std::string& directory, std::uint64_t key)
-    : final_(result_directory(directory, key)) {
+    : directory_(directory), key_(key), final_(result_directory(directory, key)) {
   std::error_code error;
   fs::create_directories(final_.parent_path(), error);
   std::string pattern = (final_.parent_path() / fmt::format(".{}.XXXXXX", key_text(key))).string();
@@ -84,6 +119,7 @@ WorkDirectory::~WorkDirectory() {
 
 bool WorkDirectory::publish() {
   const os::Uninterrupted whole;
+  if (is_damaged(directory_, key_)) fs::remove_all(final_);
   if (std::rename(path_.c_str(), final_.c_str()) == 0) {
     path_.clear();
     return true;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <new>
 #include <stdexcept>
@@ -12,10 +11,14 @@
 
 #include <fmt/format.h>
 
+#include "core/hash.h"
 #include "core/large_work.h"
+#include "core/os/files.h"
 #include "core/progress.h"
+#include "core/text.h"
 #include "data/write_dataset.h"
 #include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "run/run.h"
 #include "study/keys.h"
 #include "study/result.h"
@@ -34,10 +37,7 @@ std::vector<std::string> write_part(const twin::TwinPart& part, const std::strin
                                     const fs::path& folder) {
   if (part.data.rows() == 0) return {};
   const fs::path file = fs::absolute(folder / name);
-  std::ofstream out(file, std::ios::binary);
-  out << data::csv_text(part.data);
-  out.close();
-  if (!out) throw std::runtime_error("cannot write " + file.string());
+  io::write_file(file, data::csv_text(part.data));
   return {file.string()};
 }
 
@@ -104,7 +104,10 @@ public:
 private:
   void take(std::size_t i) {
     const std::uint64_t key = plan_.keys[i];
-    if (found_.state(key) == State::done || fs::exists(result_directory(directory_, key)))
+    const State state = found_.state(key);
+    const bool came_since =
+        state != State::damaged && fs::exists(result_directory(directory_, key));
+    if (state == State::done || came_since)
       ++counts_.there;
     else if (fails_again(key))
       ++counts_.failed;
@@ -133,20 +136,37 @@ private:
 
   void compute(std::size_t i) {
     const Study& study = plan_.study;
+    const Campaign& campaign = study.campaigns[i];
     const std::uint64_t key = plan_.keys[i];
+    WatchedFiles files = study.jobs[campaign.job].shared;
+    files.check_bytes();
+    check_key(i, files);
     WorkDirectory work(directory_, key);
-    job::Job job = job_of(study, study.campaigns[i]);
+    job::Job job = job_of(study, campaign);
     job.directory = work.path().string();
-    if (const auto& twin = study.campaigns[i].twin)
-      write_twin(study, *twin, work.path() / twin_folder, job);
-    const CampaignResult result = run_campaign(std::move(job), study.stage);
+    if (campaign.twin) write_twin(study, *campaign.twin, work.path() / twin_folder, job);
+    CampaignResult result = run_campaign(std::move(job), study.stage);
+    files.check_untouched();
+    check_key(i, files); // a folder may have other files
     fs::remove_all(work.path() / twin_folder);
     write_result(result, key, work.path());
     publish(work, key, !result.missed.empty());
   }
 
-  static void write_result(const CampaignResult& result, std::uint64_t key,
-                           const fs::path& folder) {
+  // Throws if the campaign's files are not those of its key; watches them from here on.
+  void check_key(std::size_t i, WatchedFiles& files) const {
+    const Study& study = plan_.study;
+    const Campaign& campaign = study.campaigns[i];
+    if (key_of(study, campaign, files) == plan_.keys[i]) return;
+    std::vector<std::string> names = campaign.training;
+    names.insert(names.end(), campaign.validation.begin(), campaign.validation.end());
+    throw std::runtime_error(
+        fmt::format("{}: changed after the study had begun; run it again", join(names, ", ")));
+  }
+
+  static void write_result(CampaignResult& result, std::uint64_t key, const fs::path& folder) {
+    const fs::path stages = folder / "stages.json";
+    result.stages_hash = hash_text(io::hash_of_file(stages, stages.string()));
     io::OutputFiles files(folder);
     files.write(result_file, result_json(result, key_text(key)));
     files.commit();
@@ -170,11 +190,8 @@ private:
     if (found_.begun.count(key) == 0) return;
     std::error_code ignored;
     const std::string prefix = "." + key_text(key) + ".";
-    std::vector<fs::path> left;
-    for (const auto& entry : fs::directory_iterator(fs::path(directory_) / results_folder, ignored))
-      if (entry.path().filename().string().starts_with(prefix)) left.push_back(entry.path());
-    for (const fs::path& path : left)
-      fs::remove_all(path, ignored);
+    for (const fs::path& path : os::entries_of(fs::path(directory_) / results_folder))
+      if (path.filename().string().starts_with(prefix)) fs::remove_all(path, ignored);
   }
 
   void fail(std::size_t i, const std::string& message, bool by_input) {

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "job/job.h"
+#include "study/watched_files.h"
 #include "twin/twin.h"
 
 namespace frictab::study {
@@ -26,6 +27,7 @@ struct ResolvedJob {
   job::Job job;
   // 16 hex digits: hash of the job and its shared files, without their paths
   std::string fingerprint;
+  WatchedFiles shared; // tests, a second clock, laws
 };
 
 // A block [[twin]]: synthetic campaigns that differ only by their seed.

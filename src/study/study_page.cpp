@@ -50,11 +50,9 @@ words::Text verdict_text(const Plan& plan, const Tally& tally) {
 
 std::string size_sentence(const Plan& plan, const Tally& tally) {
   std::string text = fmt::format(
-      "{} campaigns: {} done, {} failed, {} missing. {} tests, {} rows. Each was taken up to the "
-      "stage {}.",
-      thousands(plan.keys.size()), thousands(tally.counts.done), thousands(tally.counts.failed),
-      thousands(tally.counts.missing), thousands(tally.experiments), thousands(tally.rows),
-      stage_name(plan.study.stage));
+      "{} campaigns: {}. {} tests, {} rows. Each was taken up to the stage {}.",
+      thousands(plan.keys.size()), counts_text(tally.counts), thousands(tally.experiments),
+      thousands(tally.rows), stage_name(plan.study.stage));
   if (!plan.notes.empty())
     text += fmt::format(" {} are the same as another one and count once.",
                         words::count_of(plan.notes.size(), "campaign"));

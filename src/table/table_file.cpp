@@ -366,10 +366,24 @@ private:
                                             in_.number_attribute("/", "range_high_" + name));
   }
 
+  // True of a parameter that its law bounds so; of a table of an unknown law, by the usual meaning
+  // of its name.
+  bool is_never_negative(const std::string& constant) const {
+    if (constant == "k" || constant == "k_MPa") return true;
+    if (table_.model == foreign_model) return constant == "m" || constant == "mu";
+    const models::Law* law = models::find_law(table_.model);
+    return law && std::any_of(law->parameters.begin(), law->parameters.end(),
+                              [&](const models::Parameter& parameter) {
+                                return parameter.name == constant && parameter.lower >= 0;
+                              });
+  }
+
   // Checks the numbers with which generated sources would compute.
   void check_numbers() {
     for (const auto& [name, number] : table_.constants)
-      if (!std::isfinite(number)) fault(fmt::format("the constant '{}' is {}", name, number));
+      if (!std::isfinite(number) || (number < 0 && is_never_negative(name)))
+        fault(fmt::format("the constant '{}' is {}{}", name, number,
+                          std::isfinite(number) ? ", and is never below 0" : ""));
     for (const TableAxis& axis : table_.axes)
       if (axis.data && !(axis.data->first <= axis.data->second))
         fault(fmt::format("the data of axis '{}' reach from {} to {}", axis.name, axis.data->first,

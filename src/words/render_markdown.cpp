@@ -1,6 +1,8 @@
 // Markdown.
 #include "words/render.h"
 
+#include "core/text.h"
+
 namespace frictab::words {
 
 namespace {
@@ -115,7 +117,7 @@ private:
 std::string as_markdown(const Section& section, int level) {
   MarkdownWriter writer;
   writer.write(section, level);
-  return std::move(writer).text();
+  return printable(std::move(writer).text());
 }
 
 } // namespace frictab::words

@@ -8,7 +8,7 @@
 
 #include "codegen/fortran_core.h"
 #include "core/random.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 
 namespace frictab::bench {
 

@@ -8,7 +8,7 @@
 
 #include "calibrate/calibration_file.h"
 #include "core/text.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "proof/bound.h"
 #include "table/table_file.h"
 

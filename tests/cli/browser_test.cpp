@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "support/run_command.h"
 
 namespace frictab::browser_test {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "support/small_campaign.h"
 
 namespace frictab::ci_example_test {

@@ -9,7 +9,7 @@
 
 #include "cli/command.h"
 #include "core/text.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "support/small_campaign.h"
 
 namespace frictab::command_line_test {

@@ -1,4 +1,6 @@
 // The commands that explain: init, list, explain, doctor.
+#include <filesystem>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -159,6 +161,27 @@ TEST(DoctorCommand, SaysWhatThisMachineHas) {
   EXPECT_THAT(found.at("gcc").at("text").get<std::string>(), HasSubstr("/gcc"));
   for (const codegen::Exporter& target : codegen::all_exporters())
     EXPECT_TRUE(found.at(target.name).at("ok")) << found.at(target.name);
+}
+
+TEST(DoctorCommand, ListsEveryLibraryThatIsLoadedInJsonAndTheirNumberInText) {
+  std::size_t loaded = 0;
+  for (const auto& item : test::parse_json(run_frictab({"doctor", "--json"}).out)) {
+    EXPECT_EQ(item.size(), 6u) << "keys that scripts know";
+    const std::string name = item.at("name"), text = item.at("text");
+    if (item.at("topic") != "library" || name.find(".so") == name.npos) continue;
+    ++loaded;
+    EXPECT_TRUE(std::filesystem::exists(text)) << name << ": " << text;
+    EXPECT_FALSE(std::filesystem::is_symlink(text)) << name << ": " << text;
+    if (name.starts_with("libz.so")) {
+      EXPECT_THAT(text, testing::ContainsRegex("/libz\\.so\\.1\\.[0-9.]+$"));
+    }
+  }
+  EXPECT_GT(loaded, 15u);
+  const std::string text = run_frictab({"doctor"}).out;
+  EXPECT_THAT(text, HasSubstr(std::to_string(loaded) + " shared ones are loaded (--json lists"));
+  for (const char* library : {"HDF5 1.", "NLopt 2.", "Eigen 3.", "oneTBB 2021.", "PCRE2 10."})
+    EXPECT_THAT(text, HasSubstr(library));
+  EXPECT_THAT(text, testing::Not(HasSubstr(".so")));
 }
 
 TEST(DoctorCommand, FailsAndSaysHowToMendWhereCompilersAreMissing) {

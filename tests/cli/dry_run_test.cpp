@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "support/small_campaign.h"
 
 namespace frictab::dry_run_test {

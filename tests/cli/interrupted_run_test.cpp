@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/text.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "support/small_campaign.h"
 
 namespace frictab::interrupted_run_test {

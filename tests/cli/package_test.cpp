@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/hardened.h"
 #include "support/run_command.h"
 
 namespace frictab::package_test {
@@ -50,6 +51,9 @@ TEST(SlowPackage, InstalledOrUnpackedIsAWholeProgramThatNamesItsLibraries) {
       {"cmake", "--install", build.string(), "--prefix", prefix.path("usr"), "--strip"});
   ASSERT_EQ(installed.exit_code, 0) << installed.err;
   expect_whole(prefix.path("usr"));
+  if (has("readelf")) {
+    EXPECT_THAT(test::protections_missing_in(prefix.path("usr/bin/frictab")), testing::IsEmpty());
+  }
   for (const char* program : {"cpack", "dpkg-deb", "dpkg-shlibdeps"})
     if (!has(program)) GTEST_SKIP() << program << " is not installed";
   const test::TemporaryDirectory directory;
@@ -81,7 +85,7 @@ TEST(Dockerfile, BuildsWithTheListedPackagesAndThePresetOfTheDocumentation) {
   EXPECT_EQ(listed.out.find('#'), std::string::npos);
   const CommandResult text = run_command({"cat", FRICTAB_SOURCE_DIR "/Dockerfile"});
   EXPECT_THAT(text.out, HasSubstr("sed '/^# tests/,$d; /^#/d' /frictab/apt-packages.txt"));
-  EXPECT_THAT(text.out, HasSubstr("FROM debian:12\n"));
+  EXPECT_THAT(text.out, ContainsRegex("\nFROM debian:12@sha256:[0-9a-f]+ AS build\n"));
 }
 
 } // namespace

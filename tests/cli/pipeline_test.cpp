@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "support/json.h"
 #include "support/run_command.h"
 #include "support/small_campaign.h"

@@ -7,7 +7,7 @@
 
 #include "cli/command.h"
 #include "core/error.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "support/json.h"
 
 namespace frictab::twin_command_test {

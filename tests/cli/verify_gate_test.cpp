@@ -7,7 +7,6 @@
 
 #include "core/program.h"
 #include "core/text.h"
-#include "io/atomic_file.h"
 #include "support/json.h"
 #include "support/small_campaign.h"
 

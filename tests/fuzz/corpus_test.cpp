@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fuzz/target.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 
 namespace frictab::corpus_test {
 namespace {

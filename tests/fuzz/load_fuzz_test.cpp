@@ -12,7 +12,7 @@
 #include "data/load.h"
 #include "data/quantity.h"
 #include "data/sniff.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "io/hdf5.h"
 #include "job/guessed_job.h"
 

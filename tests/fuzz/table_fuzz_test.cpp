@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "support/run_command.h"
 #include "support/sample_tables.h"
 #include "table/info.h"

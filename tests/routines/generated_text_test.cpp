@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "codegen/exporter.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "support/sample_tables.h"
 #include "support/solver_scale.h"
 

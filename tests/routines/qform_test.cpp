@@ -9,7 +9,6 @@
 
 #include "codegen/compile.h"
 #include "core/error.h"
-#include "io/atomic_file.h"
 #include "support/sample_tables.h"
 
 namespace frictab::qform_test {
@@ -33,8 +32,7 @@ std::string source(const Table& table, const std::map<std::string, std::string>&
 std::string printed(const std::string& program, const std::string& lua, const std::string& script) {
   const TemporaryDirectory work;
   std::ofstream(work.path() / "a.lua") << lua << script;
-  run_program({program, (work.path() / "a.lua").string()}, work.path() / "log");
-  return io::read_file(work.path() / "log");
+  return run_program({program, "a.lua"}, work.path());
 }
 
 class QFormLua : public testing::TestWithParam<std::string> {

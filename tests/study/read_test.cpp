@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "study/plan.h"
 #include "study/small_study.h"
 #include "study/study.h"

@@ -6,8 +6,10 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/no_value.h"
 #include "io/csv.h"
+#include "io/json.h"
 #include "study/keys.h"
 #include "study/result_store.h"
 #include "study/small_study.h"
@@ -45,8 +47,12 @@ protected:
     return study::plan_of(study::parse_study(text, directory.path("study.toml")));
   }
   void write(const study::Plan& plan, std::size_t i, const CampaignResult& result) const {
-    const std::string key = study::key_text(plan.keys[i]);
-    directory.write("study/results/" + key + "/study.json", study::result_json(result, key));
+    const std::string key = study::key_text(plan.keys[i]), folder = "study/results/" + key;
+    const std::string stages = io::sealed("{\n  \"files\": {}\n}\n");
+    directory.write(folder + "/stages.json", stages);
+    CampaignResult whole = result;
+    whole.stages_hash = hash_text(hash_of(stages));
+    directory.write(folder + "/study.json", study::result_json(whole, key));
   }
 };
 
@@ -57,7 +63,7 @@ TEST_F(StudyReport, ResultsAreReadBackAsTheyWere) {
   const std::string text = study::result_json(result, "0000000000000001");
   EXPECT_EQ(study::result_json(study::parse_result(text, "study.json"), "0000000000000001"), text);
   EXPECT_THROW(study::parse_result(text.substr(0, 100), "study.json"), InputError);
-  EXPECT_THROW(study::parse_result("{\"schema\": \"frictab/study-result/1\"}", "study.json"),
+  EXPECT_THROW(study::parse_result("{\"schema\": \"frictab/study-result/2\"}", "study.json"),
                InputError);
 }
 
@@ -107,7 +113,7 @@ TEST_F(StudyReport, CountsCampaignsThatAreTheSameOnce) {
   EXPECT_EQ(tally.laws.at("coulomb").campaigns, 2u);
 }
 
-TEST_F(StudyReport, CountsAResultThatIsDamagedAsFailedAndSaysWhatMendsIt) {
+TEST_F(StudyReport, CountsAResultThatIsDamagedAndSaysWhatMendsIt) {
   const study::Plan all = plan(3);
   write(all, 0, made_up(0.1, true));
   const std::string folder = "study/results/" + study::key_text(all.keys[1]);
@@ -115,12 +121,12 @@ TEST_F(StudyReport, CountsAResultThatIsDamagedAsFailedAndSaysWhatMendsIt) {
   directory.write("study/failed/" + study::key_text(all.keys[2]) + ".json", "");
   const study::Tally tally = study::report_study(all);
   EXPECT_EQ(tally.counts.done, 1u);
-  EXPECT_EQ(tally.counts.failed, 2u);
+  EXPECT_EQ(tally.counts.damaged, 2u);
   const std::string text = study::report_text(all, tally);
-  EXPECT_THAT(text, HasSubstr("failed: twin-2: its result cannot be read: this is not valid JSON"));
   EXPECT_THAT(text,
-              HasSubstr(study::key_text(all.keys[1]) + ", and `frictab study run` rebuilds it\n"));
-  EXPECT_THAT(text, HasSubstr("failed: twin-3: its result cannot be read: "));
+              HasSubstr("failed: twin-2: its result is damaged: study.json: its hash does not "
+                        "fit; `frictab study run` makes it again\n"));
+  EXPECT_THAT(text, HasSubstr("failed: twin-3: its result is damaged: "));
   EXPECT_EQ(tally.laws.at("coulomb").campaigns, 1u);
 }
 

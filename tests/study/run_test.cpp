@@ -1,5 +1,6 @@
 // Studies as users run them: what is missing is computed, what is there stays.
 #include <filesystem>
+#include <functional>
 
 #include <gmock/gmock.h>
 
@@ -63,6 +64,80 @@ TEST_F(StudyRun, LeavesNoDataOfTheTwinAndNoWorkingDirectory) {
   for (const auto& entry : fs::recursive_directory_iterator(directory.path("study"))) {
     EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
     EXPECT_NE(entry.path().filename(), "training.csv") << entry.path();
+  }
+}
+
+TEST_F(StudyRun, FindsADamagedResultAndMakesItAgain) {
+  write_three();
+  ASSERT_EQ(frictab({"study", "run"}).exit_code, 0);
+  EXPECT_EQ(frictab({"study", "check"}).out, "3 results checked, all as they were written\n");
+  fs::copy(directory.path("study"), directory.path("right"), fs::copy_options::recursive);
+  const auto plan = test::parse_json(frictab({"study", "plan", "--json"}).out);
+  const auto folder = [&](int i) {
+    return "study/results/" + std::string(plan["keys"][i]["key"]) + "/";
+  };
+  const std::string first = folder(0);
+  const std::vector<std::function<void()>> damages = {
+      [&] { fs::remove(directory.path(first + "study.json")); },
+      [&] { directory.write(first + "study.json", ""); },
+      [&] { change_a_digit(first + "study.json"); },
+      [&] { directory.write(first + "study.json", directory.read(folder(1) + "study.json")); },
+      [&] { directory.write(first + "stages.json", directory.read(folder(1) + "stages.json")); },
+      [&] { change_a_digit(first + "calibration.json"); },
+      [&] { fs::remove(directory.path(first + "models/coulomb.json")); },
+      [&] { directory.write(first + "benchmark.md", "a page of somebody else"); }};
+  for (std::size_t i = 0; i < damages.size(); ++i) {
+    damages[i]();
+    EXPECT_THAT(frictab({"study", "status"}).out,
+                HasSubstr("2 done, 0 failed, 0 missing, 1 damaged"))
+        << i;
+    const CommandResult check = frictab({"study", "check"});
+    EXPECT_EQ(check.exit_code, 1) << i;
+    EXPECT_THAT(check.out, HasSubstr("campaign a: results/")) << i;
+    frictab({"study", "report"});
+    EXPECT_THAT(directory.read("study/campaigns.csv"), HasSubstr("its result is damaged")) << i;
+    EXPECT_EQ(frictab({"study", "run"}).out, "1 computed, 2 were there, 0 failed\n") << i;
+    EXPECT_EQ(difference("right/results", "study/results"), "") << i;
+  }
+}
+
+TEST_F(StudyRun, MakesAgainWhatIsExchangedWithAnother) {
+  write_three();
+  ASSERT_EQ(frictab({"study", "run"}).exit_code, 0);
+  const auto plan = test::parse_json(frictab({"study", "plan", "--json"}).out);
+  const auto folder = [&](int i) {
+    return directory.path("study/results/" + std::string(plan["keys"][i]["key"]));
+  };
+  fs::rename(folder(0), folder(0) + "x");
+  fs::rename(folder(1), folder(0));
+  fs::rename(folder(0) + "x", folder(1));
+  EXPECT_THAT(frictab({"study", "status"}).out,
+              HasSubstr("damaged: a: study.json: it is the result of another campaign"));
+  EXPECT_EQ(frictab({"study", "run"}).out, "2 computed, 1 were there, 0 failed\n");
+  EXPECT_EQ(frictab({"study", "check"}).exit_code, 0);
+}
+
+// The campaigns before it take long enough for the files of the last to change.
+TEST_F(SlowStudyRun, StoresNoResultUnderTheKeyOfOtherBytes) {
+  write_three();
+  directory.write("job.toml", "[models]\nuse = [\"coulomb\", \"orowan\", \"levanov\"]\n"
+                              "[calibration]\nbootstrap = 20000\n");
+  const auto before = test::parse_json(frictab({"study", "plan", "--json"}).out);
+  const CommandResult run = test::run_command(
+      {"sh", "-c",
+       "'" + test::program() +
+           "' study run -j1 & while [ -z \"$(ls study/results 2>/dev/null)\" ]; do sleep 0.01; "
+           "done\n"
+           "cp a/training.csv b/training.csv; cp a/training.csv c/training.csv; wait $!"},
+      directory.path());
+  EXPECT_EQ(run.exit_code, 3);
+  const CommandResult status = frictab({"study", "status"});
+  for (const std::string name : {"b", "c"}) {
+    const std::string file = name + "/training.csv";
+    EXPECT_THAT(directory.read("study/failed/" +
+                               std::string(before["keys"][name == "b" ? 1 : 2]["key"]) + ".json"),
+                HasSubstr(file))
+        << file;
   }
 }
 

@@ -8,7 +8,7 @@
 #include "codegen/recipe.h"
 #include "core/error.h"
 #include "expr/program.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "io/json.h"
 
 namespace frictab {

@@ -8,7 +8,7 @@
 #include <toml++/toml.h>
 
 #include "core/error.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "job/job.h"
 #include "job/json_schema.h"
 #include "job/schema.h"

@@ -297,7 +297,7 @@ with h5py.File(sys.argv[1], 'w') as f:
 )"))
                                  .string();
   if (!have_program("/usr/bin/python3")) GTEST_SKIP() << "python3 is not installed";
-  run_program({"/usr/bin/python3", script, path.string()}, directory_ / "log");
+  run_program({"/usr/bin/python3", script, path.string()}, directory_);
   const Dataset data = load_dataset({"a.h5"}, options);
   EXPECT_THAT(data.experiments, ElementsAre("K1", "K2"));
   EXPECT_THAT(column(data, "sigma_n_MPa"), ElementsAre(5, 6, 5, 6));

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "data/sniff.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "support/run_command.h"
 #include "support/tdms_bytes.h"
 #include "unit/load_case.h"

@@ -48,7 +48,7 @@ TEST_F(TextFile, IsRefusedAtItsFirstZeroByteHoweverLargeItIs) {
 }
 
 TEST_F(TextFile, ThatHasNoEndIsRefused) {
-  EXPECT_THAT(fault_of("/dev/zero"), HasSubstr("this is not a text file"));
+  EXPECT_THAT(fault_of("/dev/zero"), HasSubstr("is a pipe or a device, a file is needed"));
 }
 
 TEST_F(TextFile, AboveItsLimitIsRefusedWithTheLimit) {

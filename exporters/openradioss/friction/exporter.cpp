@@ -13,7 +13,7 @@
 #include "core/template.h"
 #include "core/version.h"
 #include "fit.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "io/json.h"
 #include "table/outside.h"
 

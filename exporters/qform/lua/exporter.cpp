@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -16,7 +15,7 @@
 #include "codegen/table_checks.h"
 #include "codegen/table_text.h"
 #include "core/template.h"
-#include "io/atomic_file.h"
+#include "io/file_streams.h"
 #include "io/json.h"
 #include "source.h"
 
@@ -81,12 +80,12 @@ void run_rows(const Built& built, const ExportRequest& request, std::size_t rows
                      column ? unit.from_canonical(column[i]) : 0.0);
     text += '\n';
   }
-  std::ofstream(path("rows.txt"), std::ios::binary) << text;
-  std::ofstream(path("rows.lua"), std::ios::binary)
-      << embedded_template("qform/lua/frictab_rows.lua");
-  run_program({built.variant.interpreter, path("rows.lua"), path(file_name), path("rows.txt"),
+  io::write_file(path("rows.txt"), text);
+  io::write_file(path("rows.lua"), embedded_template("qform/lua/frictab_rows.lua"));
+  // -E: without LUA_INIT and LUA_PATH, which may name code of the working directory.
+  run_program({built.variant.interpreter, "-E", path("rows.lua"), path(file_name), path("rows.txt"),
                path("tau.txt")},
-              built.directory / "lua.log");
+              built.directory);
   const std::string answers = io::read_file(path("tau.txt"));
   const SolverUnit stress = solver_unit("MPa", request.units);
   const char* at = answers.c_str();

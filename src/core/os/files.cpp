@@ -1,6 +1,7 @@
 // Access rights, flushing, unique directories and globs of POSIX.
 #include "core/os/files.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 
@@ -44,12 +45,29 @@ fs::path make_unique_directory(const fs::path& beginning, std::error_code& error
   return name;
 }
 
+std::vector<fs::path> entries_of(const fs::path& directory) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (fs::directory_iterator at(directory, error), end; !error && at != end; at.increment(error))
+    paths.push_back(at->path());
+  if (error && error != std::errc::no_such_file_or_directory)
+    throw std::system_error(error, "cannot list " + directory.string());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
 std::vector<std::string> paths_like(const std::string& glob) {
   glob_t found{};
   std::vector<std::string> paths;
-  if (::glob(glob.c_str(), GLOB_NOSORT, nullptr, &found) == 0)
-    paths.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+  const auto is_fault = [](const char*, int error) {
+    return error == ENOENT || error == ENOTDIR ? 0 : 1; // nothing there
+  };
+  const int answer = ::glob(glob.c_str(), GLOB_NOSORT, is_fault, &found);
+  const int why = errno;
+  if (answer == 0) paths.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
   ::globfree(&found);
+  if (answer != 0 && answer != GLOB_NOMATCH)
+    throw std::system_error(why, std::generic_category(), "cannot list all of " + glob);
   return paths;
 }
 

@@ -22,8 +22,13 @@ void flush_to_disk(const std::filesystem::path& path);
 std::filesystem::path make_unique_directory(const std::filesystem::path& beginning,
                                             std::error_code& error);
 
+// Paths of what is in a directory, sorted; none if there is no such directory. Throws
+// std::system_error if it cannot be listed.
+std::vector<std::filesystem::path> entries_of(const std::filesystem::path& directory);
+
 // Globs, where * ? [...] stand for no '/' and a backslash takes a sign's meaning away: the paths
-// that match, in any order, and whether a name does.
+// that match, in any order, and whether a name does. Throws std::system_error if a directory on the
+// way cannot be listed.
 std::vector<std::string> paths_like(const std::string& glob);
 bool is_like(const std::string& name, const std::string& glob);
 

@@ -9,10 +9,13 @@
 #include <stdexcept>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "core/os/limit.h"
 
 namespace frictab::os {
 
@@ -34,14 +37,6 @@ std::uint64_t own_memory() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-}
-
-void set_limit(int what, rlim_t value) {
-  rlimit old{};
-  if (::getrlimit(static_cast<__rlimit_resource>(what), &old) != 0) return;
-  const rlim_t most = old.rlim_max == RLIM_INFINITY ? value : std::min(value, old.rlim_max);
-  const rlimit limit{most, most};
-  ::setrlimit(static_cast<__rlimit_resource>(what), &limit);
 }
 
 [[noreturn]] void run_in_child(const ChildLimits& limits, int out,
@@ -127,6 +122,7 @@ bool ByteSource::read(std::span<char> bytes) {
       bytes = bytes.subspan(part);
       continue;
     }
+    if (!wait()) return false;
     const bool small = bytes.size() < buffered;
     if (small) buffer_.resize(buffered);
     const ssize_t got =
@@ -137,6 +133,26 @@ bool ByteSource::read(std::span<char> bytes) {
     if (!small) bytes = bytes.subspan(static_cast<std::size_t>(got));
   }
   return true;
+}
+
+bool ByteSource::wait() {
+  using Clock = std::chrono::steady_clock;
+  using std::chrono::milliseconds;
+  constexpr milliseconds longest{1 << 30}; // of poll
+  pollfd output{file_, POLLIN, 0};
+  int ready = -1;
+  do {
+    const auto begin = Clock::now();
+    ready = ::poll(&output, 1,
+                   static_cast<int>(std::clamp(patience_, milliseconds(0), longest).count()));
+    patience_ -= std::chrono::duration_cast<milliseconds>(Clock::now() - begin);
+  } while (ready < 0 && errno == EINTR);
+  return ready > 0;
+}
+
+bool ByteSource::has_ended() {
+  char more = 0;
+  return !read({&more, 1}) && patience_ > std::chrono::milliseconds(0);
 }
 
 bool ByteSource::number(std::uint64_t& value) {
@@ -157,6 +173,13 @@ bool ByteSource::doubles(std::span<double> values) {
   return read({reinterpret_cast<char*>(values.data()), values.size_bytes()});
 }
 
+ChildLimits limits_to_read(std::uint64_t file_bytes) {
+  ChildLimits limits;
+  limits.cpu_seconds += static_cast<unsigned>(file_bytes >> 22);
+  limits.wait_seconds += static_cast<unsigned>(file_bytes >> 19);
+  return limits;
+}
+
 bool run_isolated(const ChildLimits& limits, const std::function<void(ByteSink&)>& work,
                   const std::function<bool(ByteSource&)>& take) {
   int ends[2] = {};
@@ -174,9 +197,8 @@ bool run_isolated(const ChildLimits& limits, const std::function<void(ByteSink&)
   }
   ::close(ends[1]);
   Child child(id, ends[0]);
-  ByteSource source(ends[0]);
-  const bool taken = take(source);
-  return child.end() && taken;
+  ByteSource source(ends[0], std::chrono::seconds(limits.wait_seconds));
+  return take(source) && source.has_ended() && child.end();
 }
 
 } // namespace frictab::os

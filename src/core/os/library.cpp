@@ -1,11 +1,27 @@
 // Loads libraries by dlopen.
 #include "core/os/library.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <dlfcn.h>
+#include <link.h>
 
 namespace frictab::os {
+
+namespace {
+
+int add_loaded(dl_phdr_info* info, std::size_t, void* all) {
+  const std::filesystem::path found = info->dlpi_name; // empty: the program itself
+  if (!found.has_parent_path()) return 0;              // a part of the kernel
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::canonical(found, error);
+  static_cast<std::vector<LoadedLibrary>*>(all)->push_back(
+      {found.filename().string(), error ? found : file});
+  return 0;
+}
+
+} // namespace
 
 Library::Library(const std::filesystem::path& file)
     : handle_(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
@@ -23,6 +39,14 @@ void* Library::address(void* handle, const std::string& symbol) {
 
 void* Library::address_or_null(void* handle, const std::string& symbol) {
   return ::dlsym(handle, symbol.c_str());
+}
+
+std::vector<LoadedLibrary> loaded_libraries() {
+  std::vector<LoadedLibrary> all;
+  ::dl_iterate_phdr(add_loaded, &all);
+  std::sort(all.begin(), all.end(),
+            [](const LoadedLibrary& a, const LoadedLibrary& b) { return a.name < b.name; });
+  return all;
 }
 
 } // namespace frictab::os

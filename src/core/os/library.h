@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace frictab::os {
 
@@ -26,5 +27,15 @@ public:
 private:
   void* handle_;
 };
+
+// A shared library of this process: the name that its users ask for, "libz.so.1", and the file to
+// which that led, "/usr/lib/x86_64-linux-gnu/libz.so.1.2.13", whose name has the version.
+struct LoadedLibrary {
+  std::string name;
+  std::filesystem::path file;
+};
+
+// Returns all that are loaded now, sorted by name.
+std::vector<LoadedLibrary> loaded_libraries();
 
 } // namespace frictab::os

@@ -1,6 +1,8 @@
 // Asks sysconf, getrusage and ioctl.
 #include "core/os/machine.h"
 
+#include <cmath>
+
 #include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -10,6 +12,11 @@ namespace frictab::os {
 double machine_memory() {
   return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
          static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+}
+
+double stack_limit() {
+  rlimit limit{};
+  return ::getrlimit(RLIMIT_STACK, &limit) == 0 ? static_cast<double>(limit.rlim_cur) : HUGE_VAL;
 }
 
 double peak_memory() {

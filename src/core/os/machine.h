@@ -8,6 +8,7 @@
 namespace frictab::os {
 
 double machine_memory();             // bytes
+double stack_limit();                // bytes
 double peak_memory();                // bytes that this process has used at most; 0: unknown
 bool is_terminal(std::FILE* stream); // stdout or stderr
 std::size_t terminal_width();        // columns of stderr's terminal; 80: unknown
