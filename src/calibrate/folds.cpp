@@ -37,13 +37,25 @@ std::vector<std::size_t> experiment_folds(const data::Units& units, std::size_t 
 }
 
 std::string leak_note(const data::Dataset& training, const data::Dataset& validation) {
-  const auto same = data::tests_of_equal_rows(validation, training);
-  const auto shared = std::count_if(same.begin(), same.end(), [](const auto& s) { return !!s; });
+  const bool is_one = &training == &validation;
+  auto same = data::tests_of_equal_rows(validation, training);
+  const auto near = data::tests_of_same_noise(validation, training);
+  std::size_t shared = 0, changed = 0, first = 0;
+  for (std::size_t e = same.size(); e-- > 0;) {
+    if (!same[e] && !near[e]) continue;
+    ++shared;
+    changed += !same[e];
+    if (!same[e]) same[e] = near[e];
+    first = e;
+  }
   if (shared == 0) return "";
-  return fmt::format("{} of {} validation experiments have the rows of {} experiment: "
-                     "errors on them are not errors of prediction",
-                     shared, validation.experiments.size(),
-                     &training == &validation ? "another" : "a training");
+  return fmt::format(
+      "{} of {} {}experiments have the rows of {}{} ('{}' those of '{}'): {}", shared, same.size(),
+      is_one ? "" : "validation ", is_one ? "another" : "a training experiment",
+      changed == 0 ? "" : fmt::format(", {} of them with values changed a little", changed),
+      validation.experiments[first], training.experiments[*same[first]],
+      is_one ? "they repeat nothing, and the noise floor and errors are too small"
+             : "errors on them are not errors of prediction");
 }
 
 } // namespace frictab::calibrate

@@ -22,7 +22,8 @@ std::vector<std::size_t> experiment_folds(const data::Units& units, std::size_t 
 
 // Warns about leakage between two files, where different names prove nothing: how many validation
 // experiments have the same rows as a training experiment (data/equal_tests.h). If both are the
-// same data: how many have the rows of another experiment. Empty if none does.
+// same data: how many have the rows of another experiment. Also of rows that were changed a little.
+// Empty if none does.
 std::string leak_note(const data::Dataset& training, const data::Dataset& validation);
 
 } // namespace frictab::calibrate

@@ -8,6 +8,7 @@
 
 #include "cli/colour.h"
 #include "cli/job_commands.h"
+#include "cli/print.h"
 #include "core/error.h"
 #include "core/os/interrupt.h"
 #include "core/os/machine.h"
@@ -56,7 +57,9 @@ job::Job read_job(const std::string& file, const CommonOptions& common) {
 }
 
 void print_notes(const run::Run& run, const CommonOptions& common) {
-  if (run.data && !run.data->leak.empty()) note(common, "warning: " + run.data->leak);
+  if (run.data)
+    for (const std::string& caution : run.data->training.cautions)
+      note(common, "warning: " + caution);
   for (const std::string& line : run.notes)
     note(common, line);
 }
@@ -67,7 +70,7 @@ void show_summary(const std::string& text) {
   const bool terminal = os::is_terminal(stdout);
   const bool colours = colour_wanted(terminal, std::getenv("NO_COLOR"), std::getenv("TERM"));
   if (colours)
-    fmt::print("{}", coloured(printable(text)));
+    print_out("{}", coloured(printable(text)));
   else
     show(text);
 }
@@ -115,7 +118,7 @@ int run_stage_command(const std::string& file, const CommonOptions& common,
     show_summary(run::summary_text(run, detail));
   if (afterwards) afterwards(run);
   for (const std::string& miss : run.missed)
-    fmt::print(stderr, "error: {}\n", printable(miss));
+    print_error("error: {}\n", printable(miss));
   const bool verified = !run.verification || run.verification->passed();
   return verified && run.missed.empty() ? 0 : 1;
 }

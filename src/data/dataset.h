@@ -185,7 +185,8 @@ public:
   std::vector<std::string> unused;
   // Notes on some rows (data/plausibility.h).
   std::vector<std::string> implausible;
-  std::vector<Implausible> counted; // by checks of rows that are left out
+  std::vector<std::string> cautions; // what changes the meaning of results; of all parts together
+  std::vector<Implausible> counted;  // by checks of rows that are left out
   std::vector<AssumedUnit> assumed;
   std::vector<std::string> unit_questions; // about units that may differ (data/scale.h)
   // Synthetic data only: the noise-free tau_R per row; empty if unknown. Not a column, so that

@@ -2,6 +2,7 @@
 #include "data/equal_tests.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <span>
 #include <string_view>
@@ -73,6 +74,79 @@ std::vector<std::optional<std::size_t>> tests_of_equal_rows(const Dataset& data,
         equal = bytes(data, e, *own[c]) == bytes(others, o, *other_columns[c]);
       if (equal) out[e] = o;
     }
+  }
+  return out;
+}
+
+namespace {
+
+// Stresses of a test and their second differences, which hold its noise and hardly its course,
+// with mean 0 and length 1.
+struct Noise {
+  std::size_t test = 0;
+  std::span<const double> stress;
+  std::vector<double> differences;
+  double mean = 0;
+};
+
+std::vector<Noise> noises_of(const Dataset& data) {
+  std::vector<Noise> all;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
+    if (rows < noise_rows) continue;
+    Noise noise{e, std::span(data.values("tau_R_MPa")).subspan(first, rows), {}, 0};
+    double sum = 0, squares = 0;
+    for (std::size_t i = 1; i + 1 < rows; ++i) {
+      noise.differences.push_back(noise.stress[i - 1] - 2 * noise.stress[i] + noise.stress[i + 1]);
+      sum += noise.differences.back();
+    }
+    for (double& difference : noise.differences) {
+      difference -= sum / static_cast<double>(noise.differences.size());
+      squares += difference * difference;
+    }
+    for (double& difference : noise.differences)
+      difference /= std::sqrt(squares);
+    for (const double stress : noise.stress)
+      noise.mean += stress / static_cast<double>(rows);
+    if (squares > 0) all.push_back(std::move(noise));
+  }
+  std::sort(all.begin(), all.end(), [](const Noise& a, const Noise& b) { return a.mean < b.mean; });
+  return all;
+}
+
+bool is_same_noise(const Noise& a, const Noise& b) {
+  // Chosen: repeats of one state differ by 5 % and more; 8 standard errors of a correlation of
+  // independent values stay rare among a million pairs although second differences depend on each
+  // other.
+  constexpr double same_stress = 0.02, least_correlation = 0.5, standard_errors = 8;
+  if (a.stress.size() != b.stress.size()) return false;
+  double apart = 0, squares = 0, correlation = 0;
+  for (std::size_t i = 0; i < a.stress.size(); ++i) {
+    apart += (a.stress[i] - b.stress[i]) * (a.stress[i] - b.stress[i]);
+    squares += a.stress[i] * a.stress[i];
+  }
+  if (!(apart < same_stress * same_stress * squares)) return false;
+  for (std::size_t i = 0; i < a.differences.size(); ++i)
+    correlation += a.differences[i] * b.differences[i];
+  correlation = std::min(correlation, 1 - 1e-12);
+  return correlation > least_correlation &&
+         std::atanh(correlation) * std::sqrt(static_cast<double>(a.stress.size())) >
+             standard_errors;
+}
+
+} // namespace
+
+std::vector<std::optional<std::size_t>> tests_of_same_noise(const Dataset& data,
+                                                            const Dataset& others) {
+  std::vector<std::optional<std::size_t>> out(data.experiments.size());
+  const std::vector<Noise> own = noises_of(data), theirs = noises_of(others);
+  constexpr double near = 0.02; // of the mean stress, of tests whose rows are as near
+  for (const Noise& a : own) {
+    const double lowest = a.mean - near * std::abs(a.mean);
+    auto b = std::lower_bound(theirs.begin(), theirs.end(), lowest,
+                              [](const Noise& noise, double mean) { return noise.mean < mean; });
+    for (; b != theirs.end() && b->mean <= a.mean + near * std::abs(a.mean) && !out[a.test]; ++b)
+      if ((&data != &others || b->test != a.test) && is_same_noise(a, *b)) out[a.test] = b->test;
   }
   return out;
 }

@@ -16,4 +16,12 @@ namespace frictab::data {
 std::vector<std::optional<std::size_t>> tests_of_equal_rows(const Dataset& data,
                                                             const Dataset& others);
 
+// For each test of `data`, a test of `others` that has the same noise: to within a fiftieth the
+// same stress in every row, and second differences that go together, as those of two measurements
+// never do. A copy whose values were changed a little; equal rows are not looked for again. Tests
+// need rows enough for a correlation (noise_rows).
+inline constexpr std::size_t noise_rows = 25;
+std::vector<std::optional<std::size_t>> tests_of_same_noise(const Dataset& data,
+                                                            const Dataset& others);
+
 } // namespace frictab::data

@@ -428,15 +428,21 @@ Implausible stuck_channel(const Dataset& data) {
   return out;
 }
 
-// The forces of one test, and their values under load.
+// The forces of one test, or its stresses where no forces are given, and their values under load.
 struct Forces {
   std::span<const double> normal, friction, speed; // speed is empty if unknown
   double load = 0, rubbing = 0;
 
+  static bool are_given(const Dataset& data) { return data.has("F_R_N") && data.has("F_N_N"); }
+  static const char* name(const Dataset& data, bool of_friction) {
+    if (are_given(data)) return of_friction ? "F_R_N" : "F_N_N";
+    return of_friction ? "tau_R_MPa" : "sigma_n_MPa";
+  }
+
   Forces(const Dataset& data, std::size_t test) {
     const std::size_t begin = data.first_row[test], rows = data.first_row[test + 1] - begin;
-    normal = data.values("F_N_N").subspan(begin, rows);
-    friction = data.values("F_R_N").subspan(begin, rows);
+    normal = data.values(name(data, false)).subspan(begin, rows);
+    friction = data.values(name(data, true)).subspan(begin, rows);
     if (data.has("v_rel_mm_s")) speed = data.values("v_rel_mm_s").subspan(begin, rows);
     load = quantile({normal.begin(), normal.end()}, 0.9);
     std::vector<double> under_load;
@@ -499,18 +505,19 @@ double normal_offset(const Forces& forces, bool front) {
 // Finds force offsets: before or after contact a force should be zero, and an offset there is
 // present under load as well.
 Implausible force_offset(const Dataset& data) {
-  if (!data.has("F_R_N") || !data.has("F_N_N")) return {};
   std::size_t rows = 0, tests = 0;
   std::string first;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const Forces forces(data, e);
     for (const bool front : {true, false}) {
-      const double friction = friction_offset(forces, front), normal = normal_offset(forces, front);
+      const double friction = friction_offset(forces, front),
+                   normal = Forces::are_given(data) ? normal_offset(forces, front) : 0;
       if (friction == 0 && normal == 0) continue;
       if (tests++ == 0)
-        first = fmt::format("{} is {:.3g} N {} contact in test '{}'",
-                            friction != 0 ? "F_R_N" : "F_N_N", friction != 0 ? friction : normal,
-                            front ? "before" : "after", data.experiments[e]);
+        first = fmt::format("{} is {:.3g} {} {} contact in test '{}'",
+                            Forces::name(data, friction != 0), friction != 0 ? friction : normal,
+                            Forces::are_given(data) ? "N" : "MPa", front ? "before" : "after",
+                            data.experiments[e]);
       rows += forces.normal.size();
       break; // once per test
     }

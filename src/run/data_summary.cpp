@@ -93,6 +93,7 @@ std::string data_json(const JobData& data) {
                {"clocks", Json::array()},
                {"units_not_given", Json::array()},
                {"implausible", Json::array()},
+               {"cautions", data.training.cautions},
                {"unused", data.training.unused},
                {"columns", roles_json(data.training)}};
   std::size_t use = 0;

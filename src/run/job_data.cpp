@@ -94,6 +94,10 @@ void find_roles(std::span<data::Dataset* const> parts, const data::DataOptions& 
   faults.throw_if_any();
 }
 
+void add_leak(data::Dataset& training, const std::string& leak) {
+  if (!leak.empty()) training.cautions.push_back(leak);
+}
+
 JobData with_validation_files(const data::ReadRequest& options, FaultList& implausible) {
   JobData data;
   const std::size_t blocks = data::blocks_to_condense(options);
@@ -115,8 +119,8 @@ JobData with_validation_files(const data::ReadRequest& options, FaultList& impla
   if (data.training.assumed == data.validation.assumed) data.validation.unit_questions.clear();
   data.training.unused = unused_by_both(data.training, data.validation);
   data.validation.unused.clear();
-  data.leak = calibrate::leak_note(data.training, data.validation);
-  if (!data.leak.empty()) data.validation.notes.push_back(data.leak);
+  add_leak(data.training, calibrate::leak_note(data.training, data.validation));
+  add_leak(data.training, calibrate::leak_note(data.training, data.training));
   return data;
 }
 
@@ -129,7 +133,7 @@ JobData without_others(data::Dataset all) {
   data.validation.phases = {};
   data.validation.interventions.clear();
   data.validation.notes.clear();
-  data.leak = calibrate::leak_note(all, all);
+  add_leak(all, calibrate::leak_note(all, all));
   data.training = std::move(all);
   return data;
 }
@@ -143,7 +147,7 @@ JobData with_held_out_tests(data::Dataset all, double share, std::uint64_t seed)
   data.training.implausible = all.implausible;
   data.training.unit_questions = all.unit_questions;
   data.training.unused = all.unused;
-  data.leak = calibrate::leak_note(data.training, data.validation);
+  add_leak(data.training, calibrate::leak_note(all, all));
   data.undivided = std::move(all);
   return data;
 }

@@ -19,7 +19,6 @@ struct JobData {
   // Both together if calibration.deliver = all and validation has its own files.
   std::optional<data::Dataset> together;
   bool delivers_all = false; // calibration.deliver
-  std::string leak;          // calibrate::leak_note
 
   // The tests on which prediction errors are measured.
   const data::Dataset& judged() const;

@@ -53,6 +53,7 @@ nlohmann::ordered_json condensed_json(const JobData& data) {
 std::string summary_json(const Run& run) {
   nlohmann::ordered_json j = {{"schema", "frictab/summary/1"}, {"job", run.job.file}};
   if (run.data) j["synthetic_data"] = calibrate::is_synthetic(run.data->training);
+  if (run.data) j["cautions"] = run.data->training.cautions;
   if (run.data && run.data->training.condensed) j["condensed"] = condensed_json(*run.data);
   if (run.calibration)
     j["calibration"] =

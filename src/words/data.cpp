@@ -111,6 +111,7 @@ Section data_read(const DataParts& parts, Detail detail) {
     findings.add("joined", clock_offsets);
     findings.add("rows read", phases_of);
   }
+  findings.add("caution", [](const Dataset& d) { return d.cautions; });
   findings.add("left out", dropped_rows);
   if (detail == Detail::brief) // among the conversions, if these are shown
     findings.add("", [](const Dataset& d) { return d.interventions; });

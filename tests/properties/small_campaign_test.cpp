@@ -146,9 +146,10 @@ TEST(SmallCampaign, TellsTestsThatAreCopiesOfOthers) {
   const Dataset data = few_tests();
   EXPECT_EQ(calibrate::leak_note(data, data), "");
   const Dataset twice = data.subset(std::array{0UL, 1UL, 1UL});
-  EXPECT_EQ(calibrate::leak_note(twice, twice),
-            "2 of 3 validation experiments have the rows of another experiment: errors on them are "
-            "not errors of prediction");
+  EXPECT_EQ(
+      calibrate::leak_note(twice, twice),
+      "2 of 3 experiments have the rows of another ('E1' those of 'E1'): they repeat nothing, "
+      "and the noise floor and errors are too small");
 }
 
 // ---- choice ----

@@ -1,10 +1,13 @@
 // Cross-validation never learns from an experiment it is judged on.
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "calibrate/folds.h"
 #include "core/error.h"
+#include "core/random.h"
 
 namespace frictab::folds_test {
 
@@ -83,13 +86,63 @@ TEST(Folds, EqualRowsInTwoFilesAreToldAndEqualNamesAreNot) {
   const Dataset training = campaign(6, 10);
   Dataset validation = campaign(4, 10); // the first four of the six
   EXPECT_EQ(calibrate::leak_note(training, validation),
-            "4 of 4 validation experiments have the rows of a training experiment: errors on them "
-            "are not errors of prediction");
+            "4 of 4 validation experiments have the rows of a training experiment ('E0' those of "
+            "'E0'): errors on them are not errors of prediction");
   for (double& x : validation.columns[0].values)
     x += 1000; // another rig that also counts from E0
   EXPECT_EQ(calibrate::leak_note(training, validation), "");
   validation.columns[0].values[25] = 205; // one row alone is chance
   EXPECT_EQ(calibrate::leak_note(training, validation), "");
+}
+
+// SYNTHETIC tests of a coefficient with noise: repeats, and copies with other noise on top.
+Dataset noisy(std::size_t experiments, std::size_t rows, double level, Random& random) {
+  Dataset data;
+  data.columns = {{"tau_R_MPa", "MPa", {}, {}}};
+  data.first_row = {0};
+  for (std::size_t e = 0; e < experiments; ++e) {
+    data.experiments.push_back("R" + std::to_string(e));
+    const double factor = 1 + level * random.normal();
+    for (std::size_t i = 0; i < rows; ++i) {
+      const double ramp = 1 - std::exp(-0.1 * static_cast<double>(i));
+      data.columns[0].values.push_back(100 * factor * ramp + random.normal());
+    }
+    data.first_row.push_back(data.columns[0].values.size());
+  }
+  return data;
+}
+
+TEST(Folds, CopiesWithValuesChangedALittleAreToldAndRepeatsAreNot) {
+  Random random(3);
+  for (const std::size_t rows : {25, 100, 550}) {
+    // Repeats that differ by next to nothing but their noise: 60 of them are 1,770 pairs.
+    const Dataset repeats = noisy(60, rows, 0.001, random);
+    EXPECT_EQ(calibrate::leak_note(repeats, repeats), "") << rows;
+    Dataset copies = repeats.subset(std::array{3UL, 7UL});
+    for (double& stress : copies.columns[0].values)
+      stress *= 1 + 0.002 * random.normal();
+    EXPECT_EQ(
+        calibrate::leak_note(repeats, copies),
+        "2 of 2 validation experiments have the rows of a training experiment, 2 of them with "
+        "values changed a little ('R3' those of 'R3'): errors on them are not errors of "
+        "prediction")
+        << rows;
+  }
+}
+
+// Rows of a computation have a course and no noise; tests of other states have other values.
+TEST(Folds, TestsOfOneCourseAtOtherLevelsAreNoCopies) {
+  Dataset data = campaign(1, 100);
+  data.columns = {{"tau_R_MPa", "MPa", {}, {}}};
+  data.experiments.clear();
+  data.first_row = {0};
+  for (const double level : {100.0, 104.0, 108.0}) {
+    data.experiments.push_back(std::to_string(level));
+    for (int i = 0; i < 100; ++i)
+      data.columns[0].values.push_back(level * (1 - std::exp(-0.1 * i)));
+    data.first_row.push_back(data.columns[0].values.size());
+  }
+  EXPECT_EQ(calibrate::leak_note(data, data), "");
 }
 
 } // namespace
