@@ -38,7 +38,7 @@ ZipArchive::ZipArchive(const std::filesystem::path& path, const std::string& nam
     : data_(std::make_unique<Data>()) {
   data_->named = named;
   data_->limits = limits;
-  InputFile(path, named, limits.file_bytes); // a pipe would be waited for
+  const InputFile checked(path, named, limits.file_bytes); // a pipe would be waited for
   int code = 0;
   data_->archive = zip_open(path.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, &code);
   if (data_->archive) return;

@@ -145,7 +145,7 @@ private:
     job::Job job = job_of(study, campaign);
     job.directory = work.path().string();
     if (campaign.twin) write_twin(study, *campaign.twin, work.path() / twin_folder, job);
-    CampaignResult result = run_campaign(std::move(job), study.stage);
+    CampaignResult result = run_or_blame(std::move(job), study.stage, files);
     files.check_untouched();
     check_key(i, files); // a folder may have other files
     fs::remove_all(work.path() / twin_folder);
@@ -153,11 +153,24 @@ private:
     publish(work, key, !result.missed.empty());
   }
 
+  // A fault of files that changed meanwhile is none of the campaign, which is to be tried again.
+  static CampaignResult run_or_blame(job::Job job, LastStage last, const WatchedFiles& files) {
+    try {
+      return run_campaign(std::move(job), last);
+    } catch (const InputError&) {
+      files.check_untouched();
+      throw;
+    }
+  }
+
   // Throws if the campaign's files are not those of its key; watches them from here on.
   void check_key(std::size_t i, WatchedFiles& files) const {
     const Study& study = plan_.study;
     const Campaign& campaign = study.campaigns[i];
-    if (key_of(study, campaign, files) == plan_.keys[i]) return;
+    try {
+      if (key_of(study, campaign, files) == plan_.keys[i]) return;
+    } catch (const InputError&) { // a file is gone
+    }
     std::vector<std::string> names = campaign.training;
     names.insert(names.end(), campaign.validation.begin(), campaign.validation.end());
     throw std::runtime_error(

@@ -158,6 +158,51 @@ class Calls(unittest.TestCase):
         (HERE / "cut.h5").write_bytes((HERE / "spline.h5").read_bytes()[:3000])
         self.fails("cut.h5: ", frictab.open, HERE / "cut.h5")
 
+    def test_values_in_other_files_are_refused_before_they_are_read(self):
+        def moved(make):
+            def change(file):
+                old = file["value"]
+                shape, attributes = old.shape, dict(old.attrs)
+                del file["value"]
+                make(file, shape)
+                if "value" in file:
+                    file["value"].attrs.update({n: a for n, a in attributes.items()
+                                                if n != "DIMENSION_LIST"})
+            return self.changed(change)
+        def external(file, shape):
+            file.create_dataset("value", shape, "f8", external=[("/etc/passwd", 0, 10000000)])
+        def virtual(file, shape):
+            layout = h5py.VirtualLayout(shape, "f8")
+            layout[...] = h5py.VirtualSource("gone.h5", "value", shape)
+            file.create_virtual_dataset("value", layout, fillvalue=88.8)
+        def deep(file, shape):
+            file.create_group("a/b")["out"] = h5py.ExternalLink("spline.h5", "/value")
+            file["value"] = h5py.SoftLink("/a/b/out")
+        for make, text in ((external, "lie in another file, /etc/passwd"),
+                           (virtual, "is a virtual dataset"),
+                           (deep, "'a/b/out' is a link into another file")):
+            self.fails(text, frictab.open, moved(make))
+
+    def test_every_damaged_file_is_a_fault_of_its_own_kind(self):
+        draw = random.Random(5)
+        for name, read in (("spline.h5", frictab.open), ("tool.json", frictab.read_model)):
+            whole = (HERE / name).read_bytes()
+            for _ in range(400):
+                data = bytearray(whole)
+                for _ in range(draw.randint(1, 4)):
+                    data[draw.randrange(len(data))] = draw.randrange(256)
+                if draw.random() < 0.1:
+                    del data[draw.randrange(len(data)):]
+                (HERE / "other").write_bytes(data)
+                try:
+                    read(HERE / "other")
+                except frictab.FrictabError as fault:
+                    self.assertIn("other: ", str(fault))
+        for place, text in ((HERE, "is no file"), ("/dev/null", "is no file"),
+                            (HERE / "none", "no such file")):
+            for read in (frictab.open, frictab.read_model, frictab.read_calibration):
+                self.fails(text, read, place)
+
 
 class Formulas(unittest.TestCase):
     def test_binds_as_python_does(self):

@@ -119,8 +119,8 @@ int unlink(const char *name) {
 }
 ssize_t read(int file, void *bytes, size_t size) {
   if (is_file(file) && fails_as(1)) {
-    if (!is_how("short") || size < 2) return -1;
-    size /= 2;
+    if (!is_how("short")) return -1;
+    size -= size / 2;
   }
   return REAL(ssize_t, "read", int, void *, size_t)(file, bytes, size);
 }
@@ -130,15 +130,15 @@ ssize_t readv(int file, const struct iovec *parts, int count) {
 }
 ssize_t pread(int file, void *bytes, size_t size, off_t at) {
   if (fails_as(1)) {
-    if (!is_how("short") || size < 2) return -1;
-    size /= 2;
+    if (!is_how("short")) return -1;
+    size -= size / 2;
   }
   return REAL(ssize_t, "pread", int, void *, size_t, off_t)(file, bytes, size, at);
 }
 ssize_t pread64(int file, void *bytes, size_t size, off64_t at) {
   if (fails_as(1)) {
-    if (!is_how("short") || size < 2) return -1;
-    size /= 2;
+    if (!is_how("short")) return -1;
+    size -= size / 2;
   }
   return REAL(ssize_t, "pread64", int, void *, size_t, off64_t)(file, bytes, size, at);
 }

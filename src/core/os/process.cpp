@@ -242,6 +242,8 @@ ProcessResult run_process(const std::vector<std::string>& command, const fs::pat
     throw std::runtime_error("cannot run " + command[0] +
                              ": it is in no folder of PATH, or only in one that is relative, the "
                              "working directory or writable by everybody");
+  if (!may_run(file))
+    throw std::runtime_error("cannot run " + command[0] + ": " + std::strerror(errno));
   std::vector<std::string> words = command;
   words[0] = file;
   const std::vector<std::string> environment = environment_for_programs();
