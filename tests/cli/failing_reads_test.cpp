@@ -10,7 +10,7 @@ namespace {
 
 using test::CommandResult;
 
-class SlowFailingReads : public test::SmallCampaign {
+class LongFailingReads : public test::SmallCampaign {
 protected:
   // Every read of the command fails in turn. Returns how many it has.
   int fail_each(const std::vector<std::string>& command) {
@@ -33,7 +33,7 @@ protected:
   }
 };
 
-TEST_F(SlowFailingReads, GiveNoOtherAnswer) {
+TEST_F(LongFailingReads, GiveNoOtherAnswer) {
   write_job("[models]\nuse = [\"coulomb\", \"shear\"]\n"
             "[table]\nmodel = \"shear\"\n[export]\ntargets = [\"c\"]\n" +
             std::string(test::no_causes));

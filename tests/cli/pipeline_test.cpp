@@ -4,6 +4,8 @@
 #include <map>
 #include <sstream>
 
+#include <regex>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -108,6 +110,11 @@ TEST_F(SlowMainJob, SameJobGivesTheSameBytesForAnyNumberOfThreads) {
     EXPECT_TRUE(two.at(name) == content) << name;
 }
 
+// stages.json without the hashes of report.html and of its own content.
+std::string without_hash_of_page(const std::string& stages) {
+  return std::regex_replace(stages, std::regex("\"(report.html|content)\": \"[0-9a-f]{16}\""), "");
+}
+
 TEST_F(SlowMainJob, StagesOneByOneGiveTheSameFilesAsRun) {
   // Shaw's formula names the shear yield stress twice.
   const std::string models = R"(table.model=["best", "levanov", "shaw"])";
@@ -125,7 +132,10 @@ TEST_F(SlowMainJob, StagesOneByOneGiveTheSameFilesAsRun) {
   for (const auto& [name, content] : run) {
     if (name == "report.html") continue; // lists what its own command wrote
     ASSERT_TRUE(stages.count(name)) << name;
-    EXPECT_TRUE(stages.at(name) == content) << name;
+    if (name == "stages.json")
+      EXPECT_EQ(without_hash_of_page(stages.at(name)), without_hash_of_page(content));
+    else
+      EXPECT_TRUE(stages.at(name) == content) << name;
   }
 }
 

@@ -145,9 +145,9 @@ std::vector<double> answers_alone(const codegen::Exporter& exporter, const Table
   return tau;
 }
 
-class SlowPrefixOfARoutine : public test::NeedsGfortran {};
+class LongPrefixOfARoutine : public test::NeedsGfortran {};
 
-TEST_F(SlowPrefixOfARoutine, LetsTwoRoutinesAndAUsersOwnIntoOneLibraryWhereEachAnswersAsAlone) {
+TEST_F(LongPrefixOfARoutine, LetsTwoRoutinesAndAUsersOwnIntoOneLibraryWhereEachAnswersAsAlone) {
   const Table table = test::four_axis_table(), other = test::branching_table();
   const test::States states(table, 300, 7, 0.1, {{"psi", 2.5}, {"sigma_f_MPa", 480.0}});
   const std::pair<const char*, const char*> pairs[] = {{"abaqus_vfric", "abaqus_vfric_coef"},
@@ -192,7 +192,7 @@ TEST(PrefixOfARoutine, StandsBeforeAllLinkedNamesWithinTheColumnsAndInTheRecipe)
   }
 }
 
-TEST_F(SlowPrefixOfARoutine, OfAnyLengthGivesTheSameAnswersFromAFileOfValues) {
+TEST_F(LongPrefixOfARoutine, OfAnyLengthGivesTheSameAnswersFromAFileOfValues) {
   const Table table = test::spline_table();
   const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_fric");
   ExportRequest request = under(exporter, table, "a_very_long_name_indeed_");
