@@ -2,9 +2,8 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
-#include <sstream>
-
 #include <regex>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
