@@ -121,6 +121,8 @@ bool WorkDirectory::publish() {
   const os::Uninterrupted whole;
   if (is_damaged(directory_, key_)) fs::remove_all(final_);
   if (std::rename(path_.c_str(), final_.c_str()) == 0) {
+    if (fs::exists(path_))
+      throw std::runtime_error("the disk has not moved a result to " + final_.string());
     path_.clear();
     return true;
   }
