@@ -1,4 +1,4 @@
-# What an overflow or an overwritten pointer stops at, as Debian's hardening=+all has it. No flag
+# Protections that stop an overflow or an overwritten pointer, as Debian's hardening=+all. No flag
 # changes a number.
 include(CheckCXXCompilerFlag)
 target_compile_options(frictab_flags INTERFACE -fPIE -Wformat -Werror=format-security)

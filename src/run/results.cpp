@@ -51,8 +51,8 @@ std::string beginning_of(const fs::path& file) {
   return io::first_bytes(file, std::size_t{1} << 16);
 }
 
-// True if stages.json lists the file. Pages are never listed: they are known as soon as stages.json
-// lists any file.
+// True if stages.json lists the file. The page of the data is not listed, and older versions listed
+// none: pages are known as soon as stages.json lists any file.
 bool is_known(const StageRecord& stages, const std::string& path) {
   const bool page = path.starts_with(report) || path == "data.html";
   return stages.had_file(path) || (page && stages.had_files());

@@ -19,9 +19,17 @@ namespace frictab::run {
 namespace {
 
 constexpr const char* schema = "frictab/stages/1";
+constexpr const char* mend = "remove it, then `frictab run`";
 
 std::string file_fingerprint(const std::filesystem::path& file) {
   return hash_text(io::hash_of_file(file, file.string()));
+}
+
+// nullopt: there is no such file.
+std::optional<bool> is_as_recorded(const std::filesystem::path& file,
+                                   const std::string& fingerprint) {
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  return file_fingerprint(file) == fingerprint;
 }
 
 // True if later stages read this file of the stage; "models/" is a whole folder.
@@ -37,12 +45,6 @@ std::string sections_text(const Stage& stage) {
     heads.push_back("[" + section + "]");
   return join(heads, " or ");
 }
-
-} // namespace
-
-namespace {
-
-constexpr const char* mend = "remove it, then `frictab run`";
 
 nlohmann::ordered_json read_record(const std::filesystem::path& file) {
   const std::string text = io::read_file(file);
@@ -123,8 +125,7 @@ std::vector<std::string> StageRecord::recorded_in(std::string_view folder) const
 
 std::optional<bool> StageRecord::is_as_written(const std::string& path) const {
   const auto known = files_.find(path);
-  if (known == files_.end() || !std::filesystem::exists(directory_ / path)) return std::nullopt;
-  return file_fingerprint(directory_ / path) == known->second;
+  return known == files_.end() ? std::nullopt : is_as_recorded(directory_ / path, known->second);
 }
 
 std::string StageRecord::changed_file(const std::string& stage) const {
@@ -176,9 +177,9 @@ std::vector<std::string> differences_in(const std::filesystem::path& directory) 
   io::read_json(file.string(), mend, [&] { json.at("files").get_to(files); });
   std::vector<std::string> found;
   for (const auto& [path, fingerprint] : files)
-    if (!std::filesystem::exists(directory / path))
+    if (const auto same = is_as_recorded(directory / path, fingerprint); !same)
       found.push_back(path + " is missing");
-    else if (file_fingerprint(directory / path) != fingerprint)
+    else if (!*same)
       found.push_back(path + " was changed");
   return found;
 }
