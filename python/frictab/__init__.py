@@ -1,17 +1,22 @@
-"""Reads what frictab writes: friction tables, calibrated laws, calibrations.
+"""Fits friction laws to tribometer data, and reads what frictab writes.
 
     import frictab
-    frictab.open("out/tables/wzl.h5").tau_R(sigma_n_MPa=800, v_rel_mm_s=[5, 50], ...)
+    result = frictab.Campaign(frame, columns={"sigma_n_MPa": ("Normal stress", "Pa")}).fit()
+    result.law("best").predict(frame, band=True)
+    result.export("abaqus_vfric", "routine")
+
+    frictab.open_table("out/tables/wzl.h5").tau_R(sigma_n_MPa=800, v_rel_mm_s=[5, 50], ...)
     frictab.read_model("out/models/wzl.json").tau_R(...)
-    frictab.read_calibration("out/calibration.json").errors()
     import frictab.accessor # then: xarray.open_dataset(...).frictab.tau_R(...)
+
+Fitting runs the installed program `frictab` and needs pandas; reading needs numpy and h5py alone.
 """
 from .calibration import Calibration, Model, read_calibration, read_model
-from .faults import FrictabError, OutsideWarning
+from .faults import CautionWarning, FrictabError, OutsideWarning
 from .formula import Formula
-from .table import Axis, Table
-from .table import open_table as open
+from .table import Axis, Table, open_table
 
+open = open_table # not in __all__: an import of everything leaves Python's own open alone
 __version__ = "0.2.0"
-__all__ = ["Axis", "Calibration", "Formula", "FrictabError", "Model", "OutsideWarning", "Table",
-           "open", "read_calibration", "read_model"]
+__all__ = ["Axis", "Calibration", "CautionWarning", "Formula", "FrictabError", "Model",
+           "OutsideWarning", "Table", "open_table", "read_calibration", "read_model"]

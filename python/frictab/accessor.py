@@ -6,6 +6,10 @@
 `ds.value.interp(...)` is linear in the axes' own values; a table is linear, or a cubic spline, in
 the logarithm of each axis with transform = "log".
 """
+from __future__ import annotations
+
+from typing import Any
+
 import numpy as np
 import xarray as xr
 
@@ -13,11 +17,10 @@ from .faults import FrictabError
 from .table import Table, axis_of, plain
 
 
-@xr.register_dataset_accessor("frictab")
 class TableAccessor:
     """A Dataset as a frictab.Table; its methods are those of the Table."""
 
-    def __init__(self, dataset):
+    def __init__(self, dataset: Any) -> None:
         if "value" not in dataset:
             raise FrictabError("there is no variable 'value': this is not a friction table")
         value = dataset["value"]
@@ -27,3 +30,6 @@ class TableAccessor:
         # Not methods of its own: warnings name the line that called.
         self.tau_R, self.mu = self.table.tau_R, self.table.mu
         self.interp, self.outside = self.table.interp, self.table.outside
+
+
+xr.register_dataset_accessor("frictab")(TableAccessor)

@@ -1,18 +1,26 @@
 """What can be wrong with a file or a call, and what is said where states lie outside."""
+from __future__ import annotations
+
 import os
 from contextlib import contextmanager
+from typing import Iterator
 
 
 class FrictabError(ValueError):
-    """A file that cannot be read, or states that do not fit a table or law."""
+    """A file that cannot be read, a call that cannot be answered, or a fault that the program
+    found in data or job."""
 
 
 class OutsideWarning(UserWarning):
     """States lie beyond what a table or law was made for; the text counts them."""
 
 
+class CautionWarning(UserWarning):
+    """Results that have to be looked at: a unit that nobody gave, drift over the tolerance."""
+
+
 @contextmanager
-def file_faults(path, kind):
+def file_faults(path: str, kind: str) -> Iterator[None]:
     """Turns what a damaged or foreign file makes a library raise into a FrictabError."""
     if not os.path.exists(path):
         raise FrictabError(f"{path}: no such file")

@@ -1,0 +1,87 @@
+"""The installed program: where it is, and how it is run."""
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Optional, Sequence, Union
+
+from .faults import FrictabError
+
+PathLike = Union[str, "os.PathLike[str]"]
+_HERE = Path(__file__).resolve().parent
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Exit code, stdout and stderr of one call."""
+    code: int
+    out: str
+    err: str
+
+
+def find_program() -> str:
+    """FRICTAB, else `frictab` of PATH, else one that lies with this package: in it, or built in
+    the source tree that it stands in. Raises FrictabError with what was looked at."""
+    named = os.environ.get("FRICTAB")
+    if named:
+        found = shutil.which(named)
+        if not found:
+            raise FrictabError(f"FRICTAB is '{named}', which is not a program that can be run")
+        return os.path.abspath(found)
+    for candidate in ("frictab", str(_HERE / "bin" / "frictab"),
+                      str(_HERE.parents[1] / "build" / "release" / "frictab")):
+        found = shutil.which(candidate)
+        if found:
+            return os.path.abspath(found)
+    raise FrictabError("the program frictab was not found: neither in FRICTAB, nor on PATH, nor "
+                       f"in {_HERE / 'bin'}. Install it, or set FRICTAB to its path: "
+                       "os.environ['FRICTAB'] = '/path/to/frictab'")
+
+
+def run(arguments: Sequence[PathLike], directory: Optional[PathLike] = None,
+        program: Optional[str] = None) -> Outcome:
+    """Runs the program in a directory and waits. Whatever interrupts this process ends it too."""
+    command = [program or find_program(), *(os.fspath(a) for a in arguments)]
+    try:
+        child = subprocess.Popen(command, cwd=directory, stdin=subprocess.DEVNULL,
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                 encoding="utf-8", errors="replace")
+    except OSError as fault:
+        raise FrictabError(f"{command[0]} cannot be run: {fault.strerror}") from None
+    try:
+        out, err = child.communicate()
+    except BaseException:
+        _end(child)
+        raise
+    return Outcome(child.returncode, out, err)
+
+
+def answer(arguments: Sequence[PathLike], directory: Optional[PathLike] = None) -> str:
+    """stdout of a call that has to succeed. Raises FrictabError with what the program says."""
+    outcome = run(arguments, directory)
+    if outcome.code != 0:
+        raise FrictabError(fault_text(outcome))
+    return outcome.out
+
+
+def fault_text(outcome: Outcome) -> str:
+    """The message of a call that failed."""
+    if outcome.code < 0:
+        return f"frictab was ended by {signal.Signals(-outcome.code).name}"
+    return outcome.err.strip() or outcome.out.strip() or f"frictab ended with {outcome.code}"
+
+
+def _end(child: subprocess.Popen[str]) -> None:
+    child.send_signal(signal.SIGINT) # it removes what is half written
+    try:
+        child.wait(5)
+    except subprocess.TimeoutExpired:
+        child.kill()
+        child.wait()
+    for pipe in (child.stdout, child.stderr):
+        if pipe:
+            pipe.close()
