@@ -1,0 +1,436 @@
+"""What a run gave: the ranking, laws, trace, verification and routines in a folder of results."""
+from __future__ import annotations
+
+import html
+import json
+import os
+import shutil
+import tempfile
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional
+
+import numpy as np
+
+from . import program
+from .calibration import Calibration, Model, read_calibration, read_record
+from .faults import FrictabError, OutsideWarning
+from .frames import (in_rows, near, order_by_test, pandas_module, plain_frame, read_frame,
+                     write_frame)
+from .program import PathLike
+
+if TYPE_CHECKING:
+    import pandas
+
+    from .plots import Plots
+
+_BAND = ["tau_R_q05_MPa", "tau_R_q95_MPa"]
+
+
+class Law(Model):
+    """A calibrated law of a result: a Model, which also predicts rows of data as they were
+    measured."""
+
+    def __init__(self, result: Result, fit: Mapping[str, Any]) -> None:
+        super().__init__(fit, os.fspath(result.directory / "calibration.json"))
+        self._result = result
+
+    def predict(self, data: pandas.DataFrame, band: bool = False) -> Any:
+        """tau_R in MPa, one value per row, as a Series; with band=True a DataFrame that also has
+        the 5 % and 95 % quantiles of new experiments.
+
+        `data` has the columns of the campaign, in its units; no friction is needed. Tests are
+        told apart as in the campaign: histories, such as sliding distance, run along each.
+        """
+        pandas = pandas_module()
+        rows = self._result.predicted(self.name, data)
+        if band and _BAND[0] not in rows:
+            raise FrictabError(f"{self.name} has no band: the {len(self.fit['experiment_gains'])} "
+                               "experiments of its calibration do not give 5 % and 95 %")
+        self._warn_outside(rows)
+        columns = ["tau_R_MPa", *(_BAND if band else [])]
+        found = pandas.DataFrame(rows[columns].to_numpy(), index=data.index, columns=columns)
+        return found if band else found["tau_R_MPa"]
+
+    @property
+    def parameter_table(self) -> pandas.DataFrame:
+        """Its parameters: value, standard error, unit, meaning."""
+        return pandas_module().DataFrame(
+            [[p["value"], p.get("std_error"), p.get("unit", ""), p.get("meaning", "")]
+             for p in self.fit["parameters"]], index=list(self.parameters),
+            columns=["value", "std_error", "unit", "meaning"])
+
+    @property
+    def correlations(self) -> Optional[pandas.DataFrame]:
+        """Of the parameters; None for laws of many weights."""
+        found, names = self.correlation, list(self.parameters)
+        return None if found is None else pandas_module().DataFrame(found, names, names)
+
+    def _warn_outside(self, rows: Any) -> None:
+        beyond = rows["outside"].notna().sum()
+        if beyond:
+            names = sorted({n for cell in rows["outside"].dropna() for n in str(cell).split()})
+            warnings.warn(f"{self}: {beyond} of {len(rows)} rows lie outside the data that it was "
+                          f"calibrated on: {', '.join(names)}", OutsideWarning, 3)
+
+
+class Part:
+    """A JSON file of the results: `record` the file, `table` its rows, `[key]` its entries."""
+
+    def __init__(self, record: Mapping[str, Any], rows: Any, headline: str) -> None:
+        self.record, self.table, self.headline = record, rows, headline
+
+    def __getitem__(self, key: str) -> Any:
+        return self.record[key]
+
+    def __repr__(self) -> str:
+        return f"<frictab: {self.headline}>"
+
+    def _repr_html_(self) -> str:
+        return f"<p>{html.escape(self.headline)}</p>" + str(self.table.to_html(na_rep=""))
+
+
+class Verification(Part):
+    """verify.json: `passed`, and per table and routine the drift from its law."""
+
+    def __init__(self, record: Mapping[str, Any]) -> None:
+        names = ["model", "subject", "passed", "ran", "max_abs_MPa", "worst_case_MPa",
+                 "proven_MPa", "allowed_MPa", "share_outside"]
+        rows = pandas_module().DataFrame([[r.get(n) for n in names] for r in record["records"]],
+                                   columns=names)
+        self.passed: Optional[bool] = record["passed"]
+        word = {True: "passed", False: "FAILED", None: "not decided: a routine could not run"}
+        super().__init__(record, rows, f"verification {word[self.passed]}: "
+                         f"{len(rows)} tables and routines against their laws")
+
+
+class Trace(Part):
+    """trace.json: `verdict`, the effects that were added (`table`), and the leads that were not."""
+
+    def __init__(self, record: Mapping[str, Any]) -> None:
+        pandas = pandas_module()
+        effects = ["columns", "derived", "form", "acts_on", "p_value", "gain_MPa", "formula"]
+        leads = ["name", "form", "p_value", "why_not_added"]
+        self.verdict = str(record["verdict"])
+        self.leads = pandas.DataFrame([[r.get(n) for n in leads] for r in record.get("leads", [])],
+                                      columns=leads)
+        rows = pandas.DataFrame([[r.get(n) for n in effects] for r in record["effects"]],
+                                columns=effects)
+        super().__init__(record, rows, f"search for what {record['model']} lacks: "
+                         f"{self.verdict.replace('_', ' ')}")
+
+
+@dataclass
+class Export:
+    """A routine that was written: its folder, its recipe (argument list, compile commands, lines
+    for the input deck), and its verification; None: the folder of results has no job."""
+    directory: Path
+    recipe: Mapping[str, Any]
+    verification: Optional[Verification]
+
+    @property
+    def files(self) -> list[Path]:
+        """With README.md, which says how the solver gets the routine."""
+        return [self.directory / str(name) for name in self.recipe["files"]]
+
+    def __repr__(self) -> str:
+        state = self.verification.headline if self.verification else "not verified"
+        return (f"<frictab routine {self.recipe['target']} of {self.recipe['model']} in "
+                f"{self.directory}: {state}>")
+
+
+class Result:
+    """The results of a run. `directory` holds the files, `job` the job file where one is known;
+    `calibration`, `trace` and `verification` what they say (None: that stage was not run)."""
+
+    def __init__(self, directory: PathLike, job: Optional[PathLike] = None, *,
+                 campaign: Optional[Path] = None, keep: Any = None) -> None:
+        self.directory = Path(directory)
+        self.job = None if job is None else Path(job).resolve()
+        self._campaign = campaign # the folder of data, job and results that Campaign made
+        self._keep = keep # a temporary folder, which goes with this object
+        self._data: Any = None # read at first use
+        self._predicted: dict[str, Any] = {}
+        self.calibration: Calibration = read_calibration(self.directory / "calibration.json")
+        self._fits: dict[str, Any] = {str(f["name"]): f.get("delivered", f)
+                                      for f in self.calibration.record["models"]}
+        self.trace: Optional[Trace] = self._part("trace", Trace)
+        self.verification: Optional[Verification] = self._part("verify", Verification)
+
+    @classmethod
+    def open(cls, directory: PathLike, job: Optional[PathLike] = None) -> Result:
+        """Results of the command line or of `save`: the folder of a job, a job file, or the
+        folder of its results. Without a job, and none in the folder, prediction takes canonical
+        columns, and routines are not verified."""
+        found = Path(directory)
+        if not found.exists():
+            raise FrictabError(f"{found}: there is no such folder")
+        if found.is_file():
+            job = found
+        elif job is None and not (found / "calibration.json").exists():
+            job = found / "job.toml"
+            if not job.exists():
+                raise FrictabError(f"{found} has no calibration.json and no job.toml: these are "
+                                   "no results of frictab")
+        elif job is not None:
+            return cls(found, job)
+        if job is None:
+            return cls(found)
+        job = Path(job).resolve()
+        status = json.loads(program.answer(["status", job.name, "--json"], job.parent))
+        return cls(job.parent / str(status["directory"]), job)
+
+    # ---- what it says ----
+
+    @property
+    def synthetic(self) -> bool:
+        """Whether the data came from the twin: nothing was measured."""
+        return self.calibration.synthetic
+
+    @property
+    def best(self) -> Optional[str]:
+        """The law with the smallest error on unseen tests, of those that compete."""
+        return self.calibration.best
+
+    @property
+    def recommended(self) -> Optional[str]:
+        """The simplest law that is not worse than it by more than a standard error."""
+        return self.calibration.recommended
+
+    @property
+    def ranking(self) -> pandas.DataFrame:
+        """Laws by their mean absolute error on unseen tests, in MPa: interval of 95 % from
+        resampled tests, RMSE, bias, error on the tests of the fit, number of parameters; whether
+        a law competes (constants of the literature do not) and may be the best of all."""
+        may = {c["name"]: c.get("may_be_best") for c in
+               (self.calibration.record.get("comparisons") or {}).get("best_of_all", [])}
+        rows = []
+        for fit in self.calibration.record["models"]:
+            unseen, seen = fit["validation"], fit["training"]
+            low, high = unseen.get("mae_95") or (None, None)
+            rows.append([fit["name"], unseen["mae_MPa"], low, high, unseen["rmse_MPa"],
+                         unseen["bias_MPa"], seen["mae_MPa"], len(fit["parameters"]),
+                         fit.get("candidate", True), may.get(fit["name"])])
+        return pandas_module().DataFrame(rows, columns=[
+            "law", "mae_MPa", "mae_low_95", "mae_high_95", "rmse_MPa", "bias_MPa",
+            "training_mae_MPa", "parameters", "competes", "may_be_best"]).set_index("law")
+
+    @property
+    def laws(self) -> list[str]:
+        """Names of the calibrated laws, by rank."""
+        return list(self._fits)
+
+    def law(self, name: str = "best") -> Law:
+        """A law by its name, or "best", or "recommended"."""
+        chosen = {"best": self.best, "recommended": self.recommended}.get(name, name)
+        if chosen not in self._fits:
+            raise FrictabError(f"there is no law '{name}'" + near(str(chosen), self.laws))
+        return Law(self, self._fits[str(chosen)])
+
+    @property
+    def parameters(self) -> pandas.DataFrame:
+        """Of all laws: value, standard error over experiments, unit, meaning. Correlations:
+        law(...).correlations."""
+        return pandas_module().concat({n: self.law(n).parameter_table for n in self.laws},
+                                names=["law", "parameter"])
+
+    @property
+    def errors_by_experiment(self) -> pandas.DataFrame:
+        """Every law on every test: rows, MAE, RMSE, bias in MPa, held out or not."""
+        return read_frame(self.directory / "errors_by_experiment.csv")
+
+    @property
+    def data(self) -> pandas.DataFrame:
+        """What the program read: canonical names and units, and whether a test is of the
+        training or the validation (`use`: train, validate)."""
+        if self._data is None:
+            if self.job is None:
+                raise FrictabError(f"{self.directory}: the data are not known without the job: "
+                                   "Result.open(directory, job=\"job.toml\")")
+            with tempfile.TemporaryDirectory(prefix="frictab_") as work:
+                program.answer(["data", self.job.name, "-q", "--write", "csv", "-o", work],
+                               self.job.parent)
+                self._data = read_frame(Path(work) / "data.csv")
+        return self._data.copy()
+
+    def predicted_data(self, law: str) -> pandas.DataFrame:
+        """`predicted` of `data`, row by row."""
+        name = self.law(law).name
+        if name not in self._predicted:
+            with tempfile.TemporaryDirectory(prefix="frictab_") as work:
+                file, out = Path(work) / "data.csv", Path(work) / "predicted.csv"
+                write_frame(self.data, file)
+                program.answer(["predict", (self.directory / "models" / f"{name}.json").resolve(),
+                                file, "-o", out])
+                self._predicted[name] = read_frame(out)
+        return self._predicted[name].copy()
+
+    @property
+    def plot(self) -> Plots:
+        """Pictures on matplotlib: result.plot.measured_vs_predicted(), ..."""
+        from .plots import Plots
+        return Plots(self)
+
+    def summary(self) -> str:
+        """The findings in short."""
+        return "\n".join(self._findings())
+
+    def __repr__(self) -> str:
+        return f"<frictab result {self.directory}: {self._findings()[0]}>"
+
+    def __str__(self) -> str:
+        return self.summary()
+
+    def _repr_html_(self) -> str:
+        shown = self.ranking.head(8).to_html(float_format="%.2f", na_rep="")
+        more = len(self.laws) - 8
+        return ("".join(f"<p>{html.escape(line)}</p>" for line in self._findings()) + str(shown)
+                + (f"<p>... and {more} more laws</p>" if more > 0 else ""))
+
+    # ---- what it gives ----
+
+    def predicted(self, law: str, data: Any) -> pandas.DataFrame:
+        """Rows of a frame, or of a file, as `frictab predict` prints them: states, tau_R_MPa with
+        its band, what was measured. A frame gives one row for each of its own, in its order."""
+        with tempfile.TemporaryDirectory(prefix="frictab_") as work:
+            file, out = Path(work) / "data.csv", Path(work) / "predicted.csv"
+            frame = None if isinstance(data, (str, os.PathLike)) else plain_frame(data, "data")
+            if frame is None:
+                file = Path(data).resolve()
+            else:
+                write_frame(frame, file)
+            law_of: list[PathLike] = [(self.directory / "models" / f"{law}.json").resolve(), file]
+            if self.job:
+                law_of = [self.job.name, file, "--model", law]
+            outcome = program.run(["predict", *law_of, "-o", out],
+                                  self.job.parent if self.job else None)
+            if outcome.code != 0:
+                text = program.fault_text(outcome)
+                raise FrictabError(text if frame is None else
+                                   in_rows(text, Path(work), {"data": frame}))
+            rows = read_frame(out)
+        if frame is None:
+            return rows
+        if len(rows) != len(frame):
+            left = [line.strip() for line in (outcome.out + outcome.err).splitlines()
+                    if "left out" in line]
+            raise FrictabError(f"{len(frame) - len(rows)} of {len(frame)} rows cannot be predicted "
+                               f"({'; '.join(left) or 'the job leaves them out'}); drop them first")
+        rows.index = order_by_test(frame, rows["experiment"])
+        return rows.sort_index()
+
+    def export(self, target: str, directory: PathLike, law: Optional[str] = None) -> Export:
+        """Writes the routine of a target (`frictab list targets`) into a folder of its own, and
+        verifies it. Without `law`, the law of the job's table. The results stay as they are."""
+        place = Path(directory)
+        _refuse_others(place)
+        with tempfile.TemporaryDirectory(prefix="frictab_") as work:
+            made = Path(work) / "out"
+            verification = (self._export_by_job if self.job else self._export_by_table)(
+                target, made, law)
+            folders = sorted(f.parent for f in made.rglob("recipe.json"))
+            if len(folders) != 1:
+                raise FrictabError(f"{target} of {len(folders)} laws was made; name one: "
+                                   "law=\"...\"")
+            shutil.copytree(folders[0], place, dirs_exist_ok=True)
+        recipe = json.loads((place / "recipe.json").read_text(encoding="utf-8"))
+        return Export(place, recipe, verification)
+
+    def save(self, directory: PathLike) -> Path:
+        """Copies results, job and data into a new folder, from which Result.open and the command
+        line go on. Refuses a folder that has files."""
+        place = Path(directory)
+        if place.exists() and (not place.is_dir() or any(place.iterdir())):
+            raise FrictabError(f"{place} is there and not empty; give a new folder")
+        place.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=place.parent, prefix=".frictab_") as work:
+            shutil.copytree(self._campaign or self.directory, Path(work) / "saved")
+            (Path(work) / "saved").rename(place) # it appears complete
+        return place
+
+    # ---- how ----
+
+    def _part(self, name: str, make: Any) -> Any:
+        file = self.directory / f"{name}.json"
+        if not file.exists():
+            return None
+        try:
+            return make(read_record(file, name))
+        except (KeyError, TypeError, AttributeError) as fault:
+            raise FrictabError(f"{file}: is damaged: {type(fault).__name__}: {fault}") from None
+
+    def _findings(self) -> list[str]:
+        record, found = self.calibration.record, []
+        if self.synthetic:
+            found.append("SYNTHETIC data: nothing here was measured")
+        fits = {f["name"]: f for f in record["models"]}
+        if self.best in fits:
+            unseen = fits[self.best]["validation"]
+            low, high = unseen.get("mae_95") or (np.nan, np.nan)
+            found.append(f"best law: {self.best} misses tau_R by {unseen['mae_MPa']:.2f} MPa "
+                         f"({low:.2f} to {high:.2f}) on {unseen['n_experiments']} tests it has "
+                         "not seen")
+        if self.recommended and self.recommended != self.best:
+            found.append(f"recommended: {self.recommended}, which is simpler and not worse by "
+                         "more than a standard error")
+        expected = (record.get("choice") or {}).get("expected_mae_MPa")
+        if expected is not None:
+            found.append(f"expected error of a law chosen like this on new tests: {expected:.2f} "
+                         "MPa")
+        if self.trace:
+            effects = [str(e["derived"] or " x ".join(e["columns"])) for e in
+                       self.trace.record["effects"]]
+            found.append(self.trace.headline + (f": {', '.join(effects)}" if effects else ""))
+        if self.verification:
+            drift = max((r["worst_case_MPa"] for r in self.verification.record["records"]
+                         if r.get("worst_case_MPa") is not None), default=None)
+            found.append(self.verification.headline + ("" if drift is None else
+                         f", {drift:.2g} MPa off at most"))
+        return found or [f"{len(self.laws)} laws"]
+
+    def _export_by_job(self, target: str, made: Path, law: Optional[str]
+                       ) -> Optional[Verification]:
+        assert self.job
+        shutil.copytree(self.directory, made)
+        shutil.rmtree(made / "export", ignore_errors=True)
+        wanted: list[PathLike] = ["-o", made, "-q", "--set", f"export.targets=[{json.dumps(target)}]"]
+        if law is not None:
+            wanted += ["--set", f"table.model={json.dumps(self.law(law).name)}"]
+        for command in ("tabulate", "export", "verify") if law else ("export", "verify"):
+            outcome = program.run([command, self.job.name, *wanted], self.job.parent)
+            if outcome.code not in (0, 1): # 1: over the tolerance, which the verification says
+                raise FrictabError(program.fault_text(outcome))
+        return Verification(read_record(made / "verify.json", "verify"))
+
+    def _export_by_table(self, target: str, made: Path, law: Optional[str]
+                         ) -> Optional[Verification]:
+        tables = {f.stem: f for f in sorted((self.directory / "tables").glob("*.h5"))}
+        name = self.law(law).name if law else next(iter(tables), "")
+        if name not in tables:
+            raise FrictabError(f"{self.directory} has no table of {name or 'any law'}; with the "
+                               "job it is made: Result.open(directory, job=\"job.toml\")")
+        program.answer(["export", "--table", tables[name].resolve(), "--targets", target, "-o",
+                        made])
+        return None
+
+
+def _refuse_others(place: Path) -> None:
+    """A folder may hold what an export wrote before, and nothing else."""
+    if not place.exists():
+        return
+    if not place.is_dir():
+        raise FrictabError(f"{place} is a file; a routine has a folder of its own")
+    others = set(_files(place))
+    try:
+        recipe = json.loads((place / "recipe.json").read_text(encoding="utf-8"))
+        others -= {str(name) for name in recipe["files"]}
+    except (OSError, ValueError, KeyError, TypeError):
+        pass
+    if others:
+        raise FrictabError(f"{place} has {sorted(others)[0]}, which no export wrote; give a folder "
+                           "of its own")
+
+
+def _files(place: Path) -> Iterator[str]:
+    return (f.relative_to(place).as_posix() for f in place.rglob("*") if not f.is_dir())
