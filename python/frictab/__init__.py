@@ -15,11 +15,12 @@ from .calibration import Calibration, Model, read_calibration, read_model
 from .campaign import Campaign
 from .faults import CautionWarning, FrictabError, OutsideWarning
 from .formula import Formula
+from .regressor import FrictionRegressor
 from .result import Export, Law, Result
 from .table import Axis, Table, open_table
 
 open = open_table # not in __all__: an import of everything leaves Python's own open alone
 __version__ = "0.2.0"
 __all__ = ["Axis", "Calibration", "Campaign", "CautionWarning", "Export", "Formula",
-           "FrictabError", "Law", "Model", "OutsideWarning", "Result", "Table", "open_table",
-           "read_calibration", "read_model"]
+           "FrictabError", "FrictionRegressor", "Law", "Model", "OutsideWarning", "Result",
+           "Table", "open_table", "read_calibration", "read_model"]

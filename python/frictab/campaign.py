@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from .result import Result
 
 _HEADING = "Written by frictab.Campaign of Python."
+_STAGES = ("calibrate", "trace", "tabulate", "export", "run")
 ColumnSpec = Union[str, "tuple[str, str]", Mapping[str, Any]]
 
 
@@ -83,40 +84,50 @@ class Campaign:
         of units that nobody gave."""
         with tempfile.TemporaryDirectory() as work:
             job = self._write(Path(work), {})
-            return self._read(Path(work), job)
+            return self._read(Path(work), job, 3)
 
     def fit(self, laws: Union[str, Sequence[str], None] = None, *, threads: int = 0,
-            **job: Any) -> Result:
+            until: str = "run", **job: Any) -> Result:
         """Calibrates, traces, tabulates, exports, verifies and reports, as `frictab run`.
 
         laws: names of `frictab list models`; absent: all that the columns allow.
+        until: the stage to end with: calibrate, trace, tabulate, export; run: all of them.
         job: keys of a job, as sections, table={"tolerance_MPa": 0.5}, or with dots,
             **{"table.tolerance_MPa": 0.5}; the program checks them. threads: 0 for all cores.
         """
+        if until not in _STAGES:
+            raise FrictabError(f"until is '{until}'; it is one of {', '.join(_STAGES)}")
+        keys = merged({"models": {"use": [laws] if isinstance(laws, str) else laws}}, job)
+        scratch = None if self.directory else program.Scratch()
+        try:
+            return self._fitted(scratch, [until, "job.toml", "--json", "-q", "-j", str(threads)],
+                                keys)
+        except BaseException:
+            if scratch:
+                scratch.remove()
+            raise
+
+    def _fitted(self, scratch: Optional[program.Scratch], command: Sequence[str],
+                keys: Mapping[str, Any]) -> Result:
         from .result import Result
 
-        keys = merged({"models": {"use": [laws] if isinstance(laws, str) else laws}}, job)
-        temporary = None if self.directory else tempfile.TemporaryDirectory(prefix="frictab_")
-        folder = self.directory or Path(temporary.name if temporary else "")
-        job_file = self._write(folder, keys)
-        self._read(folder, job_file)
-        outcome = program.run(["run", "job.toml", "--json", "-q", "-j", str(threads)], folder)
+        folder = scratch.path if scratch else self.directory
+        assert folder
+        job = self._write(folder, keys)
+        self._read(folder, job)
+        outcome = program.run(command, folder)
         if outcome.code not in (0, 1): # 1: drift over the tolerance, which is a result
-            raise FrictabError(self._in_words_of_python(program.fault_text(outcome), folder,
-                                                        job_file))
-        summary = _parsed(outcome)
-        for caution in summary.get("cautions", []):
-            warnings.warn(str(caution), CautionWarning, 2)
+            raise FrictabError(self._in_words_of_python(program.fault_text(outcome), folder, job))
+        for caution in _parsed(outcome).get("cautions", []):
+            warnings.warn(str(caution), CautionWarning, 3)
         if outcome.code == 1:
-            warnings.warn("a target was missed: " + (outcome.err.strip() or "see "
-                          "result.verification"), CautionWarning, 2)
-        return Result(folder / str(summary["directory"]), folder / "job.toml", campaign=folder,
-                      keep=temporary)
+            warnings.warn("a target was missed: see result.verification", CautionWarning, 3)
+        return Result(folder / "out", folder / "job.toml", campaign=folder, keep=scratch)
 
     # ---- what was given ----
 
     def _column_of_tests(self, experiment: Optional[str]) -> Optional[str]:
-        """None: what the job says is no column of the frame: each row, a file with a column."""
+        """None where each row is a test."""
         frame = self._frames["data"]
         mapped = self._columns.get("experiment", {}).get("column")
         name = experiment or mapped or "experiment"
@@ -158,7 +169,7 @@ class Campaign:
         for name, one in self._columns.items():
             wanted = one.get("column")
             if isinstance(wanted, str) and wanted not in frame.columns:
-                raise FrictabError(f"columns['{name}'] is '{wanted}', which is no column of "
+                raise FrictabError(f"columns['{name}'] is '{wanted}', which is not a column of "
                                    f"{argument}" + near(wanted, frame.columns))
 
     # ---- what the program gets and says ----
@@ -173,7 +184,7 @@ class Campaign:
         (folder / "job.toml").write_text(job.text, encoding="utf-8")
         return job
 
-    def _read(self, folder: Path, job: JobFile) -> dict[str, Any]:
+    def _read(self, folder: Path, job: JobFile, level: int = 4) -> dict[str, Any]:
         scratch = folder / "read"
         outcome = program.run(["data", "job.toml", "--json", "-q", "-o", scratch], folder)
         shutil.rmtree(scratch, ignore_errors=True)
@@ -181,7 +192,7 @@ class Campaign:
             raise FrictabError(self._in_words_of_python(program.fault_text(outcome), folder, job))
         found = _parsed(outcome)
         for text in found.get("units_not_given", []):
-            warnings.warn(_unit_of_python(str(text)), CautionWarning, 3)
+            warnings.warn(_unit_of_python(str(text)), CautionWarning, level)
         return found
 
     def _in_words_of_python(self, text: str, folder: Path, job: JobFile) -> str:

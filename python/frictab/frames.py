@@ -68,6 +68,7 @@ def in_rows(text: str, folder: Path, frames: Mapping[str, Any]) -> str:
     """A message of the program with rows and columns instead of lines of the files that
     `frames`, by argument, were written to: folder/ARGUMENT.csv."""
     names = "|".join(map(re.escape, frames))
+    text = re.sub(r"^\S+ begins so:\n(?: +\d+ \|.*\n)*", "", text, flags=re.M) # the caller has them
     return re.sub(rf"(?:{re.escape(str(folder))}/)?\b({names})\.csv(?::(\d+))?(?::(\d+))?",
                   lambda m: _place(folder / f"{m[1]}.csv", m[1], frames[m[1]], m[2], m[3]), text)
 
@@ -80,7 +81,8 @@ def _place(file: Path, argument: str, frame: Any, line: Optional[str], at: Optio
         return argument
     place = f"{argument}, row {frame.index[int(line) - 2]}"
     if at is not None:
-        cells = next(csv.reader([lines[int(line) - 1][:int(at)]]), [""])
+        before = lines[int(line) - 1].encode()[:int(at) - 1].decode(errors="replace")
+        cells = next(csv.reader([before]), [""])
         place += f", column '{frame.columns[len(cells) - 1]}'"
     return place
 

@@ -5,6 +5,8 @@ import os
 import shutil
 import signal
 import subprocess
+import tempfile
+import weakref
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Optional, Sequence, Union
@@ -13,6 +15,14 @@ from .faults import FrictabError
 
 PathLike = Union[str, "os.PathLike[str]"]
 _HERE = Path(__file__).resolve().parent
+
+
+class Scratch:
+    """A temporary folder, which goes with this object, or when the process ends."""
+
+    def __init__(self) -> None:
+        self.path = Path(tempfile.mkdtemp(prefix="frictab_"))
+        self.remove = weakref.finalize(self, shutil.rmtree, self.path, True)
 
 
 @dataclass(frozen=True)

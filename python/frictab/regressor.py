@@ -22,7 +22,8 @@ class FrictionRegressor:
     X: a DataFrame of states, by canonical names or as `columns` maps them; y: the friction shear
     stress in MPa; groups: the test of each row. Tests are the unit of the fit: without groups it
     is refused. law: the one that predicts: "best", "recommended" or a name. laws: those that are
-    calibrated. job: further keys of a job, as Campaign.fit takes them.
+    calibrated. trace: whether effects that they lack are searched for, which takes longer. job:
+    further keys of a job, as Campaign.fit takes them.
     After the fit: result_, law_, n_features_in_, feature_names_in_.
     """
 
@@ -31,13 +32,14 @@ class FrictionRegressor:
     def __init__(self, law: str = "best", laws: Union[str, Sequence[str], None] = None,
                  columns: Optional[Mapping[str, Any]] = None,
                  constants: Optional[Mapping[str, float]] = None,
-                 job: Optional[Mapping[str, Any]] = None, threads: int = 0,
-                 random_state: Optional[int] = None) -> None:
+                 job: Optional[Mapping[str, Any]] = None, trace: bool = False,
+                 threads: int = 0, random_state: Optional[int] = None) -> None:
         self.law = law
         self.laws = laws
         self.columns = columns
         self.constants = constants
         self.job = job
+        self.trace = trace
         self.threads = threads
         self.random_state = random_state
 
@@ -55,7 +57,8 @@ class FrictionRegressor:
         if self.random_state is not None:
             job["calibration.seed"] = int(self.random_state)
         campaign = Campaign(frame, columns=self.columns, constants=self.constants)
-        self.result_: Result = campaign.fit(self.laws, threads=self.threads, **job)
+        self.result_: Result = campaign.fit(
+            self.laws, threads=self.threads, until="trace" if self.trace else "calibrate", **job)
         self.law_: str = self.result_.law(self.law).name
         self.feature_names_in_ = np.array(list(X.columns), dtype=object)
         self.n_features_in_ = len(X.columns)
@@ -102,8 +105,7 @@ class FrictionRegressor:
 
     def _more_tags(self) -> dict[str, Any]:
         """For scikit-learn's checks: only states that a tribometer can have are fitted."""
-        return {"requires_fit": True, "no_validation": True, "poor_score": True,
-                "_skip_test": False, "requires_positive_X": True, "requires_positive_y": True}
+        return {"poor_score": True, "requires_positive_X": True, "requires_positive_y": True}
 
     @classmethod
     def _names(cls) -> list[str]:

@@ -2,11 +2,13 @@
 from __future__ import annotations
 
 import html
+import io
 import json
 import os
 import shutil
 import tempfile
 import warnings
+import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional
@@ -181,6 +183,16 @@ class Result:
         status = json.loads(program.answer(["status", job.name, "--json"], job.parent))
         return cls(job.parent / str(status["directory"]), job)
 
+    def __reduce__(self) -> Any:
+        """Of a campaign the files go along; of other results, where they are."""
+        if self._campaign is None:
+            return type(self), (self.directory.resolve(), self.job)
+        packed = io.BytesIO()
+        with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+            for name in sorted(files_in(self._campaign)):
+                archive.write(self._campaign / name, name)
+        return _unpacked, (type(self), packed.getvalue())
+
     # ---- what it says ----
 
     @property
@@ -263,7 +275,9 @@ class Result:
                 write_frame(self.data, file)
                 program.answer(["predict", (self.directory / "models" / f"{name}.json").resolve(),
                                 file, "-o", out])
-                self._predicted[name] = read_frame(out)
+                rows = read_frame(out)
+            rows.index = order_by_test(self.data, rows["experiment"])
+            self._predicted[name] = rows.sort_index()
         return self._predicted[name].copy()
 
     @property
@@ -324,7 +338,7 @@ class Result:
         """Writes the routine of a target (`frictab list targets`) into a folder of its own, and
         verifies it. Without `law`, the law of the job's table. The results stay as they are."""
         place = Path(directory)
-        _refuse_others(place)
+        earlier = _earlier_export(place)
         with tempfile.TemporaryDirectory(prefix="frictab_") as work:
             made = Path(work) / "out"
             verification = (self._export_by_job if self.job else self._export_by_table)(
@@ -333,6 +347,8 @@ class Result:
             if len(folders) != 1:
                 raise FrictabError(f"{target} of {len(folders)} laws was made; name one: "
                                    "law=\"...\"")
+            for name in earlier:
+                (place / name).unlink()
             shutil.copytree(folders[0], place, dirs_exist_ok=True)
         recipe = json.loads((place / "recipe.json").read_text(encoding="utf-8"))
         return Export(place, recipe, verification)
@@ -415,22 +431,31 @@ class Result:
         return None
 
 
-def _refuse_others(place: Path) -> None:
-    """A folder may hold what an export wrote before, and nothing else."""
+def _unpacked(kind: type[Result], packed: bytes) -> Result:
+    scratch = program.Scratch()
+    with zipfile.ZipFile(io.BytesIO(packed)) as archive:
+        archive.extractall(scratch.path)
+    return kind(scratch.path / "out", scratch.path / "job.toml", campaign=scratch.path,
+                keep=scratch)
+
+
+def _earlier_export(place: Path) -> set[str]:
+    """Files that an export wrote there before. Refuses a folder that has others."""
     if not place.exists():
-        return
+        return set()
     if not place.is_dir():
         raise FrictabError(f"{place} is a file; a routine has a folder of its own")
-    others = set(_files(place))
+    there = set(files_in(place))
     try:
         recipe = json.loads((place / "recipe.json").read_text(encoding="utf-8"))
-        others -= {str(name) for name in recipe["files"]}
+        own = {str(name) for name in recipe["files"]} & there
     except (OSError, ValueError, KeyError, TypeError):
-        pass
-    if others:
-        raise FrictabError(f"{place} has {sorted(others)[0]}, which no export wrote; give a folder "
+        own = set()
+    if there - own:
+        raise FrictabError(f"{place} has {min(there - own)}, which no export wrote; give a folder "
                            "of its own")
+    return own
 
 
-def _files(place: Path) -> Iterator[str]:
+def files_in(place: Path) -> Iterator[str]:
     return (f.relative_to(place).as_posix() for f in place.rglob("*") if not f.is_dir())

@@ -1,7 +1,9 @@
 """How the package frictab is called. Usage: calls.py DIRECTORY of sides.h5, spline.h5, tool.json"""
+import builtins
 import pathlib
 import random
 import shutil
+import subprocess
 import sys
 import unittest
 import warnings
@@ -202,6 +204,24 @@ class Calls(unittest.TestCase):
                             (HERE / "none", "no such file")):
             for read in (frictab.open, frictab.read_model, frictab.read_calibration):
                 self.fails(text, read, place)
+
+
+class Names(unittest.TestCase):
+    def test_an_import_of_everything_leaves_the_names_of_python_alone(self):
+        names = {}
+        exec("from frictab import *", names)
+        self.assertEqual([n for n in names if n in dir(builtins) and n[0] != "_"], [])
+        self.assertLessEqual(set(frictab.__all__), set(names))
+        self.assertIs(frictab.open, frictab.open_table)
+
+    def test_reading_needs_neither_pandas_nor_the_program(self):
+        gone = dict.fromkeys(["pandas", "matplotlib", "sklearn", "xarray"])
+        text = (f"import sys; sys.modules.update({gone}); import frictab\n"
+                f"frictab.open_table({str(HERE / 'spline.h5')!r})\n"
+                "try: frictab.frames.pandas_module()\n"
+                "except frictab.FrictabError as fault: print(fault)")
+        done = subprocess.run([sys.executable, "-c", text], capture_output=True, encoding="utf-8")
+        self.assertIn("needs pandas: pip install pandas", done.stdout, done.stderr)
 
 
 class Formulas(unittest.TestCase):
