@@ -91,7 +91,8 @@ class Plots:
             weights = 1.0 / rows.groupby("experiment")["experiment"].transform("size").to_numpy()
             if number == 0:
                 ax.hist(residual, bins=40, weights=weights, density=True, color="0.85")
-            x = np.linspace(residual.min(), residual.max(), 300)
+            beyond = 0.15 * np.ptp(residual) # so that the curve comes down
+            x = np.linspace(residual.min() - beyond, residual.max() + beyond, 300)
             ax.plot(x, _density(residual, weights, x), color=f"C{number}",
                     label=f"{law.name}, {'tests of the fit' if seen else 'unseen tests'}")
         ax.axvline(0, color="grey", lw=1)

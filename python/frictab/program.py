@@ -34,22 +34,25 @@ class Outcome:
 
 
 def find_program() -> str:
-    """FRICTAB, else `frictab` of PATH, else one that lies with this package: in it, or built in
-    the source tree that it stands in. Raises FrictabError with what was looked at."""
+    """FRICTAB, else `frictab` of PATH, else one that lies with this package: in it, installed
+    under the same prefix, or built in its source tree. Raises FrictabError with what was looked
+    at."""
     named = os.environ.get("FRICTAB")
     if named:
         found = shutil.which(named)
         if not found:
             raise FrictabError(f"FRICTAB is '{named}', which is not a program that can be run")
         return os.path.abspath(found)
-    for candidate in ("frictab", str(_HERE / "bin" / "frictab"),
-                      str(_HERE.parents[1] / "build" / "release" / "frictab")):
+    above = list(_HERE.parents)
+    places = [_HERE / "bin", *(p / "bin" for p in above[3:4]),
+              *(p / "build" / "release" for p in above[1:2])]
+    for candidate in ("frictab", *(str(place / "frictab") for place in places)):
         found = shutil.which(candidate)
         if found:
             return os.path.abspath(found)
     raise FrictabError("the program frictab was not found: neither in FRICTAB, nor on PATH, nor "
-                       f"in {_HERE / 'bin'}. Install it, or set FRICTAB to its path: "
-                       "os.environ['FRICTAB'] = '/path/to/frictab'")
+                       f"in {', '.join(map(str, places))}. Install it, or set FRICTAB to its "
+                       "path: os.environ['FRICTAB'] = '/path/to/frictab'")
 
 
 def run(arguments: Sequence[PathLike], directory: Optional[PathLike] = None,

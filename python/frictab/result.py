@@ -291,7 +291,7 @@ class Result:
         return "\n".join(self._findings())
 
     def __repr__(self) -> str:
-        return f"<frictab result {self.directory}: {self._findings()[0]}>"
+        return f"<frictab result: {'; '.join(self._findings()[:2])}>"
 
     def __str__(self) -> str:
         return self.summary()

@@ -1,5 +1,5 @@
 # cmake --install BUILD [--prefix DIR]: the program with manual pages, completion, documentation,
-# examples and the JSON Schema of the job file. cpack --config BUILD/CPackConfig.cmake: a .deb of
+# examples, the Python package and the JSON Schema of the job file. cpack --config BUILD/CPackConfig.cmake: a .deb of
 # these. Templates are part of the program.
 include(GNUInstallDirs)
 install(TARGETS frictab RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
@@ -21,6 +21,10 @@ install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
         PATTERN data EXCLUDE PATTERN out EXCLUDE PATTERN __pycache__ EXCLUDE
         REGEX "/examples/run$" EXCLUDE) # that script builds the program
 
+# Debian's python3 looks there if the prefix is /usr, as in the .deb; others set PYTHONPATH or use pip.
+set(FRICTAB_PYTHON_DIR lib/python3/dist-packages CACHE STRING "Folder of the Python package")
+install(DIRECTORY python/frictab DESTINATION ${FRICTAB_PYTHON_DIR} PATTERN __pycache__ EXCLUDE)
+
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # the files to pack are built already
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME frictab)
@@ -33,7 +37,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# verify compiles what was generated.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gcc, gfortran, libc6-dev")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "clang, luajit, lua5.4")
+# verify compiles what was generated, the Python package tables of many rows.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gcc, gfortran, libc6-dev, python3-h5py, python3-pandas")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "clang, luajit, lua5.4, python3-matplotlib, python3-xarray")
 include(CPack)

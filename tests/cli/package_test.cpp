@@ -39,9 +39,12 @@ void expect_whole(const fs::path& usr) {
         "share/bash-completion/completions/frictab", "share/zsh/vendor-completions/_frictab",
         "share/fish/vendor_completions.d/frictab.fish", "share/frictab/job.schema.json",
         "share/doc/frictab/copyright", "share/doc/frictab/docs/start.md",
-        "share/doc/frictab/examples/04_ci_pipeline/verify.sh"})
+        "share/doc/frictab/examples/04_ci_pipeline/verify.sh",
+        "lib/python3/dist-packages/frictab/campaign.py",
+        "lib/python3/dist-packages/frictab/py.typed"})
     EXPECT_TRUE(fs::exists(usr / file)) << file;
   EXPECT_FALSE(fs::exists(usr / "share/doc/frictab/examples/01_synthetic_campaign/data"));
+  EXPECT_FALSE(fs::exists(usr / "lib/python3/dist-packages/frictab/__pycache__"));
 }
 
 // One test: both write the manual pages into the build directory.

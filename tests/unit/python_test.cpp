@@ -1,4 +1,6 @@
-// The Python package: the same values as the kernel, whatever a table or law is made of.
+// The Python package: the same values as the kernel, for every kind of table and law; fits,
+// pictures and the estimator, whose tests are scripts in tests/python that run by themselves as
+// well.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -37,11 +39,24 @@ protected:
       GTEST_SKIP() << "Debian's python3-h5py, -h5netcdf, -pandas, -xarray are not installed";
   }
 
-  test::CommandResult python(std::vector<std::string> arguments) const {
+  test::CommandResult python(std::vector<std::string> arguments,
+                             const std::string& kernel = "auto") const {
     arguments.insert(arguments.begin(), FRICTAB_PYTHON);
-    return test::run_command(arguments, directory.path(),
-                             {"PYTHONPATH=" + house + "/python", "PYTHONDONTWRITEBYTECODE=1",
-                              "MPLBACKEND=Agg", "FRICTAB=" + test::program()}); // no window
+    return test::run_command(
+        arguments, directory.path(),
+        {"PYTHONPATH=" + house + "/python", "PYTHONDONTWRITEBYTECODE=1",
+         "MPLBACKEND=Agg", // no window
+         "FRICTAB=" + test::program(), "XDG_CACHE_HOME=" + directory.path("cache"),
+         "MPLCONFIGDIR=" + directory.path("matplotlib"), "FRICTAB_PYTHON_KERNEL=" + kernel});
+  }
+
+  // A script of tests/python; a line that begins with "skipped:" says which package it lacks.
+  void expect_passes(std::vector<std::string> script) const {
+    script.front() = house + "/tests/python/" + script.front();
+    const auto result = python(script);
+    if (result.out.starts_with("skipped:")) GTEST_SKIP() << result.out;
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+    EXPECT_THAT(result.err, HasSubstr("OK\n"));
   }
 
   void write_rows(const std::string& name, const std::vector<std::string>& header,
@@ -103,8 +118,8 @@ protected:
     write_rows(name, header, columns);
   }
 
-  void expect_the_same(std::size_t files) const {
-    const auto result = python({house + "/tests/python/compare.py", directory.path()});
+  void expect_the_same(std::size_t files, const std::string& kernel = "numpy") const {
+    const auto result = python({house + "/tests/python/compare.py", directory.path()}, kernel);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, StartsWith(fmt::format("ok {} ", files)));
     std::cout << result.out; // docs/python.md states it
@@ -112,6 +127,8 @@ protected:
 
   test::TemporaryDirectory directory;
 };
+
+class LongPython : public SlowPython {};
 
 // A sample has a constant that no text can name.
 bool can_be_read(const Table& table) {
@@ -142,6 +159,46 @@ TEST_F(SlowPython, TablesGiveWhatTheKernelGivesTo1e12InsideAndBeyondTheirEnds) {
       ++files;
     }
   expect_the_same(files + 1);
+}
+
+TEST_F(LongPython, TablesGiveWhatTheKernelGivesTo1e12ByTheirCompiledRoutine) {
+  std::size_t files = 0;
+  for (const std::string& law : models::law_names())
+    for (const auto interpolation : table::grid_interpolations) {
+      add(law + "_" + std::string(table::interpolation_name(interpolation)),
+          table_of(test::plausible_model(*models::find_law(law)), interpolation));
+      ++files;
+    }
+  expect_the_same(files, "c");
+}
+
+TEST_F(LongPython, RoutinesAreCompiledOnceIntoASafeCacheAndNumpyStandsIn) {
+  expect_passes({"kernel.py"});
+}
+
+TEST_F(LongPython, ACampaignIsFittedRankedPredictedExportedSavedAndOpened) {
+  expect_passes({"fit.py", "Results"});
+}
+
+TEST_F(LongPython, TheEstimatorHoldsTheConventionsOfScikitLearn) {
+  expect_passes({"estimator.py"});
+}
+
+TEST_F(SlowPython, FaultsNameTheArgumentAndInterruptionsLeaveNothing) {
+  expect_passes({"fit.py", "Calls"});
+}
+
+TEST_F(SlowPython, PicturesShowEveryRowAndLaw) {
+  expect_passes({"pictures.py"});
+}
+
+TEST_F(SlowPython, MypyFindsNothingInItsStrictMode) {
+  if (python({"-c", "import mypy"}).exit_code != 0)
+    GTEST_SKIP() << "Debian's mypy is not installed";
+  const auto result =
+      python({"-m", "mypy", "--config-file", house + "/python/pyproject.toml", "--strict",
+              "--cache-dir", directory.path("mypy"), house + "/python/frictab"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
 }
 
 TEST_F(SlowPython, LawsGiveWhatFrictabGivesTo1e12ByTheirFormulaAlone) {
@@ -177,6 +234,15 @@ TEST_F(SlowPython, TheNotebookOfTheExamplesRuns) {
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_THAT(result.out, HasSubstr("five lines 76.345, the package 76.345; interp along the axes "
                                     "themselves 76.298 MPa"));
+}
+
+TEST_F(SlowPython, TheNotebookOfAFitRunsAndPrintsItsOutputs) {
+  if (python({"-c", "import matplotlib"}).exit_code != 0)
+    GTEST_SKIP() << "Debian's python3-matplotlib is not installed";
+  const auto result =
+      python({house + "/tests/python/run_notebook.py", house + "/examples/10_python/fit.ipynb"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("verification passed: 3 tables and routines"));
 }
 
 TEST_F(SlowPython, AWheelIsBuiltWithoutACompilerAndWithoutTheNetwork) {
