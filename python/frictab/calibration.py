@@ -142,7 +142,7 @@ def _read(path: PathLike, kind: str, make: Callable[[dict[str, Any], str], Read]
             try:
                 record = json.load(file)
             except (ValueError, RecursionError):
-                raise FrictabError("is no JSON file") from None
+                raise FrictabError("is not a JSON file") from None
         schema = record.get("schema", "") if isinstance(record, dict) else ""
         if schema != f"frictab/{kind}/1":
             raise FrictabError(f"its schema is \"{schema}\", not \"frictab/{kind}/1\"")

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
 from . import program
 from .faults import CautionWarning, FrictabError
-from .frames import in_rows, is_frame, near, plain_frame, write_frame
+from .frames import as_arguments, in_rows, is_frame, near, plain_frame, write_frame
 from .job import JobFile, merged, without_none
 from .program import PathLike
 
@@ -192,14 +192,14 @@ class Campaign:
             raise FrictabError(self._in_words_of_python(program.fault_text(outcome), folder, job))
         found = _parsed(outcome)
         for text in found.get("units_not_given", []):
-            warnings.warn(_unit_of_python(str(text)), CautionWarning, level)
+            warnings.warn(as_arguments(str(text)), CautionWarning, level)
         return found
 
     def _in_words_of_python(self, text: str, folder: Path, job: JobFile) -> str:
         """A message of the program with arguments and rows instead of lines of its files."""
         text = re.sub(r"job\.toml:(\d+)(?::\d+)?",
                       lambda m: _argument(job.key_at(int(m[1])), m[0]), text)
-        return in_rows(text, folder, self._frames)
+        return in_rows(as_arguments(text), folder, self._frames)
 
 
 def _specification(name: str, given: ColumnSpec) -> dict[str, Any]:
@@ -224,16 +224,9 @@ def _argument(key: Optional[str], place: str) -> str:
     """The argument of Campaign or fit that a key of the job was written for."""
     if key is None:
         return place
-    if key == "models.use":
-        return "laws"
-    first, _, rest = key.partition(".")
-    return rest if first == "data" and rest else key
-
-
-def _unit_of_python(text: str) -> str:
-    """The program's advice as Campaign takes it."""
-    return re.sub(r"(\w+) = \{ column = \"([^\"]*)\", unit = \"([^\"]*)\", \.\.\. \}",
-                  r'columns={"\1": ("\2", "\3")}', text)
+    if key in ("models.use", "data.training"):
+        return {"models.use": "laws"}.get(key, "data")
+    return key[5:] if key.startswith("data.") else key
 
 
 def _parsed(outcome: program.Outcome) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""What can be wrong with a file or a call, and what is said where states lie outside."""
+"""What can be wrong with a file or a call, and warnings."""
 from __future__ import annotations
 
 import os
@@ -25,7 +25,7 @@ def file_faults(path: str, kind: str) -> Iterator[None]:
     if not os.path.exists(path):
         raise FrictabError(f"{path}: no such file")
     if not os.path.isfile(path): # a pipe would be waited for
-        raise FrictabError(f"{path}: is no file")
+        raise FrictabError(f"{path}: is not a file")
     try:
         yield
     except FrictabError as fault:

@@ -39,7 +39,8 @@ class Formula:
 
     def __init__(self, text: str) -> None:
         self.text = text
-        self._parts: list[Part] = [] # ("number", x), ("name", n) or (function, operand, ...), operands first
+        # ("number", x), ("name", n) or (function, operand, ...), operands first
+        self._parts: list[Part] = []
         self._known: dict[Part, int] = {}
         try:
             self._root = _Parser(text, self._part).parse()
@@ -63,7 +64,7 @@ class Formula:
                     done[i] = np.asarray(values[rest[0]], float)
                 else:
                     done[i] = kind(*(done[o] for o in rest))
-                    self._forget(done, rest, i)
+                    self._forget(done, rest, i) # a network has thousands of parts
         result: Numbers = done[self._root]
         return result
 
@@ -89,7 +90,7 @@ class Formula:
                 return one, self._parts[other][1]
         return None
 
-    def _forget(self, done: list[Any], operands: list[Any], at: int) -> None: # a network has thousands of parts
+    def _forget(self, done: list[Any], operands: list[Any], at: int) -> None:
         for o in operands:
             if self._last_use[o] == at and o != self._root:
                 done[o] = None

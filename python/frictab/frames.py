@@ -1,4 +1,4 @@
-"""DataFrames that the program reads as files, and what it says of these files."""
+"""DataFrames that the program reads as files, and its messages on these files."""
 from __future__ import annotations
 
 import csv
@@ -62,6 +62,19 @@ def near(name: str, names: Iterable[Any]) -> str:
     if found:
         return f"; did you mean '{found[0]}'?"
     return f" (there are {', '.join(known[:12])}{', ...' if len(known) > 12 else ''})"
+
+
+def as_arguments(text: str) -> str:
+    """A message of the program with arguments of Campaign instead of keys of the job file."""
+    for pattern, words in (
+            (r"(\w+) = \{ column = \"([^\"]*)\", unit = \"([^\"]*)\", \.\.\. \}",
+             r'columns={"\1": ("\2", "\3")}'),
+            (r"\bdata\.(\w+) = ", r"\1="), (r"\[data\.(\w+)\]", r"\1"),
+            (r"`unit` where it is mapped", "its unit in columns"),
+            (r"unit = (\"\w+\") where it is mapped", r"\1 as its unit in columns"),
+            (r"\bthe file has\b", "the frame has"), (r"^--set \d+: ", "")):
+        text = re.sub(pattern, words, text, flags=re.M)
+    return text
 
 
 def in_rows(text: str, folder: Path, frames: Mapping[str, Any]) -> str:

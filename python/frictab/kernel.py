@@ -57,7 +57,7 @@ class Kernel:
 
 def wanted(rows: int) -> str:
     """auto (try C), c (C or a fault) or numpy. By the rows of the call alone, so that the same
-    call gives the same bits whatever was called before."""
+    call gives the same bits after any other call."""
     choice = os.environ.get("FRICTAB_PYTHON_KERNEL", "auto")
     if choice not in _CHOICES:
         raise FrictabError(f"FRICTAB_PYTHON_KERNEL is '{choice}'; it is one of "

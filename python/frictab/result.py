@@ -18,8 +18,8 @@ import numpy as np
 from . import program
 from .calibration import Calibration, Model, read_calibration, read_record
 from .faults import FrictabError, OutsideWarning
-from .frames import (in_rows, near, order_by_test, pandas_module, plain_frame, read_frame,
-                     write_frame)
+from .frames import (as_arguments, in_rows, near, order_by_test, pandas_module, plain_frame,
+                     read_frame, write_frame)
 from .program import PathLike
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class Law(Model):
         the 5 % and 95 % quantiles of new experiments.
 
         `data` has the columns of the campaign, in its units; no friction is needed. Tests are
-        told apart as in the campaign: histories, such as sliding distance, run along each.
+        named as in the campaign: histories, such as sliding distance, run along each.
         """
         pandas = pandas_module()
         rows = self._result.predicted(self.name, data)
@@ -322,7 +322,7 @@ class Result:
             if outcome.code != 0:
                 text = program.fault_text(outcome)
                 raise FrictabError(text if frame is None else
-                                   in_rows(text, Path(work), {"data": frame}))
+                                   in_rows(as_arguments(text), Path(work), {"data": frame}))
             rows = read_frame(out)
         if frame is None:
             return rows
@@ -383,10 +383,8 @@ class Result:
         fits = {f["name"]: f for f in record["models"]}
         if self.best in fits:
             unseen = fits[self.best]["validation"]
-            low, high = unseen.get("mae_95") or (np.nan, np.nan)
-            found.append(f"best law: {self.best} misses tau_R by {unseen['mae_MPa']:.2f} MPa "
-                         f"({low:.2f} to {high:.2f}) on {unseen['n_experiments']} tests it has "
-                         "not seen")
+            found.append(f"best law: {self.best} misses tau_R by {_mae(unseen)} on "
+                         f"{_count(unseen['n_experiments'], 'test')} it has not seen")
         if self.recommended and self.recommended != self.best:
             found.append(f"recommended: {self.recommended}, which is simpler and not worse by "
                          "more than a standard error")
@@ -410,13 +408,14 @@ class Result:
         assert self.job
         shutil.copytree(self.directory, made)
         shutil.rmtree(made / "export", ignore_errors=True)
-        wanted: list[PathLike] = ["-o", made, "-q", "--set", f"export.targets=[{json.dumps(target)}]"]
+        wanted: list[PathLike] = ["-o", made, "-q", "--set",
+                                  f"export.targets=[{json.dumps(target)}]"]
         if law is not None:
             wanted += ["--set", f"table.model={json.dumps(self.law(law).name)}"]
         for command in ("tabulate", "export", "verify") if law else ("export", "verify"):
             outcome = program.run([command, self.job.name, *wanted], self.job.parent)
             if outcome.code not in (0, 1): # 1: over the tolerance, which the verification says
-                raise FrictabError(program.fault_text(outcome))
+                raise FrictabError(as_arguments(program.fault_text(outcome)))
         return Verification(read_record(made / "verify.json", "verify"))
 
     def _export_by_table(self, target: str, made: Path, law: Optional[str]
@@ -455,6 +454,18 @@ def _earlier_export(place: Path) -> set[str]:
         raise FrictabError(f"{place} has {min(there - own)}, which no export wrote; give a folder "
                            "of its own")
     return own
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def _mae(errors: Mapping[str, Any]) -> str:
+    if errors["mae_MPa"] is None:
+        return "an unknown amount"
+    low, high = errors.get("mae_95") or (None, None)
+    interval = "" if low is None or high is None else f" ({low:.2f} to {high:.2f})"
+    return f"{errors['mae_MPa']:.2f} MPa{interval}"
 
 
 def files_in(place: Path) -> Iterator[str]:

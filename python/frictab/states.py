@@ -71,7 +71,7 @@ class States:
         for name in named:
             if name not in names:
                 near = difflib.get_close_matches(name, names, 1)
-                raise FrictabError(f"'{name}' is no input of {owner}; "
+                raise FrictabError(f"'{name}' is not an input of {owner}; "
                                    + (f"did you mean '{near[0]}'?" if near else
                                       f"it takes {', '.join(map(str, inputs))}"))
         columns = {n: given[n] for n in names if given is not None and n in given}

@@ -185,8 +185,8 @@ class Table:
 
     def _constant(self, name: str) -> float:
         if not isinstance(self.attributes.get(name), (int, float)):
-            raise FrictabError(f"{self.source}: the formula uses '{name}', which is not a state and "
-                               "no number attribute of 'value'")
+            raise FrictabError(f"{self.source}: the formula uses '{name}', which is not a state "
+                               "and no number attribute of 'value'")
         return float(self.attributes[name])
 
     def _make_grid(self) -> Grid:
@@ -305,7 +305,7 @@ def open_table(path: PathLike) -> Table:
         try:
             file = h5py.File(path, "r")
         except OSError:
-            raise FrictabError("is no HDF5 file; a table is tables/NAME.h5 of a run") from None
+            raise FrictabError("is not an HDF5 file; a table is tables/NAME.h5 of a run") from None
         with file:
             _check_in_itself(file, "", set())
             return _read(file, path, _digest_of(path))

@@ -65,11 +65,11 @@ class Calls(unittest.TestCase):
         axis = self.table.axes[0]
         state = {**self.state, self.axis: [axis.nodes[0] / 2, self.state[self.axis],
                                            axis.nodes[-1] * 2, axis.nodes[-1] * 3]}
-        with self.assertWarns(frictab.OutsideWarning) as said:
+        with self.assertWarns(frictab.OutsideWarning) as heard:
             self.table.tau_R(state)
-        self.assertIn(f"of 4 states, {self.axis} below {axis.nodes[0]:g} in 1", str(said.warning))
-        self.assertIn(f"{self.axis} above {axis.nodes[-1]:g} in 2", str(said.warning))
-        self.assertEqual(said.filename, __file__)
+        self.assertIn(f"of 4 states, {self.axis} below {axis.nodes[0]:g} in 1", str(heard.warning))
+        self.assertIn(f"{self.axis} above {axis.nodes[-1]:g} in 2", str(heard.warning))
+        self.assertEqual(heard.filename, __file__)
         self.assertEqual(self.table.outside(state)[self.axis].tolist(), [-1, 0, 1, 1])
 
     def test_a_state_that_is_not_known_gives_nan(self):
@@ -121,9 +121,9 @@ class Calls(unittest.TestCase):
         self.fails("it is one of A, B", law.tau_R, state, **{named.name: "Z"})
 
     def test_files_of_another_kind_are_told_apart(self):
-        self.fails("is no HDF5 file", frictab.open, HERE / "tool.json")
+        self.fails("is not an HDF5 file", frictab.open, HERE / "tool.json")
         self.fails("no such file", frictab.open, HERE / "none.h5")
-        self.fails("is no JSON file", frictab.read_model, HERE / "spline.h5")
+        self.fails("is not a JSON file", frictab.read_model, HERE / "spline.h5")
         self.fails('its schema is "frictab/model/1"', frictab.read_calibration, HERE / "tool.json")
         self.fails("no variable 'value'", lambda: xarray.Dataset().frictab)
 
@@ -200,7 +200,7 @@ class Calls(unittest.TestCase):
                     read(HERE / "other")
                 except frictab.FrictabError as fault:
                     self.assertIn("other: ", str(fault))
-        for place, text in ((HERE, "is no file"), ("/dev/null", "is no file"),
+        for place, text in ((HERE, "is not a file"), ("/dev/null", "is no file"),
                             (HERE / "none", "no such file")):
             for read in (frictab.open, frictab.read_model, frictab.read_calibration):
                 self.fails(text, read, place)

@@ -38,7 +38,7 @@ def compare(file):
     sides = law.outside(columns)
     for name, bits in outside.items():
         if not np.array_equal(sides[name] != 0, bits != 0):
-            print(f"{file.name}: says of {name} otherwise what lies outside")
+            print(f"{file.name}: differs on what lies outside along {name}")
     return off
 
 

@@ -231,6 +231,24 @@ class Calls(Case):
         for name in ("calibration.json", "models/coulomb.json", "tables/coulomb.h5"):
             self.assertEqual(*[(d / name).read_bytes() for d in made], name)
 
+    def test_tests_may_be_numbers_levels_of_an_index_or_rows(self):
+        number = {name: n for n, name in enumerate(self.frame["Versuch"].unique())}
+        frame = self.frame.assign(Versuch=self.frame["Versuch"].map(number).astype(float))
+        wanted = None
+        for given in (frame, frame.astype({"Versuch": int}), frame.set_index(["Versuch", "v"]),
+                      frame.sort_values("Druck", kind="stable")):
+            law = campaign(given).fit("coulomb", until="calibrate").law("coulomb")
+            found = law.predict(given)
+            self.assertTrue(found.index.equals(given.index))
+            np.testing.assert_allclose(found, law.parameters["mu"] * given["Druck"] / 1e6, 1e-9)
+            wanted = wanted or law.parameters
+            self.assertAlmostEqual(law.parameters["mu"] / wanted["mu"], 1, 6)
+        rows = campaign(self.frame.drop(columns="Versuch").iloc[::9], experiment="row").fit(
+            "coulomb", until="calibrate")
+        self.assertEqual(rows.calibration.record["models"][0]["training"]["n_experiments"]
+                         + len(rows.calibration.record["validation_experiments"]),
+                         len(self.frame.iloc[::9]))
+
     def test_names_that_are_wrong_are_named_before_anything_runs(self):
         typo = {**COLUMNS, "sigma_n_MPa": ("Druk", "Pa")}
         self.fails("columns['sigma_n_MPa'] is 'Druk', which is not a column of data; did you mean "
@@ -252,6 +270,12 @@ class Calls(Case):
         text = self.fails("unknown key 'tolerance'", campaign(self.frame).fit,
                           table={"tolerance": 1})
         self.assertIn("table.tolerance: error", text)
+        text = self.fails("data: error: sigma_n_MPa is above", campaign(
+            self.frame, columns={**COLUMNS, "sigma_n_MPa": ("Druck", "MPa")}).fit)
+        self.assertIn("\"Pa\" as its unit in columns", text)
+        self.assertIn("allow_implausible=[\"pressure\"]", text)
+        for word in ("data.", "mapped", "[data"):
+            self.assertNotIn(word, text)
         bad = self.frame.copy()
         bad.index = bad.index + 500
         bad.loc[517, "Reibung"] = np.nan
@@ -265,6 +289,11 @@ class Calls(Case):
         for part in (".csv", "job.toml", str(tempfile.gettempdir())):
             self.assertNotIn(part, text)
 
+    def test_one_test_to_judge_by_gives_no_interval(self):
+        result = campaign(self.frame, validation=self.held[:1]).fit("coulomb", until="calibrate")
+        self.assertIn("on 1 test it has not seen", result.summary())
+        self.assertTrue(result.ranking["mae_low_95"].isna().all())
+
     def test_a_unit_that_nobody_gave_is_a_warning(self):
         bare = {**COLUMNS, "v_rel_mm_s": "v"}
         with self.assertWarns(frictab.CautionWarning) as heard:
@@ -276,8 +305,8 @@ class Calls(Case):
         self.assertEqual(len(found["tests"]), self.frame["Versuch"].nunique())
 
     def test_a_program_that_is_not_there_is_named(self):
-        for environment, text in (({"FRICTAB": "/nowhere/frictab"}, "FRICTAB is '/nowhere/frictab'"),
-                                  ({"FRICTAB": "", "PATH": ""}, "neither in FRICTAB, nor on PATH")):
+        for environment, text in (({"FRICTAB": "/no/frictab"}, "FRICTAB is '/no/frictab'"),
+                                  ({"FRICTAB": "", "PATH": ""}, "neither in FRICTAB, nor on")):
             copy = self.here / "copy"
             shutil.copytree(pathlib.Path(frictab.__file__).parent, copy / "frictab",
                             dirs_exist_ok=True, ignore=shutil.ignore_patterns("__pycache__"))

@@ -22,7 +22,8 @@ def run(source, number, names):
             value = eval(compile(ast.Expression(last.value), f"cell {number}", "eval"), names)
     outputs = []
     if printed.getvalue():
-        outputs.append({"output_type": "stream", "name": "stdout", "text": lines(printed.getvalue())})
+        outputs.append({"output_type": "stream", "name": "stdout",
+                        "text": lines(printed.getvalue())})
     pictures = list(drawn())
     if value is not None and not pictures:
         data = {"text/plain": lines(repr(value))}

@@ -248,7 +248,7 @@ TEST_F(SlowPython, TheNotebookOfAFitRunsAndPrintsItsOutputs) {
 TEST_F(SlowPython, AWheelIsBuiltWithoutACompilerAndWithoutTheNetwork) {
   if (python({"-c", "import setuptools, wheel, pip"}).exit_code != 0)
     GTEST_SKIP() << "Debian's python3-pip, -setuptools, -wheel are not installed";
-  const std::string copy = directory.path("python"); // setuptools writes beside its sources
+  const std::string copy = directory.path("python"); // setuptools writes among its sources
   ASSERT_EQ(test::run_command({"cp", "-r", house + "/python", copy}).exit_code, 0);
   const auto result = python({"-m", "pip", "wheel", "--no-build-isolation", "--no-deps",
                               "--no-index", "-q", "-w", directory.path("wheels"), copy});
