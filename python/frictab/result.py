@@ -400,7 +400,7 @@ class Result:
             drift = max((r["worst_case_MPa"] for r in self.verification.record["records"]
                          if r.get("worst_case_MPa") is not None), default=None)
             found.append(self.verification.headline + ("" if drift is None else
-                         f", {drift:.2g} MPa off at most"))
+                         f", {f'{drift:.2g}' if drift > 1e-3 else 'less than 0.001'} MPa off"))
         return found or [f"{len(self.laws)} laws"]
 
     def _export_by_job(self, target: str, made: Path, law: Optional[str]

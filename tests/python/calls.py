@@ -200,7 +200,7 @@ class Calls(unittest.TestCase):
                     read(HERE / "other")
                 except frictab.FrictabError as fault:
                     self.assertIn("other: ", str(fault))
-        for place, text in ((HERE, "is not a file"), ("/dev/null", "is no file"),
+        for place, text in ((HERE, "is not a file"), ("/dev/null", "is not a file"),
                             (HERE / "none", "no such file")):
             for read in (frictab.open, frictab.read_model, frictab.read_calibration):
                 self.fails(text, read, place)

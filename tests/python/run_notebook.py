@@ -1,6 +1,7 @@
 """Runs the code cells of a notebook in order, as Jupyter does, in the current folder.
 
-Usage: run_notebook.py FILE.ipynb           fails where a cell prints other text than its outputs
+Usage: run_notebook.py FILE.ipynb           fails where a cell prints other text than its outputs,
+                                            in a notebook that has some
        run_notebook.py --write FILE.ipynb   stores what the cells print and draw
 """
 import ast
@@ -61,11 +62,12 @@ def main():
         notebook = json.load(opened)
     cells = [c for c in notebook["cells"] if c["cell_type"] == "code"]
     names, differ = {"__name__": "__main__"}, []
+    compares = not write and any(cell["outputs"] for cell in cells)
     for number, cell in enumerate(cells, 1):
         outputs = run("".join(cell["source"]), number, names)
         for one in texts(outputs):
             print("".join(one.get("text") or one["data"]["text/plain"]), end="\n")
-        if not write and texts(outputs) != texts(cell["outputs"]):
+        if compares and texts(outputs) != texts(cell["outputs"]):
             differ.append(number)
         cell["outputs"], cell["execution_count"] = outputs, number
     if write:
