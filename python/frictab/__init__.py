@@ -16,7 +16,8 @@ from .campaign import Campaign
 from .faults import CautionWarning, FrictabError, OutsideWarning
 from .formula import Formula
 from .regressor import FrictionRegressor
-from .result import Export, Law, Result
+from .result import Law, Result
+from .routine import Export
 from .table import Axis, Table, open_table
 
 open = open_table # not in __all__: an import of everything leaves Python's own open alone

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
 from . import program
 from .faults import CautionWarning, FrictabError
-from .frames import as_arguments, in_rows, is_frame, near, plain_frame, write_frame
+from .frames import as_arguments, in_rows, is_frame, near, plain_frame, spelled, write_frame
 from .job import JobFile, merged, without_none
 from .program import PathLike
 
@@ -98,31 +98,33 @@ class Campaign:
         if until not in _STAGES:
             raise FrictabError(f"until is '{until}'; it is one of {', '.join(_STAGES)}")
         keys = merged({"models": {"use": [laws] if isinstance(laws, str) else laws}}, job)
+        if "directory" in keys.get("output", {}):
+            raise FrictabError("output.directory: Campaign(..., directory=...) names the folder")
         scratch = None if self.directory else program.Scratch()
         try:
-            return self._fitted(scratch, [until, "job.toml", "--json", "-q", "-j", str(threads)],
-                                keys)
+            return self._fitted(scratch, until, keys, threads)
         except BaseException:
             if scratch:
                 scratch.remove()
             raise
 
-    def _fitted(self, scratch: Optional[program.Scratch], command: Sequence[str],
-                keys: Mapping[str, Any]) -> Result:
+    def _fitted(self, scratch: Optional[program.Scratch], until: str, keys: Mapping[str, Any],
+                threads: int) -> Result:
         from .result import Result
 
         folder = scratch.path if scratch else self.directory
         assert folder
         job = self._write(folder, keys)
         self._read(folder, job)
-        outcome = program.run(command, folder)
+        outcome = program.run([until, "job.toml", "--json", "-q", "-j", str(threads)], folder)
         if outcome.code not in (0, 1): # 1: drift over the tolerance, which is a result
             raise FrictabError(self._in_words_of_python(program.fault_text(outcome), folder, job))
         for caution in _parsed(outcome).get("cautions", []):
-            warnings.warn(str(caution), CautionWarning, 3)
+            warnings.warn(self._in_words_of_python(str(caution), folder, job), CautionWarning, 3)
         if outcome.code == 1:
             warnings.warn("a target was missed: see result.verification", CautionWarning, 3)
-        return Result(folder / "out", folder / "job.toml", campaign=folder, keep=scratch)
+        return Result(folder / "out", folder / "job.toml", campaign=folder, keep=scratch,
+                      threads=threads)
 
     # ---- what was given ----
 
@@ -146,8 +148,8 @@ class Campaign:
         if isinstance(validation, str) or self._experiment is None:
             raise FrictabError("validation is a DataFrame, or a list of names of tests in `data`")
         frame = self._frames["data"]
-        tests = frame[self._experiment].astype(str)
-        held = {str(name) for name in validation}
+        tests = frame[self._experiment].map(spelled)
+        held = {spelled(name) for name in validation}
         unknown = sorted(held - set(tests))
         if unknown:
             raise FrictabError(f"validation: there is no test '{unknown[0]}' in column "

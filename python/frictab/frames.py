@@ -108,8 +108,8 @@ def order_by_test(frame: Any, tests: Any) -> Any:
         return np.arange(len(frame))
     for column in frame.columns:
         rows = frame.groupby(column, sort=False).indices
-        own = {_spelled(name): rows[name] for name in rows}
-        found = [own.get(_spelled(name), ()) for name, _ in wanted]
+        own = {spelled(name): rows[name] for name in rows}
+        found = [own.get(spelled(name), ()) for name, _ in wanted]
         if len(rows) == len(wanted) and [len(f) for f in found] == [n for _, n in wanted]:
             return np.concatenate(found)
     raise FrictabError("data has no column that names the tests as the campaign has them")
@@ -125,8 +125,8 @@ def _runs(tests: Any) -> list[tuple[str, int]]:
     return found
 
 
-def _spelled(name: Any) -> str:
-    """A number as the program may write it otherwise: 1.0 is 1."""
+def spelled(name: Any) -> str:
+    """The name of a test; a number in one way, as files write 1.0 also as 1."""
     try:
         return repr(float(name))
     except ValueError:

@@ -1,4 +1,4 @@
-"""What a run gave: the ranking, laws, trace, verification and routines in a folder of results."""
+"""A folder of results: the ranking, laws, trace, verification and routines of a run."""
 from __future__ import annotations
 
 import html
@@ -9,18 +9,17 @@ import shutil
 import tempfile
 import warnings
 import zipfile
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence
 
 from . import program
 from .calibration import Calibration, Model, read_calibration, read_record
-from .faults import FrictabError, OutsideWarning
+from .faults import FrictabError, OutsideWarning, file_faults
 from .frames import (as_arguments, in_rows, near, order_by_test, pandas_module, plain_frame,
                      read_frame, write_frame)
+from .parts import Trace, Verification
 from .program import PathLike
+from .routine import Export, export_routine, files_in
 
 if TYPE_CHECKING:
     import pandas
@@ -34,8 +33,8 @@ class Law(Model):
     """A calibrated law of a result: a Model, which also predicts rows of data as they were
     measured."""
 
-    def __init__(self, result: Result, fit: Mapping[str, Any]) -> None:
-        super().__init__(fit, os.fspath(result.directory / "calibration.json"))
+    def __init__(self, result: Result, model: Model) -> None:
+        self.__dict__.update(vars(model)) # a formula of many weights is not parsed again
         self._result = result
 
     def predict(self, data: pandas.DataFrame, band: bool = False) -> Any:
@@ -77,88 +76,24 @@ class Law(Model):
                           f"calibrated on: {', '.join(names)}", OutsideWarning, 3)
 
 
-class Part:
-    """A JSON file of the results: `record` the file, `table` its rows, `[key]` its entries."""
-
-    def __init__(self, record: Mapping[str, Any], rows: Any, headline: str) -> None:
-        self.record, self.table, self.headline = record, rows, headline
-
-    def __getitem__(self, key: str) -> Any:
-        return self.record[key]
-
-    def __repr__(self) -> str:
-        return f"<frictab: {self.headline}>"
-
-    def _repr_html_(self) -> str:
-        return f"<p>{html.escape(self.headline)}</p>" + str(self.table.to_html(na_rep=""))
-
-
-class Verification(Part):
-    """verify.json: `passed`, and per table and routine the drift from its law."""
-
-    def __init__(self, record: Mapping[str, Any]) -> None:
-        names = ["model", "subject", "passed", "ran", "max_abs_MPa", "worst_case_MPa",
-                 "proven_MPa", "allowed_MPa", "share_outside"]
-        rows = pandas_module().DataFrame([[r.get(n) for n in names] for r in record["records"]],
-                                   columns=names)
-        self.passed: Optional[bool] = record["passed"]
-        word = {True: "passed", False: "FAILED", None: "not decided: a routine could not run"}
-        super().__init__(record, rows, f"verification {word[self.passed]}: "
-                         f"{len(rows)} tables and routines against their laws")
-
-
-class Trace(Part):
-    """trace.json: `verdict`, the effects that were added (`table`), and the leads that were not."""
-
-    def __init__(self, record: Mapping[str, Any]) -> None:
-        pandas = pandas_module()
-        effects = ["columns", "derived", "form", "acts_on", "p_value", "gain_MPa", "formula"]
-        leads = ["name", "form", "p_value", "why_not_added"]
-        self.verdict = str(record["verdict"])
-        self.leads = pandas.DataFrame([[r.get(n) for n in leads] for r in record.get("leads", [])],
-                                      columns=leads)
-        rows = pandas.DataFrame([[r.get(n) for n in effects] for r in record["effects"]],
-                                columns=effects)
-        super().__init__(record, rows, f"search for what {record['model']} lacks: "
-                         f"{self.verdict.replace('_', ' ')}")
-
-
-@dataclass
-class Export:
-    """A routine that was written: its folder, its recipe (argument list, compile commands, lines
-    for the input deck), and its verification; None: the folder of results has no job."""
-    directory: Path
-    recipe: Mapping[str, Any]
-    verification: Optional[Verification]
-
-    @property
-    def files(self) -> list[Path]:
-        """With README.md, which says how the solver gets the routine."""
-        return [self.directory / str(name) for name in self.recipe["files"]]
-
-    def __repr__(self) -> str:
-        state = self.verification.headline if self.verification else "not verified"
-        return (f"<frictab routine {self.recipe['target']} of {self.recipe['model']} in "
-                f"{self.directory}: {state}>")
-
-
 class Result:
     """The results of a run. `directory` holds the files, `job` the job file where one is known;
     `calibration`, `trace` and `verification` what they say (None: that stage was not run)."""
 
     def __init__(self, directory: PathLike, job: Optional[PathLike] = None, *,
-                 campaign: Optional[Path] = None, keep: Any = None) -> None:
+                 campaign: Optional[Path] = None, keep: Any = None, threads: int = 0) -> None:
         self.directory = Path(directory)
         self.job = None if job is None else Path(job).resolve()
         self._campaign = campaign # the folder of data, job and results that Campaign made
+        self.threads = threads
         self._keep = keep # a temporary folder, which goes with this object
         self._data: Any = None # read at first use
         self._predicted: dict[str, Any] = {}
         self.calibration: Calibration = read_calibration(self.directory / "calibration.json")
-        self._fits: dict[str, Any] = {str(f["name"]): f.get("delivered", f)
-                                      for f in self.calibration.record["models"]}
         self.trace: Optional[Trace] = self._part("trace", Trace)
         self.verification: Optional[Verification] = self._part("verify", Verification)
+        with file_faults(self.calibration.source, "a calibration"):
+            self._repr_html_() # everything that is shown can be read
 
     @classmethod
     def open(cls, directory: PathLike, job: Optional[PathLike] = None) -> Result:
@@ -231,14 +166,14 @@ class Result:
     @property
     def laws(self) -> list[str]:
         """Names of the calibrated laws, by rank."""
-        return list(self._fits)
+        return list(self.calibration.models)
 
     def law(self, name: str = "best") -> Law:
         """A law by its name, or "best", or "recommended"."""
         chosen = {"best": self.best, "recommended": self.recommended}.get(name, name)
-        if chosen not in self._fits:
+        if chosen not in self.calibration.models:
             raise FrictabError(f"there is no law '{name}'" + near(str(chosen), self.laws))
-        return Law(self, self._fits[str(chosen)])
+        return Law(self, self.calibration.models[str(chosen)])
 
     @property
     def parameters(self) -> pandas.DataFrame:
@@ -250,7 +185,10 @@ class Result:
     @property
     def errors_by_experiment(self) -> pandas.DataFrame:
         """Every law on every test: rows, MAE, RMSE, bias in MPa, held out or not."""
-        return read_frame(self.directory / "errors_by_experiment.csv")
+        file = self.directory / "errors_by_experiment.csv"
+        with file_faults(os.fspath(file), "a table of errors"):
+            return read_frame(file)
+        raise AssertionError # file_faults lets no fault pass
 
     @property
     def data(self) -> pandas.DataFrame:
@@ -261,8 +199,8 @@ class Result:
                 raise FrictabError(f"{self.directory}: the data are not known without the job: "
                                    "Result.open(directory, job=\"job.toml\")")
             with tempfile.TemporaryDirectory(prefix="frictab_") as work:
-                program.answer(["data", self.job.name, "-q", "--write", "csv", "-o", work],
-                               self.job.parent)
+                program.answer(["data", self.job.name, "-q", "--write", "csv", "-j",
+                                str(self.threads), "-o", work], self.job.parent)
                 self._data = read_frame(Path(work) / "data.csv")
         return self._data.copy()
 
@@ -270,14 +208,7 @@ class Result:
         """`predicted` of `data`, row by row."""
         name = self.law(law).name
         if name not in self._predicted:
-            with tempfile.TemporaryDirectory(prefix="frictab_") as work:
-                file, out = Path(work) / "data.csv", Path(work) / "predicted.csv"
-                write_frame(self.data, file)
-                program.answer(["predict", (self.directory / "models" / f"{name}.json").resolve(),
-                                file, "-o", out])
-                rows = read_frame(out)
-            rows.index = order_by_test(self.data, rows["experiment"])
-            self._predicted[name] = rows.sort_index()
+            self._predicted[name] = self._predict([self._model_file(name)], None, self.data)
         return self._predicted[name].copy()
 
     @property
@@ -305,53 +236,17 @@ class Result:
     # ---- what it gives ----
 
     def predicted(self, law: str, data: Any) -> pandas.DataFrame:
-        """Rows of a frame, or of a file, as `frictab predict` prints them: states, tau_R_MPa with
-        its band, what was measured. A frame gives one row for each of its own, in its order."""
-        with tempfile.TemporaryDirectory(prefix="frictab_") as work:
-            file, out = Path(work) / "data.csv", Path(work) / "predicted.csv"
-            frame = None if isinstance(data, (str, os.PathLike)) else plain_frame(data, "data")
-            if frame is None:
-                file = Path(data).resolve()
-            else:
-                write_frame(frame, file)
-            law_of: list[PathLike] = [(self.directory / "models" / f"{law}.json").resolve(), file]
-            if self.job:
-                law_of = [self.job.name, file, "--model", law]
-            outcome = program.run(["predict", *law_of, "-o", out],
-                                  self.job.parent if self.job else None)
-            if outcome.code != 0:
-                text = program.fault_text(outcome)
-                raise FrictabError(text if frame is None else
-                                   in_rows(as_arguments(text), Path(work), {"data": frame}))
-            rows = read_frame(out)
-        if frame is None:
-            return rows
-        if len(rows) != len(frame):
-            left = [line.strip() for line in (outcome.out + outcome.err).splitlines()
-                    if "left out" in line]
-            raise FrictabError(f"{len(frame) - len(rows)} of {len(frame)} rows cannot be predicted "
-                               f"({'; '.join(left) or 'the job leaves them out'}); drop them first")
-        rows.index = order_by_test(frame, rows["experiment"])
-        return rows.sort_index()
+        """Rows of a frame as `frictab predict` prints them: states, tau_R_MPa with its band, what
+        was measured; one row for each of its own, in its order."""
+        name, frame = self.law(law).name, plain_frame(data, "data")
+        if self.job is None:
+            return self._predict([self._model_file(name)], None, frame)
+        return self._predict([self.job.name, "--model", name], self.job.parent, frame)
 
     def export(self, target: str, directory: PathLike, law: Optional[str] = None) -> Export:
         """Writes the routine of a target (`frictab list targets`) into a folder of its own, and
         verifies it. Without `law`, the law of the job's table. The results stay as they are."""
-        place = Path(directory)
-        earlier = _earlier_export(place)
-        with tempfile.TemporaryDirectory(prefix="frictab_") as work:
-            made = Path(work) / "out"
-            verification = (self._export_by_job if self.job else self._export_by_table)(
-                target, made, law)
-            folders = sorted(f.parent for f in made.rglob("recipe.json"))
-            if len(folders) != 1:
-                raise FrictabError(f"{target} of {len(folders)} laws was made; name one: "
-                                   "law=\"...\"")
-            for name in earlier:
-                (place / name).unlink()
-            shutil.copytree(folders[0], place, dirs_exist_ok=True)
-        recipe = json.loads((place / "recipe.json").read_text(encoding="utf-8"))
-        return Export(place, recipe, verification)
+        return export_routine(self, target, Path(directory), law)
 
     def save(self, directory: PathLike) -> Path:
         """Copies results, job and data into a new folder, from which Result.open and the command
@@ -367,14 +262,33 @@ class Result:
 
     # ---- how ----
 
+    def _model_file(self, name: str) -> Path:
+        return (self.directory / "models" / f"{name}.json").resolve()
+
+    def _predict(self, law: Sequence[PathLike], directory: Optional[Path], frame: Any) -> Any:
+        with tempfile.TemporaryDirectory(prefix="frictab_") as work:
+            file, out = Path(work) / "data.csv", Path(work) / "predicted.csv"
+            write_frame(frame, file)
+            outcome = program.run(["predict", law[0], file, *law[1:], "-j", str(self.threads), "-o",
+                                   out], directory)
+            if outcome.code != 0:
+                raise FrictabError(in_rows(as_arguments(program.fault_text(outcome)), Path(work),
+                                           {"data": frame}))
+            rows = read_frame(out)
+        if len(rows) != len(frame):
+            left = [line.strip() for line in (outcome.out + outcome.err).splitlines()
+                    if "left out" in line]
+            raise FrictabError(f"{len(frame) - len(rows)} of {len(frame)} rows cannot be predicted "
+                               f"({'; '.join(left) or 'the job leaves them out'}); drop them first")
+        rows.index = order_by_test(frame, rows["experiment"])
+        return rows.sort_index()
+
     def _part(self, name: str, make: Any) -> Any:
         file = self.directory / f"{name}.json"
         if not file.exists():
             return None
-        try:
+        with file_faults(os.fspath(file), f"a {name}"):
             return make(read_record(file, name))
-        except (KeyError, TypeError, AttributeError) as fault:
-            raise FrictabError(f"{file}: is damaged: {type(fault).__name__}: {fault}") from None
 
     def _findings(self) -> list[str]:
         record, found = self.calibration.record, []
@@ -403,57 +317,12 @@ class Result:
                          f", {f'{drift:.2g}' if drift > 1e-3 else 'less than 0.001'} MPa off"))
         return found or [f"{len(self.laws)} laws"]
 
-    def _export_by_job(self, target: str, made: Path, law: Optional[str]
-                       ) -> Optional[Verification]:
-        assert self.job
-        shutil.copytree(self.directory, made)
-        shutil.rmtree(made / "export", ignore_errors=True)
-        wanted: list[PathLike] = ["-o", made, "-q", "--set",
-                                  f"export.targets=[{json.dumps(target)}]"]
-        if law is not None:
-            wanted += ["--set", f"table.model={json.dumps(self.law(law).name)}"]
-        for command in ("tabulate", "export", "verify") if law else ("export", "verify"):
-            outcome = program.run([command, self.job.name, *wanted], self.job.parent)
-            if outcome.code not in (0, 1): # 1: over the tolerance, which the verification says
-                raise FrictabError(as_arguments(program.fault_text(outcome)))
-        return Verification(read_record(made / "verify.json", "verify"))
-
-    def _export_by_table(self, target: str, made: Path, law: Optional[str]
-                         ) -> Optional[Verification]:
-        tables = {f.stem: f for f in sorted((self.directory / "tables").glob("*.h5"))}
-        name = self.law(law).name if law else next(iter(tables), "")
-        if name not in tables:
-            raise FrictabError(f"{self.directory} has no table of {name or 'any law'}; with the "
-                               "job it is made: Result.open(directory, job=\"job.toml\")")
-        program.answer(["export", "--table", tables[name].resolve(), "--targets", target, "-o",
-                        made])
-        return None
-
-
 def _unpacked(kind: type[Result], packed: bytes) -> Result:
     scratch = program.Scratch()
     with zipfile.ZipFile(io.BytesIO(packed)) as archive:
         archive.extractall(scratch.path)
     return kind(scratch.path / "out", scratch.path / "job.toml", campaign=scratch.path,
                 keep=scratch)
-
-
-def _earlier_export(place: Path) -> set[str]:
-    """Files that an export wrote there before. Refuses a folder that has others."""
-    if not place.exists():
-        return set()
-    if not place.is_dir():
-        raise FrictabError(f"{place} is a file; a routine has a folder of its own")
-    there = set(files_in(place))
-    try:
-        recipe = json.loads((place / "recipe.json").read_text(encoding="utf-8"))
-        own = {str(name) for name in recipe["files"]} & there
-    except (OSError, ValueError, KeyError, TypeError):
-        own = set()
-    if there - own:
-        raise FrictabError(f"{place} has {min(there - own)}, which no export wrote; give a folder "
-                           "of its own")
-    return own
 
 
 def _count(number: int, noun: str) -> str:
@@ -466,7 +335,3 @@ def _mae(errors: Mapping[str, Any]) -> str:
     low, high = errors.get("mae_95") or (None, None)
     interval = "" if low is None or high is None else f" ({low:.2f} to {high:.2f})"
     return f"{errors['mae_MPa']:.2f} MPa{interval}"
-
-
-def files_in(place: Path) -> Iterator[str]:
-    return (f.relative_to(place).as_posix() for f in place.rglob("*") if not f.is_dir())

@@ -3,6 +3,7 @@ import json
 import os
 import pathlib
 import pickle
+import random
 import shutil
 import signal
 import subprocess
@@ -180,15 +181,36 @@ class Results(Case):
     def test_damaged_results_are_faults_of_their_own_kind(self):
         place = self.here / "damaged"
         shutil.copytree(self.open.directory, place)
+        draw, opened = random.Random(5), 0
         for name in ("calibration", "verify", "trace"):
-            whole = (place / f"{name}.json").read_text()
-            for text in ("{}", whole[:200], '{"schema": "frictab/%s/1"}' % name,
-                         whole.replace('"models"', '"model_"').replace('"records"', '"record_"')
-                         .replace('"effects"', '"effect_"')):
-                (place / f"{name}.json").write_text(text)
+            file = place / f"{name}.json"
+            whole = file.read_bytes()
+            damaged = [b"{}", whole[:200], b'{"schema": "frictab/%s/1"}' % name.encode(),
+                       whole.replace(b'"models"', b'"model_"').replace(b'"records"', b'"record_"')
+                       .replace(b'"effects"', b'"effect_"')]
+            for text in damaged:
+                file.write_bytes(text)
                 self.fails(f"{name}.json", frictab.Result.open, place)
-            (place / f"{name}.json").write_text(whole)
+            for _ in range(60):
+                data = bytearray(whole)
+                for _ in range(draw.randint(1, 3)):
+                    data[draw.randrange(len(data))] = draw.randrange(32, 127)
+                file.write_bytes(data)
+                try:
+                    result = frictab.Result.open(place)
+                    for show in (result.summary, result._repr_html_, lambda: result.parameters):
+                        show()
+                    opened += 1
+                except frictab.FrictabError as fault:
+                    self.assertIn(f"{name}.json", str(fault))
+            file.write_bytes(whole)
+        self.assertGreater(opened, 10)
         frictab.Result.open(place)
+
+    def test_a_fit_that_ends_early_still_exports(self):
+        result = campaign(self.frame, validation=self.held).fit("coulomb", until="calibrate")
+        self.assertIsNone(result.verification)
+        self.assertTrue(result.export("c", self.here / "spät").verification.passed)
 
 
 class Calls(Case):
@@ -259,6 +281,8 @@ class Calls(Case):
         self.fails("there is no test 'V01'", campaign, self.frame, validation=["V01"])
         self.fails("it is a pandas.DataFrame", campaign, [1, 2])
         self.fails("has no rows", campaign, self.frame[:0])
+        self.fails("directory=...) names the folder", campaign(self.frame).fit,
+                   output={"directory": "x"})
 
     def test_faults_of_the_program_name_the_argument(self):
         text = self.fails("unknown quantity 'sigma_N'",
