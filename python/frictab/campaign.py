@@ -5,6 +5,7 @@ import json
 import os
 import re
 import shutil
+import sys
 import tempfile
 import warnings
 from pathlib import Path
@@ -87,11 +88,12 @@ class Campaign:
             return self._read(Path(work), job, 3)
 
     def fit(self, laws: Union[str, Sequence[str], None] = None, *, threads: int = 0,
-            until: str = "run", **job: Any) -> Result:
+            until: str = "run", progress: bool = False, **job: Any) -> Result:
         """Calibrates, traces, tabulates, exports, verifies and reports, as `frictab run`.
 
         laws: names of `frictab list models`; absent: all that the columns allow.
         until: the stage to end with: calibrate, trace, tabulate, export; run: all of them.
+        progress: whether lines on work of more than a second are written to sys.stderr.
         job: keys of a job, as sections, table={"tolerance_MPa": 0.5}, or with dots,
             **{"table.tolerance_MPa": 0.5}; the program checks them. threads: 0 for all cores.
         """
@@ -102,21 +104,22 @@ class Campaign:
             raise FrictabError("output.directory: Campaign(..., directory=...) names the folder")
         scratch = None if self.directory else program.Scratch()
         try:
-            return self._fitted(scratch, until, keys, threads)
+            return self._fitted(scratch, until, keys, threads, progress)
         except BaseException:
             if scratch:
                 scratch.remove()
             raise
 
     def _fitted(self, scratch: Optional[program.Scratch], until: str, keys: Mapping[str, Any],
-                threads: int) -> Result:
+                threads: int, progress: bool) -> Result:
         from .result import Result
 
         folder = scratch.path if scratch else self.directory
         assert folder
         job = self._write(folder, keys)
         self._read(folder, job)
-        outcome = program.run([until, "job.toml", "--json", "-q", "-j", str(threads)], folder)
+        outcome = program.run([until, "job.toml", "--json", "--progress" if progress else "-q",
+                               "-j", str(threads)], folder, echo=sys.stderr if progress else None)
         if outcome.code not in (0, 1): # 1: drift over the tolerance, which is a result
             raise FrictabError(self._in_words_of_python(program.fault_text(outcome), folder, job))
         for caution in _parsed(outcome).get("cautions", []):
@@ -177,9 +180,8 @@ class Campaign:
     # ---- what the program gets and says ----
 
     def _write(self, folder: Path, keys: Mapping[str, Any]) -> JobFile:
-        merged_keys = merged({"data": self._keys}, keys)
-        merged_keys = merged(merged_keys, {"output": {"directory": "out"}})
-        job = JobFile(merged_keys, _HEADING)
+        job = JobFile(merged(merged({"data": self._keys}, keys), {"output.directory": "out"}),
+                      _HEADING)
         _claim(folder)
         for name, frame in self._frames.items():
             write_frame(frame, folder / f"{name}.csv")
@@ -226,9 +228,8 @@ def _argument(key: Optional[str], place: str) -> str:
     """The argument of Campaign or fit that a key of the job was written for."""
     if key is None:
         return place
-    if key in ("models.use", "data.training"):
-        return {"models.use": "laws"}.get(key, "data")
-    return key[5:] if key.startswith("data.") else key
+    return {"models.use": "laws", "data.training": "data"}.get(
+        key, key[len("data."):] if key.startswith("data.") else key)
 
 
 def _parsed(outcome: program.Outcome) -> dict[str, Any]:

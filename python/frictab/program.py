@@ -6,10 +6,11 @@ import shutil
 import signal
 import subprocess
 import tempfile
+import threading
 import weakref
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Optional, Sequence, Union
+from typing import Optional, Sequence, TextIO, Union
 
 from .faults import FrictabError
 
@@ -56,8 +57,9 @@ def find_program() -> str:
 
 
 def run(arguments: Sequence[PathLike], directory: Optional[PathLike] = None,
-        program: Optional[str] = None) -> Outcome:
-    """Runs the program in a directory and waits. Whatever interrupts this process ends it too."""
+        program: Optional[str] = None, echo: Optional[TextIO] = None) -> Outcome:
+    """Runs the program in a directory and waits; an interruption of this process ends it too.
+    Lines of its stderr are also written to `echo` as they come."""
     command = [program or find_program(), *(os.fspath(a) for a in arguments)]
     try:
         child = subprocess.Popen(command, cwd=directory, stdin=subprocess.DEVNULL,
@@ -65,12 +67,39 @@ def run(arguments: Sequence[PathLike], directory: Optional[PathLike] = None,
                                  encoding="utf-8", errors="replace")
     except OSError as fault:
         raise FrictabError(f"{command[0]} cannot be run: {fault.strerror}") from None
+    heard: list[str] = []
+    listener = threading.Thread(target=_listen, args=(child.stderr, heard, echo))
+    listener.start()
     try:
-        out, err = child.communicate()
+        assert child.stdout
+        out = child.stdout.read()
+        child.wait()
     except BaseException:
         _end(child)
         raise
-    return Outcome(child.returncode, out, err)
+    finally:
+        listener.join()
+        for pipe in (child.stdout, child.stderr):
+            if pipe:
+                pipe.close()
+    return Outcome(child.returncode, out, "".join(heard))
+
+
+def _listen(pipe: TextIO, heard: list[str], echo: Optional[TextIO]) -> None:
+    for line in pipe:
+        heard.append(line)
+        if echo:
+            echo.write(line)
+            echo.flush()
+
+
+def _end(child: subprocess.Popen[str]) -> None:
+    child.send_signal(signal.SIGINT) # it removes what is half written
+    try:
+        child.wait(5)
+    except subprocess.TimeoutExpired:
+        child.kill()
+        child.wait()
 
 
 def answer(arguments: Sequence[PathLike], directory: Optional[PathLike] = None) -> str:
@@ -85,16 +114,7 @@ def fault_text(outcome: Outcome) -> str:
     """The message of a call that failed."""
     if outcome.code < 0:
         return f"frictab was ended by {signal.Signals(-outcome.code).name}"
-    return outcome.err.strip() or outcome.out.strip() or f"frictab ended with {outcome.code}"
-
-
-def _end(child: subprocess.Popen[str]) -> None:
-    child.send_signal(signal.SIGINT) # it removes what is half written
-    try:
-        child.wait(5)
-    except subprocess.TimeoutExpired:
-        child.kill()
-        child.wait()
-    for pipe in (child.stdout, child.stderr):
-        if pipe:
-            pipe.close()
+    lines = outcome.err.splitlines()
+    first = next((i for i, line in enumerate(lines) if "error: " in line), 0) # progress before it
+    return ("\n".join(lines[first:]).strip() or outcome.out.strip()
+            or f"frictab ended with {outcome.code}")

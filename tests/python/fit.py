@@ -1,4 +1,6 @@
 """Campaign, fit and Result of the package frictab. Usage: fit.py [names of tests]"""
+import contextlib
+import io
 import json
 import os
 import pathlib
@@ -341,14 +343,25 @@ class Calls(Case):
             self.assertIn(text, done.stderr)
             self.assertIn("FrictabError", done.stderr)
 
+    def test_lines_on_stderr_are_passed_on_as_they_come(self):
+        heard = io.StringIO()
+        text = "echo one >&2; echo out; echo 'x: error: two' >&2; exit 2"
+        outcome = program.run(["-c", text], program="/bin/sh", echo=heard)
+        self.assertEqual((outcome.code, outcome.out, outcome.err),
+                         (2, "out\n", "one\nx: error: two\n"))
+        self.assertEqual(heard.getvalue(), outcome.err)
+        self.assertEqual(program.fault_text(outcome), "x: error: two")
+        with contextlib.redirect_stderr(heard):
+            campaign(self.frame).fit("coulomb", until="calibrate", progress=True)
+
     def test_an_interruption_ends_the_program_and_leaves_nothing(self):
         scratch = self.here / "scratch"
         scratch.mkdir()
         text = ("import sys, signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
                 "sys.path.insert(0, %r)\nfrom fit import *\nfrom frictab import program\n"
                 "run = program.run\n"
-                "def started(a, d):\n    print('run' if a[0] == 'run' else '', flush=True)\n"
-                "    return run(a, d)\n"
+                "def started(a, d, **n):\n    print('run' if a[0] == 'run' else '', flush=True)\n"
+                "    return run(a, d, **n)\n"
                 "program.run = started\n"
                 "campaign(recorded(twin())).fit()\n" % str(pathlib.Path(__file__).parent))
         child = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE,
