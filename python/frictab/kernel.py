@@ -25,7 +25,9 @@ from . import program
 from .faults import FrictabError
 from .states import Columns
 
-MANY_ROWS = 10_000 # fewer take numpy less time than a compiler starts in
+MANY_ROWS = 50_000 # fewer take numpy less time than a compiler, once
+MOST_VALUES = 200_000 # of a table: more take a compiler long
+_COMPILE_SECONDS = 120
 _BLOCK_ROWS = 1 << 18 # between two blocks an interruption is heard
 _CHOICES = ("auto", "c", "numpy")
 _FLAGS = ["-O2", "-std=c99", "-ffp-contract=off", "-fPIC", "-shared"]
@@ -65,12 +67,16 @@ def wanted(rows: int) -> str:
     return "numpy" if choice == "auto" and rows < MANY_ROWS else choice
 
 
-def build_kernel(table: str, digest: Optional[str], inputs: Sequence[str]) -> Kernel:
-    """The kernel of a table's file, from the cache or made now. Raises KernelFault."""
+def build_kernel(table: str, digest: Optional[str], inputs: Sequence[str],
+                 values: int) -> Kernel:
+    """The kernel of a file's table of so many values, from the cache or made now. Raises
+    KernelFault."""
     if os.environ.get("FRICTAB_PYTHON_KERNEL") == "numpy":
         raise KernelFault("FRICTAB_PYTHON_KERNEL is numpy")
     if digest is None:
         raise KernelFault("the table is not of a file")
+    if values > MOST_VALUES:
+        raise KernelFault(f"the table has {values} values; up to {MOST_VALUES} are compiled")
     compiler, maker, cache = _compiler(), _program(), _cache()
     try:
         made_by = [digest, _identity(maker), _identity(compiler[0]), *compiler[1:], *_FLAGS,
@@ -80,7 +86,7 @@ def build_kernel(table: str, digest: Optional[str], inputs: Sequence[str]) -> Ke
             _make(folder, table, digest, maker, compiler)
         recipe = json.loads((folder / "recipe.json").read_text(encoding="utf-8"))
         return Kernel(ctypes.CDLL(str(folder / "kernel.so")), _arguments(recipe, inputs))
-    except (OSError, ValueError, KeyError, AttributeError) as fault:
+    except (OSError, ValueError, KeyError, AttributeError, subprocess.TimeoutExpired) as fault:
         raise KernelFault(f"what lies in {cache} cannot be used: {fault}") from None
 
 
@@ -95,7 +101,7 @@ def _compiler() -> list[str]:
     named = shlex.split(os.environ.get("CC", ""))
     for candidate in ([named] if named else [["cc"], ["gcc"], ["clang"]]):
         found = shutil.which(candidate[0])
-        if found:
+        if found and os.path.isabs(found): # never one of the working folder
             return [found, *candidate[1:]]
     raise KernelFault("there is no C compiler: " + (f"CC is '{named[0]}'" if named else
                                                     "neither cc nor gcc nor clang"))
@@ -137,7 +143,8 @@ def _make(folder: Path, table: str, digest: str, maker: str, compiler: Sequence[
         made.mkdir()
         done = subprocess.run([*compiler, *_FLAGS, "-o", str(made / "kernel.so"),
                                str(sources / "frictab_tau_R.c"), "-lm"], capture_output=True,
-                              encoding="utf-8", errors="replace", stdin=subprocess.DEVNULL)
+                              encoding="utf-8", errors="replace", stdin=subprocess.DEVNULL,
+                              timeout=_COMPILE_SECONDS)
         _expect(program.Outcome(done.returncode, done.stdout, done.stderr))
         shutil.copyfile(sources / "recipe.json", made / "recipe.json")
         try:

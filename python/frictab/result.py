@@ -108,8 +108,8 @@ class Result:
         elif job is None and not (found / "calibration.json").exists():
             job = found / "job.toml"
             if not job.exists():
-                raise FrictabError(f"{found} has no calibration.json and no job.toml: these are "
-                                   "no results of frictab")
+                raise FrictabError(f"{found} has no results of frictab: neither calibration.json "
+                                   "nor job.toml")
         elif job is not None:
             return cls(found, job)
         if job is None:
@@ -316,6 +316,7 @@ class Result:
             found.append(self.verification.headline + ("" if drift is None else
                          f", {f'{drift:.2g}' if drift > 1e-3 else 'less than 0.001'} MPa off"))
         return found or [f"{len(self.laws)} laws"]
+
 
 def _unpacked(kind: type[Result], packed: bytes) -> Result:
     scratch = program.Scratch()

@@ -144,7 +144,7 @@ class Table:
         if self._kernel is None and not self._no_kernel:
             try:
                 self._kernel = build_kernel(self.source, self._digest,
-                                            [i.name for i in self.inputs])
+                                            [i.name for i in self.inputs], self.value.size)
             except KernelFault as fault:
                 self._no_kernel = str(fault)
         if self._kernel is None:

@@ -127,6 +127,11 @@ class Kernels(unittest.TestCase):
                                                .read_bytes())
         self.assertIn("has changed since it was read", table.kernel)
 
+    def test_a_table_that_a_compiler_would_take_long_for_is_left_to_numpy(self):
+        table = self.table("shear")
+        with mock.patch.object(kernel, "MOST_VALUES", table.value.size - 1):
+            self.assertIn(f"has {table.value.size} values", table.kernel)
+
     def test_without_compiler_program_or_safe_folder_numpy_gives_the_values(self):
         table = self.table("orowan")
         where = states(table, kernel.MANY_ROWS)
