@@ -71,8 +71,6 @@ def build_kernel(table: str, digest: Optional[str], inputs: Sequence[str],
                  values: int) -> Kernel:
     """The kernel of a file's table of so many values, from the cache or made now. Raises
     KernelFault."""
-    if os.environ.get("FRICTAB_PYTHON_KERNEL") == "numpy":
-        raise KernelFault("FRICTAB_PYTHON_KERNEL is numpy")
     if digest is None:
         raise KernelFault("the table is not of a file")
     if values > MOST_VALUES:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from .faults import FrictabError, file_faults
 from .formula import Formula
-from .kernel import Kernel, KernelFault, build_kernel, wanted
+from .kernel import MANY_ROWS, Kernel, KernelFault, build_kernel, wanted
 from .spline import Cubic, Grid, Linear
 from .program import PathLike
 from .states import Columns, Input, States, sides, warn_outside
@@ -135,10 +135,13 @@ class Table:
     def kernel(self) -> str:
         """Computes calls of many rows: "C", or "numpy: " with the reason. It is compiled here,
         unless it was before."""
+        if wanted(MANY_ROWS) == "numpy":
+            return "numpy: FRICTAB_PYTHON_KERNEL says so"
         try:
-            return "C" if self._compiled() else "numpy"
+            self._compiled()
         except KernelFault as fault:
             return f"numpy: {fault}"
+        return "C"
 
     def _compiled(self) -> Kernel:
         if self._kernel is None and not self._no_kernel:

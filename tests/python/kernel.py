@@ -105,6 +105,8 @@ class Kernels(unittest.TestCase):
             build.assert_not_called()
             table.tau_R(states(table, kernel.MANY_ROWS))
             build.assert_called_once()
+        self.assertIn("FRICTAB_PYTHON_KERNEL", self.by("numpy", lambda: table.kernel))
+        self.assertEqual(frictab.open_table(table.source).kernel, "C")
         with self.assertRaisesRegex(frictab.FrictabError, "it is one of auto, c, numpy"):
             self.by("fast", table.tau_R, states(table, 10))
 
