@@ -62,6 +62,9 @@ class Results(Case):
         ranking = self.result.ranking
         record = json.loads((self.result.directory / "calibration.json").read_text())
         self.assertEqual(record["validation_experiments"], self.held)
+        coulomb = {m["name"]: m for m in record["models"]}["coulomb"]
+        self.assertEqual(coulomb["training"]["n_experiments"],
+                         self.frame["Versuch"].nunique() - len(self.held))
         self.assertEqual(list(ranking.index), [m["name"] for m in record["models"]])
         self.assertEqual(ranking.loc["coulomb", "mae_MPa"],
                          [m for m in record["models"] if m["name"] == "coulomb"][0]
