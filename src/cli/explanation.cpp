@@ -12,6 +12,7 @@
 #include "effects/effect.h"
 #include "job/literature.h"
 #include "job/schema.h"
+#include "job/systems.h"
 #include "models/law.h"
 
 namespace frictab::cli {
@@ -266,6 +267,31 @@ std::optional<Explanation> about_last_part(const std::string& name) {
   return all;
 }
 
+Explanation about(const job::System& system) {
+  Explanation out{system.name, "tribosystem", system.title, {}, "parameters", {}};
+  const auto add = [&](const char* label, const std::string& text) {
+    if (!text.empty()) out.fields.emplace_back(label, text);
+  };
+  add("pair", system.pair);
+  add("lubricant", system.lubricant);
+  add("law", system.law);
+  add("tests", std::to_string(system.tests));
+  add("error", system.error);
+  for (const auto& [state, range] : system.range)
+    add("tested", fmt::format("{} {} to {}", state, shortest(range.first), shortest(range.second)));
+  add("caution", system.caution);
+  add("source", system.source);
+  add("licence", system.licence);
+  add("made by", system.made);
+  add("use", "frictab export --system " + system.name + " -o DIR --targets c,abaqus_vfric");
+  for (const job::System::Constant& one : system.parameters) {
+    Item item{one.name, "", {{"value", shortest(one.value)}}};
+    if (one.std_error > 0) item.fields.emplace_back("standard error", shortest(one.std_error));
+    out.items.push_back(std::move(item));
+  }
+  return out;
+}
+
 } // namespace
 
 Explanation explain_law(const models::Law& law) {
@@ -281,6 +307,8 @@ std::optional<Explanation> explain(const std::string& name) {
     return about_section("", "the job file (TOML): every key, all optional but data.training; "
                              "'*' stands for a name: of a quantity, an option or a target");
   if (name == "table-layout") return about_table_layout();
+  for (const job::System& system : job::systems())
+    if (system.name == name) return about(system);
   if (auto topic = explain_topic(name)) return topic;
   const std::string path = rule_path(name);
   if (const job::KeyRule* key = job::find_key(path)) return about(*key);
@@ -301,6 +329,8 @@ std::vector<std::string> explainable() {
     names.push_back(quantity.name);
   names.push_back("job");
   names.push_back("table-layout");
+  for (const job::System& system : job::systems())
+    names.push_back(system.name);
   for (const std::string& topic : topic_names())
     names.push_back(topic);
   for (const job::SectionRule& section : job::section_rules())

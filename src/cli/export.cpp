@@ -25,7 +25,7 @@ struct Options {
   std::vector<std::string> targets{"c", "abaqus_vfric"};
   std::string units = "mm-t-s", temperature = "degC";
   std::vector<std::string> combine;
-  std::string law;
+  std::string law, system;
   std::vector<std::string> parameters, ranges;
   bool check = false;
 };
@@ -42,6 +42,7 @@ int export_alone(const Options& options, const CommonOptions& common) {
 }
 
 int write(const Options& options, const CommonOptions& common) {
+  codegen::exporters_named(options.targets); // a mistyped target is a fault of any export
   if (!options.combine.empty()) {
     if (!options.table.empty())
       throw InputError({}, "--combine and --table exclude each other",
@@ -54,6 +55,15 @@ int write(const Options& options, const CommonOptions& common) {
     throw InputError({}, "--set overrides keys of a job, and here is none",
                      "--units, --temperature, and of --law --param and --range; other options take "
                      "a job, whose table.model may be a law of constants");
+  if (!options.system.empty()) {
+    if (!options.job.empty() || !options.table.empty() || !options.law.empty() ||
+        !options.parameters.empty())
+      throw InputError({}, "--system has its law and parameters",
+                       "without JOB, --table, --law, --param");
+    return export_system(
+        {options.system, options.ranges, options.targets, options.units, options.temperature},
+        common);
+  }
   if (!options.law.empty()) {
     if (!options.job.empty() || !options.table.empty())
       throw InputError({}, "--law stands alone", "without JOB and --table");
@@ -65,7 +75,7 @@ int write(const Options& options, const CommonOptions& common) {
     throw InputError({}, "--param and --range belong to --law", "--law coulomb --param mu=0.08");
   const std::string how =
       "give a JOB file, --table FILE -o DIR [--targets c,abaqus_vfric], --law NAME --param P=V "
-      "... -o DIR, or --combine NAME=FILE ... -o DIR --targets abaqus_vfric";
+      "... -o DIR, --system NAME -o DIR, or --combine NAME=FILE ... -o DIR --targets abaqus_vfric";
   if (options.table.empty() && !has_job(options.job))
     throw InputError({}, "nothing to export", how);
   if (!options.table.empty() && !options.job.empty())
@@ -82,6 +92,8 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   app.add_option("--targets", options->targets,
                  "Without a JOB: FE codes, a list or all (frictab list targets)")
       ->delimiter(',')
+      ->take_all()
+      ->allow_extra_args(false) // or it takes a JOB that follows
       ->type_name("TARGETS");
   app.add_option("--units", options->units, "Without a JOB: " + codegen::unit_systems_text())
       ->type_name("SYSTEM");
@@ -95,6 +107,9 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   app.add_option("--law", options->law,
                  "A friction law with known constants, without data; needs -o DIR")
       ->type_name("LAW");
+  app.add_option("--system", options->system,
+                 "A tribosystem of `frictab list systems`, or a file in their form; needs -o DIR")
+      ->type_name("NAME|FILE");
   app.add_option("--param", options->parameters, "With --law: one of its parameters")
       ->type_name("NAME=NUMBER");
   app.add_option("--range", options->ranges,
@@ -107,11 +122,13 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   return [options, &common]() -> int {
     if (!options->check) return write(*options, common);
     const bool nothing_new = options->job.empty() && options->table.empty() &&
-                             options->law.empty() && options->combine.empty();
+                             options->law.empty() && options->system.empty() &&
+                             options->combine.empty();
     if (nothing_new && !common.output.empty()) return check_sources(common.output);
     const int code = write(*options, common);
     if (code != 0 || common.dry_run) return code;
-    const bool of_job = options->combine.empty() && options->table.empty() && options->law.empty();
+    const bool of_job = options->combine.empty() && options->table.empty() &&
+                        options->law.empty() && options->system.empty();
     return check_sources(of_job ? read_job(job_file(options->job), common).directory + "/export"
                                 : common.output);
   };

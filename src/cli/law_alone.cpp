@@ -18,6 +18,7 @@
 #include "data/quantity.h"
 #include "io/number.h"
 #include "job/literature.h"
+#include "job/systems.h"
 #include "table/build.h"
 #include "table/table_file.h"
 #include "verify/verify.h"
@@ -167,7 +168,7 @@ int export_law(const LawOptions& options, const CommonOptions& common) {
   usual.tolerance_from = allowed.from;
   table::Table table = table::build_table(law, ranges, usual);
   table.record.tool_version = tool_version();
-  table.record.data_origin = "none: constants given by hand";
+  table.record.data_origin = options.origin;
   verify::VerifyInput input{law, table, "the new table", nullptr, allowed.MPa};
   input.allowed_from = allowed.from;
   verify::Verification verification{allowed.MPa, {}};
@@ -180,6 +181,24 @@ int export_law(const LawOptions& options, const CommonOptions& common) {
   commit_and_list(output, common);
   show(words::as_text(words::drift(verification, words::Detail::full)));
   return verification.passed() ? 0 : 1;
+}
+
+int export_system(const SystemOptions& options, const CommonOptions& common) {
+  need_directory(common, "--system NAME");
+  const job::System system = job::system_named(options.system);
+  LawOptions law{system.law,         {}, options.ranges, options.targets, options.units,
+                 options.temperature};
+  for (const job::System::Constant& one : system.parameters)
+    law.parameters.push_back(one.name + "=" + shortest(one.value));
+  for (const auto& [state, range] : system.range)
+    if (std::none_of(options.ranges.begin(), options.ranges.end(),
+                     [&](const std::string& given) { return given.starts_with(state + "="); }))
+      law.ranges.push_back(
+          fmt::format("{}={}..{}", state, shortest(range.first), shortest(range.second)));
+  law.origin =
+      fmt::format("{}: {} tests; {}; {}", system.name, system.tests, system.source, system.licence);
+  if (!system.caution.empty()) note(common, "caution: " + system.caution);
+  return export_law(law, common);
 }
 
 } // namespace frictab::cli

@@ -1,4 +1,4 @@
-// frictab list [models|effects|targets|quantities]: all registered names, one line each.
+// frictab list [models|effects|targets|quantities|systems]: all registered names, one line each.
 #include <algorithm>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +14,7 @@
 #include "data/quantity.h"
 #include "effects/effect.h"
 #include "job/literature.h"
+#include "job/systems.h"
 #include "models/law.h"
 
 namespace frictab::cli::list_command {
@@ -41,7 +42,8 @@ std::vector<Line> quantity_lines() {
 }
 
 const std::vector<std::string>& lists() {
-  static const std::vector<std::string> names{"models", "effects", "targets", "quantities"};
+  static const std::vector<std::string> names{"models", "effects", "targets", "quantities",
+                                              "systems"};
   return names;
 }
 
@@ -55,6 +57,7 @@ std::vector<Line> lines_of(const std::string& what) {
   if (what == "effects") return lines_of<effects::EffectForm>(effects::all_effects());
   if (what == "targets") return lines_of<codegen::Exporter>(codegen::all_exporters());
   if (what == "quantities") return quantity_lines();
+  if (what == "systems") return lines_of<job::System>(job::systems());
   throw InputError({}, fmt::format("there is no list of '{}'", what), suggest(what, lists()));
 }
 
