@@ -3,12 +3,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <string_view>
 #include <utility>
+
+#include "core/os/machine.h"
 
 namespace frictab::cli {
 
 namespace {
+
+Colour chosen = Colour::automatic;
 
 constexpr std::string_view bold = "\x1b[1m", red = "\x1b[1;31m", green = "\x1b[32m",
                            yellow = "\x1b[33m", plain = "\x1b[0m";
@@ -38,6 +43,15 @@ std::string line_coloured(std::string_view line) {
 
 } // namespace
 
+void choose_colour(Colour colour) {
+  chosen = colour;
+}
+
+bool colours_on(std::FILE* stream) {
+  if (chosen != Colour::automatic) return chosen == Colour::always;
+  return colour_wanted(os::is_terminal(stream), std::getenv("NO_COLOR"), std::getenv("TERM"));
+}
+
 bool colour_wanted(bool terminal, const char* no_colour, const char* term) {
   const bool forbidden = no_colour && *no_colour;
   return terminal && !forbidden && term && std::string_view(term) != "dumb";
@@ -50,6 +64,16 @@ std::string coloured(const std::string& text) {
     out += line_coloured(std::string_view(text).substr(at, end - at));
     if (end < text.size()) out += '\n';
     at = end + 1;
+  }
+  return out;
+}
+
+std::string coloured_error(const std::string& text) {
+  std::string out = text;
+  for (const auto& [word, colour] : {std::pair{"error:", red}, std::pair{"  hint:", bold}}) {
+    const std::size_t at = out.find(word);
+    if (at == out.npos) continue;
+    out.replace(at, std::string_view(word).size(), painted(word, colour));
   }
   return out;
 }

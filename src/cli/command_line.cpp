@@ -2,6 +2,7 @@
 #include "cli/command_line.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -18,7 +19,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/colour.h"
 #include "cli/command.h"
+#include "cli/command_tree.h"
 #include "cli/help_format.h"
 #include "cli/print.h"
 #include "core/error.h"
@@ -102,7 +105,7 @@ void add_common(CLI::App& app, CommonOptions& common, unsigned uses) {
                [&common](const std::string& text) {
                  common.seed = whole_number("--seed", text, largest_seed);
                },
-               "Seed of everything random")
+               "Random seed: the same seed gives the same bytes")
             ->type_name("N"),
         uses_seed);
   shown(app.add_option("--set", common.set, "Override a job key: --set table.tolerance_MPa=0.1")
@@ -115,6 +118,17 @@ void add_common(CLI::App& app, CommonOptions& common, unsigned uses) {
             [&common](std::int64_t count) { common.progress = count > 0; },
             "Progress line on or off; otherwise on a terminal only"),
         uses_progress);
+  shown(app.add_option_function<std::string>(
+               "--color",
+               [](const std::string& text) {
+                 choose_colour(text == "always"  ? Colour::always
+                               : text == "never" ? Colour::never
+                                                 : Colour::automatic);
+               },
+               "Colours of the summary and of errors; auto: on a terminal, unless NO_COLOR is set")
+            ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+            ->type_name("{auto,always,never}"),
+        uses_progress);
   if (uses & uses_dry_run)
     app.add_flag("--dry-run", common.dry_run,
                  "Say what would run, what is kept and what would be written; write nothing");
@@ -125,6 +139,11 @@ void check_output(const CLI::App& app, const CommonOptions& common) {
   if (app.count("--output") > 0 && common.output.empty())
     throw InputError({"-o", 0, 0}, "the output directory has an empty name",
                      "give -o DIR a name; without -o the job says where");
+}
+
+void set_help_options(CLI::App& app) {
+  app.set_help_flag("-h", "Short help");
+  app.set_help_all_flag("--help", "Help with examples");
 }
 
 // Pairs each subcommand with the function that runs it.
@@ -162,33 +181,92 @@ std::vector<std::string> commands_of(const std::string& group) {
   return names;
 }
 
+// The command that the words name, as far as they do: "table slice". Options and their values may
+// stand before it and between its words.
+std::string command_in(const std::vector<std::string>& words) {
+  std::string command;
+  for (const std::string& word : words) {
+    const std::vector<std::string> below = commands_of(command);
+    if (std::find(below.begin(), below.end(), word) != below.end())
+      command += (command.empty() ? "" : " ") + word;
+  }
+  return command;
+}
+
+const CLI::App& app_of(const CLI::App& root, const std::string& command) {
+  const CLI::App* app = &root;
+  for (const std::string& word : pieces(command, ' '))
+    app = app->get_subcommand(word);
+  return *app;
+}
+
+std::vector<std::string> options_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames())
+      names.push_back("--" + name);
+    for (const std::string& name : option->get_snames())
+      names.push_back("-" + name);
+  }
+  return names;
+}
+
+// The first word that looks like an option, and that neither the command nor the program has;
+// empty: none.
+std::string unknown_option(const std::vector<std::string>& words,
+                           const std::vector<std::string>& known) {
+  for (const std::string& word : words) {
+    if (word == "--") break;
+    const bool is_long = word.starts_with("--");
+    if (!is_long && !(word.size() > 1 && word[0] == '-' && std::isalpha(word[1] & 0xff))) continue;
+    const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
+    if (std::find(known.begin(), known.end(), name) == known.end()) return is_long ? name : word;
+  }
+  return "";
+}
+
+int print_unknown_option(const std::string& option, const std::string& command,
+                         const std::vector<std::string>& known) {
+  // Any letter is near any other.
+  std::string near = option.starts_with("--") ? nearest_name(option, known) : "";
+  if (!near.empty()) near = "did you mean " + near + "? ";
+  print_error("error: unknown option {}\n  hint: {}`frictab {}{}--help` lists them\n",
+              printable(option), near, command, command.empty() ? "" : " ");
+  return 2;
+}
+
 int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   if (error.get_exit_code() == 0) return app.exit(error); // --help, --version
-  std::string group;
-  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
-    const std::vector<std::string> names = commands_of(group);
-    if (names.empty()) break;
-    if (std::find(names.begin(), names.end(), argv[i]) == names.end()) {
-      print_error("error: unknown command '{}{}{}'\n  hint: {}\n", group, group.empty() ? "" : " ",
-                  printable(argv[i]), suggest(argv[i], names));
-      return 2;
-    }
-    group += (group.empty() ? "" : " ") + std::string(argv[i]);
-  }
   if (argc == 1) {
-    print_error("error: no command is given\n"
-                "  hint: frictab help lists them; to begin: frictab init --from FILES makes a "
-                "job of data files,\n        frictab twin DIR a synthetic campaign with one\n");
+    print_error("{}",
+                app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
     return 2;
   }
-  const std::vector<std::string> below =
-      group.empty() ? std::vector<std::string>() : commands_of(group);
-  if (!below.empty() && error.get_name() == "RequiredError") {
-    print_error("error: frictab {} needs a command\n  hint: one of {}\n", group, join(below, ", "));
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  const std::string command = command_in(words);
+  const std::vector<std::string> below = commands_of(command);
+  std::vector<std::string> known = options_of(app_of(app, command));
+  if (const std::string option = unknown_option(words, known); !option.empty())
+    return print_unknown_option(option, command, known);
+  if (!command.empty() && words[0][0] == '-') {
+    print_error("error: {} stands before the command\n  hint: frictab {} {} ...\n",
+                printable(words[0]), command, printable(words[0]));
     return 2;
   }
-  print_error("error: {}\n  hint: run `frictab {}{}--help`\n", printable(error.what()), group,
-              group.empty() ? "" : " ");
+  const std::size_t named = pieces(command, ' ').size();
+  const bool begins_with_it = join({words.begin(), words.begin() + long(named)}, " ") == command;
+  if (!below.empty() && begins_with_it && words.size() > named && words[named][0] != '-') {
+    print_error("error: unknown command '{}{}{}'\n  hint: {}\n", command,
+                command.empty() ? "" : " ", printable(words[named]), suggest(words[named], below));
+    return 2;
+  }
+  if (!command.empty() && !below.empty() && error.get_name() == "RequiredError") {
+    print_error("error: frictab {} needs a command\n  hint: one of {}\n", command,
+                join(below, ", "));
+    return 2;
+  }
+  print_error("error: {}\n  hint: run `frictab {}{}--help`\n", printable(error.what()), command,
+              command.empty() ? "" : " ");
   return 2;
 }
 
@@ -233,7 +311,7 @@ int print_exception() {
   try {
     throw;
   } catch (const InputError& error) {
-    print_error("{}\n", error.what());
+    print_error("{}\n", colours_on(stderr) ? coloured_error(error.what()) : error.what());
     return 2;
   } catch (const std::filesystem::filesystem_error& error) {
     const std::string path = printable(error.path1().string());
@@ -276,6 +354,7 @@ int check_stack() {
 
 int run_command_line(int argc, char** argv) {
   CLI::App app{"frictab - from tribometer data to a verified friction subroutine", "frictab"};
+  set_help_options(app);
   app.set_version_flag("-V,--version", std::string("frictab ") + tool_version());
   app.require_subcommand(1);
   app.formatter(std::make_shared<HelpFormat>(16));
@@ -292,6 +371,7 @@ int run_command_line(int argc, char** argv) {
                           : app.get_subcommand(command.name.substr(0, blank));
     CLI::App* sub = above->add_subcommand(command.name.substr(blank + 1), command.title);
     sub->formatter(std::make_shared<HelpFormat>(28));
+    set_help_options(*sub);
     sub->footer(footer_of(command));
     if (command.declare) {
       add_common(*sub, common, command.uses);

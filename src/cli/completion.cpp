@@ -1,4 +1,6 @@
-// frictab completion bash|zsh|fish: a script that completes commands, options and their values.
+// frictab completion bash|zsh|fish|powershell: a script that completes commands, options and their
+// values.
+#include <array>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -236,26 +238,86 @@ std::string fish(const std::vector<const CommandText*>& commands) {
   return out;
 }
 
+// ---- PowerShell ----
+
+constexpr const char* powershell_tail = R"(}
+Register-ArgumentCompleter -Native -CommandName frictab -ScriptBlock {
+  param($wordToComplete, $commandAst, $cursorPosition)
+  $at = 'frictab'
+  $before = ''
+  foreach ($element in $commandAst.CommandElements | Select-Object -Skip 1) {
+    if ($element.Extent.EndOffset -ge $cursorPosition) { break }
+    $before = $element.ToString()
+    if ($frictabCommands.ContainsKey("$at $before")) { $at = "$at $before" }
+  }
+  $known = $frictabCommands[$at]
+  if ($known.Values.ContainsKey($before)) { $offered = $known.Values[$before] }
+  elseif ($wordToComplete -like '-*') { $offered = $known.Options }
+  else { $offered = $known.Words }
+  $offered | Where-Object { $_ -like "$wordToComplete*" } | ForEach-Object {
+    [System.Management.Automation.CompletionResult]::new($_, $_, 'ParameterValue', $_)
+  }
+}
+)";
+
+std::string powershell_list(const std::vector<std::string>& words) {
+  std::vector<std::string> quoted_words;
+  for (const std::string& word : words)
+    quoted_words.push_back("'" + replace_all(word, "'", "''") + "'");
+  return "@(" + join(quoted_words, ", ") + ")";
+}
+
+// Offers names of files (nothing of its own) where a value is one.
+std::string powershell_of(const CommandText& command) {
+  std::vector<std::string> options, words = names_below(command), values;
+  for (const OptionText& option : command.options)
+    for (const std::string& name : option.names) {
+      options.push_back(name);
+      if (!option.value.empty())
+        values.push_back(fmt::format("'{}' = {}", name, powershell_list(option.words)));
+    }
+  for (const OptionText& place : command.places)
+    words.insert(words.end(), place.words.begin(), place.words.end());
+  return fmt::format("  '{}' = @{{\n    Options = {}\n    Words = {}\n    Values = @{{ {} }}\n"
+                     "  }}\n",
+                     command.name, powershell_list(options), powershell_list(words),
+                     join(values, "; "));
+}
+
+std::string powershell(const std::vector<const CommandText*>& commands) {
+  std::string out = "# PowerShell completion of frictab, made by `frictab completion "
+                    "powershell`\n$frictabCommands = @{\n";
+  for (const CommandText* command : commands)
+    out += powershell_of(*command);
+  return out + powershell_tail;
+}
+
 // ---- the command ----
+
+struct Shell {
+  const char* name;
+  std::string (*script)(const std::vector<const CommandText*>& commands);
+};
+constexpr std::array<Shell, 4> shells = {
+    {{"bash", bash}, {"zsh", zsh}, {"fish", fish}, {"powershell", powershell}}};
 
 int run(const CLI::App& app, const std::string& shell) {
   const CommandText root = command_tree(app);
   const std::vector<const CommandText*> commands = all_commands(root);
-  if (shell == "bash")
-    print_out("{}", bash(commands));
-  else if (shell == "zsh")
-    print_out("{}", zsh(commands));
-  else if (shell == "fish")
-    print_out("{}", fish(commands));
-  else
-    throw InputError({}, fmt::format("there is no completion for '{}'", shell),
-                     "frictab completion bash, zsh or fish");
-  return 0;
+  for (const Shell& known : shells)
+    if (shell == known.name) {
+      print_out("{}", known.script(commands));
+      return 0;
+    }
+  throw InputError({}, fmt::format("there is no completion for '{}'", shell),
+                   "frictab completion bash, zsh, fish or powershell");
 }
 
 std::function<int()> declare(CLI::App& app, const CommonOptions&) {
   const auto shell = std::make_shared<std::string>();
-  app.add_option("SHELL", *shell, "bash, zsh or fish")->required()->type_name("{bash,zsh,fish}");
+  app.add_option("SHELL", *shell, "bash, zsh, fish or powershell")
+      ->required()
+      ->type_name("{bash,zsh,fish,powershell}");
   return [shell, &app] { return run(app, *shell); };
 }
 
@@ -268,6 +330,8 @@ const Registered<Command> registered{[] {
       0,
       {{"frictab completion bash > ~/.local/share/bash-completion/completions/frictab", "bash"},
        {"frictab completion fish > ~/.config/fish/completions/frictab.fish", "fish"},
+       {"frictab completion powershell > frictab.ps1",
+        "PowerShell; $PROFILE then has: . ./frictab.ps1"},
        {"frictab completion zsh > ~/.zfunc/_frictab", "zsh, with ~/.zfunc in fpath"}}};
 }};
 

@@ -41,7 +41,7 @@ int run(const CLI::App& root, const std::vector<std::string>& words) {
   // one.
   print_out("{}",
             at->get_formatter()->make_help(at, (above.empty() ? "" : above + " ") + at->get_name(),
-                                           CLI::AppFormatMode::Normal));
+                                           CLI::AppFormatMode::All));
   return 0;
 }
 

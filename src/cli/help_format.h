@@ -1,4 +1,6 @@
-// Help in 80 columns: descriptions are broken at blanks and continue in their own column.
+// Help in 80 columns: descriptions are broken at blanks and continue in their own column. Short
+// (-h): options and commands with the first clause of their descriptions; long (--help): all of it,
+// examples and exit codes.
 #pragma once
 
 #include <memory>
@@ -18,6 +20,11 @@ public:
   // `names`: width of the names on the left.
   explicit HelpFormat(std::size_t names) { column_width(names); }
 
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    is_short_ = mode == CLI::AppFormatMode::Normal;
+    return CLI::Formatter::make_help(app, std::move(name), CLI::AppFormatMode::Normal);
+  }
   std::string make_option(const CLI::Option* option, bool by_place) const override {
     return line(make_option_name(option, by_place) + make_option_opts(option),
                 make_option_desc(option));
@@ -30,6 +37,7 @@ public:
     return replace_all(CLI::Formatter::make_option_name(option, by_place), "{false}", "");
   }
   std::string make_footer(const CLI::App* command) const override {
+    if (is_short_) return "--help has more: examples, exit codes\n";
     std::istringstream lines(command->get_footer());
     std::string out;
     for (std::string text; std::getline(lines, text);)
@@ -38,12 +46,16 @@ public:
   }
 
 private:
+  mutable bool is_short_ = false; // during make_help
+
   std::string line(const std::string& name, const std::string& description) const {
     const std::size_t indent = get_column_width();
     std::string text = "  " + name;
     text = characters(text) + 2 > indent ? text + "\n" + std::string(indent, ' ')
                                          : fmt::format("{:<{}}", text, indent);
-    return text + wrapped(description, page_width, indent) + "\n";
+    const std::string shown =
+        is_short_ ? description.substr(0, description.find(';')) : description;
+    return text + wrapped(shown, page_width, indent) + "\n";
   }
   // Puts an example's explanation above it where both do not fit in one line.
   static std::string footer_line(const std::string& text) {

@@ -67,9 +67,7 @@ void print_notes(const run::Run& run, const CommonOptions& common) {
 namespace {
 
 void show_summary(const std::string& text) {
-  const bool terminal = os::is_terminal(stdout);
-  const bool colours = colour_wanted(terminal, std::getenv("NO_COLOR"), std::getenv("TERM"));
-  if (colours)
+  if (colours_on(stdout))
     print_out("{}", coloured(printable(text)));
   else
     show(text);
@@ -155,7 +153,8 @@ const Registered<Command> tabulate{[] {
        {"frictab tabulate job.toml --set table.interpolation=cubic -o cubic", "other tables"}});
 }};
 const Registered<Command> report{[] {
-  return job_command(8, "report", "Write report.html and report.md from the results so far",
+  return job_command(8, "report",
+                     "Write report.html, explore.html, report.md and summary.json from the results",
                      {{"frictab report job.toml", "out/report.html"}});
 }};
 

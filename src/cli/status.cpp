@@ -126,7 +126,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
 const Registered<Command> registered{[] {
   return Command{"status",
                  9,
-                 "What is there of a job, what is stale, what comes next",
+                 "Results of a job that exist, those out of date, and the next step",
                  declare,
                  uses_output | uses_threads | uses_json | uses_seed | uses_set,
                  {{"frictab status", "of job.toml in this folder"},

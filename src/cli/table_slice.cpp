@@ -20,21 +20,27 @@ struct Options {
   std::vector<std::string> along;
   std::size_t points = 0;
   bool csv = false;
-  bool svg = false;
+  std::string svg; // file, "-" for -o or stdout; empty: no plot
+  bool plot = false;
 };
 
 int run(const Options& options, const CommonOptions& common) {
   if (options.along.size() > 2)
     throw InputError({}, "--along is given more than twice", "hold the other states by --at");
   const table::Table table = table::read_table(options.file);
-  const table::FixedStates held = table::fixed_states(options.at, table.inputs());
+  table::FixedStates held = table::fixed_states(options.at, table.inputs());
+  const std::vector<std::string> middle = table::hold_others(table, options.along, held);
   std::size_t points = options.points;
   if (points == 0) points = options.along.size() == 2 ? 41 : 101;
   const table::Slice result = table::slice(table, held, options.along, points);
+  for (const std::string& line : middle)
+    note(common, "note: " + line);
   for (const std::string& line : table::check_fixed_states(table, held))
     note(common, "note: " + line);
-  write_result(common, [&](std::ostream& out) {
-    out << (options.svg ? report::slice_svg(result) : table::slice_csv(result));
+  CommonOptions output = common;
+  if (!options.svg.empty()) output.output = options.svg;
+  write_result(output, [&](std::ostream& out) {
+    out << (options.plot ? report::slice_svg(result) : table::slice_csv(result));
   });
   return 0;
 }
@@ -53,7 +59,16 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
       ->type_name("N")
       ->check(CLI::Range(2, 100000));
   CLI::Option* csv = app.add_flag("--csv", options->csv, "States and tau_R_MPa (default)");
-  app.add_flag("--svg", options->svg, "A plot")->excludes(csv);
+  app.add_option_function<std::string>(
+         "--svg",
+         [options](const std::string& file) {
+           options->plot = true;
+           options->svg = file;
+         },
+         "A plot, in this file; without a name to -o or stdout")
+      ->type_name("[FILE]")
+      ->expected(0, 1)
+      ->excludes(csv);
   output_is_a_file(app);
   return [options, &common] { return run(*options, common); };
 }
@@ -67,9 +82,7 @@ const Registered<Command> registered{[] {
       uses_output | uses_force | uses_quiet,
       {{"frictab table slice out/tables/coulomb.h5 --along sigma_n_MPa --at sigma_f_MPa=480",
         "CSV"},
-       {"frictab table slice out/tables/coulomb.h5 --along sigma_n_MPa --at sigma_f_MPa=480 --svg "
-        "-o mu.svg",
-        "a plot"}}};
+       {"frictab table slice out/tables/coulomb.h5 --along sigma_n_MPa --svg mu.svg", "a plot"}}};
 }};
 
 } // namespace

@@ -75,6 +75,27 @@ std::vector<std::string> check_fixed_states(const Table& table, const FixedState
   return notes;
 }
 
+std::vector<std::string> hold_others(const Table& table, const std::vector<std::string>& free,
+                                     FixedStates& held) {
+  std::vector<std::string> parts;
+  for (const std::string& name : table.inputs()) {
+    if (held.count(name) || std::find(free.begin(), free.end(), name) != free.end()) continue;
+    const TableAxis* axis = find_axis(table, name);
+    const auto range = axis && axis->data ? axis->data : table.range(name);
+    if (!range) continue;
+    const auto [low, high] = *range;
+    const bool log = axis && axis->log && low > 0;
+    const double middle = log ? std::sqrt(low * high) : (low + high) / 2;
+    // A text column has whole numbers.
+    const bool levels = table.record.input(name).levels.has_value();
+    const double rounded = levels ? std::floor(middle) : std::stod(fmt::format("{:.3g}", middle));
+    held[name] = std::clamp(rounded, low, high);
+    parts.push_back(fmt::format("{} = {:g}", name, held[name]));
+  }
+  if (parts.empty()) return {};
+  return {"held in the middle of their range: " + join(parts, ", ") + "; --at sets them"};
+}
+
 void check_all_known(const Table& table, const FixedStates& held,
                      const std::vector<std::string>& free) {
   std::vector<std::string> missing, options;

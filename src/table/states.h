@@ -23,6 +23,11 @@ void check_input(const Table& table, const std::string& name);
 // not an axis and is fixed beyond the range for which the table was verified.
 std::vector<std::string> check_fixed_states(const Table& table, const FixedStates& held);
 
+// Fixes the inputs that are neither fixed nor in `free` at the middle of their data, on the axis'
+// own scale, rounded to three digits. Returns a line that names them, or none.
+std::vector<std::string> hold_others(const Table& table, const std::vector<std::string>& free,
+                                     FixedStates& held);
+
 // Throws InputError that lists, with their ranges, the inputs that are neither fixed nor among
 // `free`.
 void check_all_known(const Table& table, const FixedStates& held,

@@ -42,11 +42,54 @@ TEST(CommandLine, HelpIsThatOfTheOption) {
 TEST(CommandLine, WithoutACommandSaysHowToBegin) {
   const CommandResult bare = run_frictab({});
   EXPECT_EQ(bare.exit_code, 2);
-  EXPECT_THAT(bare.err, StartsWith("error: no command is given\n  hint: frictab help lists them"));
+  EXPECT_THAT(bare.err, StartsWith("frictab - from tribometer data to a verified"));
+  EXPECT_THAT(bare.err, HasSubstr("\n  twin          Write a synthetic"));
   EXPECT_EQ(run_frictab({"table"}).err, "error: frictab table needs a command\n"
                                         "  hint: one of info, slice, diff, convert\n");
   EXPECT_THAT(run_frictab({"explain"}).err,
               StartsWith("error: no NAME is given\n  hint: names: frictab list; "));
+}
+
+TEST(CommandLine, AMistypedOptionIsNamedWithTheNearestKnownOneWhereverItStands) {
+  const std::string sead =
+      "error: unknown option --sead\n  hint: did you mean --seed? `frictab run "
+      "--help` lists them\n";
+  EXPECT_EQ(run_frictab({"run", "job.toml", "--sead", "1"}).err, sead);
+  EXPECT_EQ(run_frictab({"run", "--sead=1", "job.toml"}).err, sead);
+  EXPECT_EQ(run_frictab({"--sead", "1", "run", "job.toml"}).err, sead);
+  EXPECT_EQ(run_frictab({"--versoin"}).err, "error: unknown option --versoin\n  hint: did you mean "
+                                            "--version? `frictab --help` lists them\n");
+  EXPECT_EQ(run_frictab({"table", "slice", "a.h5", "--alnog", "psi"}).err,
+            "error: unknown option --alnog\n  hint: did you mean --along? `frictab table slice "
+            "--help` lists them\n");
+  EXPECT_EQ(run_frictab({"run", "-x"}).err,
+            "error: unknown option -x\n  hint: `frictab run --help` lists them\n");
+  EXPECT_EQ(run_frictab({"--seed", "1", "run", "job.toml"}).err,
+            "error: --seed stands before the command\n  hint: frictab run --seed ...\n");
+  for (const CommandResult& wrong : {run_frictab({"run", "-x"}), run_frictab({"--versoin"})})
+    EXPECT_EQ(wrong.exit_code, 2);
+}
+
+TEST(CommandLine, AMistypedTargetIsAFaultOfEveryExport) {
+  const std::string fault =
+      "error: there is no target 'abaqus_vfrick'\n  hint: did you mean 'abaqus_vfric'?\n";
+  EXPECT_EQ(run_frictab({"export", "--targets", "abaqus_vfrick", "job.toml"}).err, fault);
+  EXPECT_EQ(run_frictab({"export", "job.toml", "--targets", "c,abaqus_vfrick"}).err, fault);
+}
+
+TEST(CommandLine, ShortHelpIsAFirstPartOfTheLongOne) {
+  const std::string brief = run_frictab({"run", "-h"}).out, whole = out_of({"run", "--help"});
+  EXPECT_LT(brief.size(), whole.size());
+  EXPECT_THAT(brief, HasSubstr("--help has more"));
+  EXPECT_THAT(brief, Not(HasSubstr("Exit codes")));
+  EXPECT_THAT(whole, HasSubstr("Exit codes"));
+}
+
+TEST(CommandLine, ErrorsHaveColoursWhereTheyAreAskedForAlone) {
+  EXPECT_THAT(run_frictab({"run", "no.toml", "--color", "always"}).err,
+              HasSubstr("\x1b[1;31merror:\x1b[0m"));
+  EXPECT_THAT(run_frictab({"run", "no.toml"}).err, Not(HasSubstr("\x1b")));
+  EXPECT_EQ(run_frictab({"run", "no.toml", "--color", "blue"}).exit_code, 2);
 }
 
 TEST(CommandLine, HelpFits80Columns) {
