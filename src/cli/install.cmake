@@ -32,7 +32,6 @@ set(CPACK_PACKAGE_CONTACT "The frictab authors") # as CITATION.cff; the project 
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "friction laws: tribometer data to FE subroutine")
 set(CPACK_PACKAGE_DESCRIPTION "Calibrates friction laws on tribometer data, tabulates them, writes \
 friction subroutines for finite-element codes and proves how far these are from the law.")
-set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
@@ -40,4 +39,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # verify compiles what was generated, the Python package tables of many rows.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gcc, gfortran, libc6-dev, python3-h5py, python3-pandas")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "clang, luajit, lua5.4, python3-matplotlib, python3-xarray")
+set(CPACK_SOURCE_GENERATOR TGZ)
+set(CPACK_SOURCE_PACKAGE_FILE_NAME frictab-${PROJECT_VERSION})
+set(CPACK_SOURCE_IGNORE_FILES "/\\\\.git/" "/build/" "/__pycache__/" "/out/")
 include(CPack)

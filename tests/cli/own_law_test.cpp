@@ -121,7 +121,9 @@ TEST_F(OwnLaw, ThatHasNoValueInSomeRowIsAnErrorWithItsStates) {
                         "humidity_pct = 30"));
 }
 
-TEST_F(SlowOwnLaw, GoesTheWholeWayAndIsReadBack) {
+class LongOwnLaw : public SlowOwnLaw {};
+
+TEST_F(LongOwnLaw, GoesTheWholeWayAndIsReadBack) {
   directory.write("laws/film.toml",
                   "[film]\ntitle = \"a film that slides off\"\n"
                   "formula = \"min(mu*sigma_n_MPa*growth*(v_rel_mm_s/10)^b, m*k_MPa)\"\n"

@@ -48,7 +48,7 @@ void expect_whole(const fs::path& usr) {
 }
 
 // One test: both write the manual pages into the build directory.
-TEST(SlowPackage, InstalledOrUnpackedIsAWholeProgramThatNamesItsLibraries) {
+TEST(LongPackage, InstalledOrUnpackedIsAWholeProgramThatNamesItsLibraries) {
   const test::TemporaryDirectory prefix;
   const CommandResult installed = run_command(
       {"cmake", "--install", build.string(), "--prefix", prefix.path("usr"), "--strip"});
@@ -76,6 +76,32 @@ TEST(SlowPackage, InstalledOrUnpackedIsAWholeProgramThatNamesItsLibraries) {
   EXPECT_THAT(run_command({"dpkg-deb", "-f", package, "Package", "Version"}).out,
               ContainsRegex("Package: frictab\nVersion: 0\\.2\\.0"));
   EXPECT_EQ(run_command({"dpkg-deb", "-f", package, "Maintainer"}).out, "The frictab authors\n");
+}
+
+TEST(SlowSourceArchive, HasWhatABuildNeedsAndNothingMade) {
+  const test::TemporaryDirectory directory;
+  const CommandResult packed =
+      run_command({"cpack", "--config", (build / "CPackSourceConfig.cmake").string(), "-B",
+                   directory.path("")});
+  ASSERT_EQ(packed.exit_code, 0) << packed.out << packed.err;
+  const std::string listed =
+      run_command({"tar", "tzf", directory.path("frictab-" FRICTAB_VERSION ".tar.gz")}).out;
+  for (const char* file : {"CMakeLists.txt", "src/main.cpp", "templates/laws/coulomb.toml",
+                           "exporters/c/exporter.cpp", "apt-packages.txt", "LICENSE"})
+    EXPECT_THAT(listed, HasSubstr(std::string("frictab-" FRICTAB_VERSION "/") + file + "\n"));
+  EXPECT_EQ(listed.find("/build/"), std::string::npos);
+  EXPECT_EQ(listed.find("/.git/"), std::string::npos);
+}
+
+// conda-build and Spack are not here.
+TEST(Packaging, RecipesHaveTheVersionOfTheProject) {
+  const auto text = [](const char* file) {
+    return run_command({"cat", std::string(FRICTAB_SOURCE_DIR "/") + file}).out;
+  };
+  EXPECT_THAT(text("packaging/conda/meta.yaml"),
+              HasSubstr("set version = \"" FRICTAB_VERSION "\""));
+  EXPECT_THAT(text("packaging/spack/package.py"), HasSubstr("version(\"" FRICTAB_VERSION "\")"));
+  EXPECT_THAT(text("CITATION.cff"), HasSubstr("\nversion: " FRICTAB_VERSION "\n"));
 }
 
 // The Dockerfile is not run here: no test has a daemon. Its steps are those of .ci/build.

@@ -82,7 +82,7 @@ void expect_law(const models::Model& model, bool by_language = false) {
 class LongDirectFormOfEveryFormula : public testing::TestWithParam<std::string> {};
 
 // What stands around the formula is not a law's own: one law goes through every target, with those
-// of SlowDirectForm.
+// of LongDirectForm.
 TEST_P(LongDirectFormOfEveryFormula, IsTheLawTo1e12InEveryLanguage) {
   const bool by_language = GetParam() != "log_coulomb";
   expect_law(test::plausible_model(*models::find_law(GetParam())), by_language);
@@ -108,15 +108,15 @@ TEST_P(LongDirectFormOfEveryFormula, HasTheLawsOwnGradient) {
 INSTANTIATE_TEST_SUITE_P(Registry, LongDirectFormOfEveryFormula,
                          testing::ValuesIn(test::laws_by_formula()), test::law_test_name);
 
-TEST(SlowDirectForm, OfAnEnsembleOfTwentyNetsIsTheLawTo1e12InEveryTarget) {
+TEST(LongDirectForm, OfAnEnsembleOfTwentyNetsIsTheLawTo1e12InEveryTarget) {
   expect_law(test::network_model(20, 8));
 }
 
-TEST(SlowDirectForm, OfAPolynomialOfFiveStatesIsTheLawTo1e12InEveryTarget) {
+TEST(LongDirectForm, OfAPolynomialOfFiveStatesIsTheLawTo1e12InEveryTarget) {
   expect_law(test::polynomial_model());
 }
 
-TEST(SlowDirectForm, OfANetworkKeepsTheLawWhereItsUnitsSaturate) {
+TEST(LongDirectForm, OfANetworkKeepsTheLawWhereItsUnitsSaturate) {
   models::Model model = test::network_model(4, 3);
   // 40 times the slope: tanh is 1 on most of the box.
   Expr steep = model.law->build(model.conventions).value;

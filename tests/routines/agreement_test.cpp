@@ -146,7 +146,7 @@ table::Table without_formula(table::Table table) {
   return table;
 }
 
-TEST(SlowSameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
+TEST(LongSameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
   const Exporter &c = *find_exporter("c"), &fortran = *find_exporter("abaqus_vfric");
   for (const test::NamedTable& sample : test::sample_tables()) {
     SCOPED_TRACE(sample.name);

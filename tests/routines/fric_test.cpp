@@ -19,7 +19,7 @@ using namespace test;
 
 class Fric : public FricCase {};
 
-using SlowFric = Fric;
+using LongFric = Fric;
 
 TEST_F(Fric, GivesTheLimitAlongPositiveAndNegativeSlipInOneDirection) {
   for (const double speed : {50.0, -50.0}) {
@@ -330,7 +330,7 @@ TEST_F(Fric, EndsTheAnalysisBeyondAnErrorSideAndNamesIt) {
   EXPECT_TRUE(std::isnan(c.tau[0])) << "where the solver's routine comes back";
 }
 
-TEST_F(SlowFric, CompilesWithoutAWarningForEveryTableAndChoice) {
+TEST_F(LongFric, CompilesWithoutAWarningForEveryTableAndChoice) {
   for (const NamedTable& sample : sample_tables())
     for (const std::string choice : {"current", "start_of_increment"}) {
       if (choice != "current" && !has_every_kind_of_argument(sample)) continue;

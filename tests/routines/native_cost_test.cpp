@@ -141,7 +141,7 @@ TEST(NativeCost, OfAShearLawIsNothingInDeformWhichMultipliesByItsOwnShearYieldSt
 }
 
 // A routine with a constant is compared where it is right, at the constant, whoever calls it.
-TEST(SlowConstantOfTheJob, IsWhereEveryRoutineIsComparedAndItsCostIsTold) {
+TEST(LongConstantOfTheJob, IsWhereEveryRoutineIsComparedAndItsCostIsTold) {
   const Case c("wanheim_bay");
   for (const Exporter& exporter : codegen::all_exporters()) {
     if (!exporter.is_routine() || exporter.has_batch()) continue; // C and Fortran take every state

@@ -192,7 +192,7 @@ TEST_F(SlowPython, PicturesShowEveryRowAndLaw) {
   expect_passes({"pictures.py"});
 }
 
-TEST_F(SlowPython, MypyFindsNothingInItsStrictMode) {
+TEST_F(LongPython, MypyFindsNothingInItsStrictMode) {
   if (python({"-c", "import mypy"}).exit_code != 0)
     GTEST_SKIP() << "Debian's mypy is not installed";
   const auto result =
@@ -245,7 +245,7 @@ TEST_F(SlowPython, TheNotebookOfAFitRunsAndPrintsItsOutputs) {
   EXPECT_THAT(result.out, HasSubstr("verification passed: 3 tables and routines"));
 }
 
-TEST_F(SlowPython, AWheelIsBuiltWithoutACompilerAndWithoutTheNetwork) {
+TEST_F(LongPython, AWheelIsBuiltWithoutACompilerAndWithoutTheNetwork) {
   if (python({"-c", "import setuptools, wheel, pip"}).exit_code != 0)
     GTEST_SKIP() << "Debian's python3-pip, -setuptools, -wheel are not installed";
   const std::string copy = directory.path("python"); // setuptools writes among its sources
