@@ -226,14 +226,6 @@ std::vector<std::string> candidates_of(const Comparisons& c) {
   return names;
 }
 
-std::string all_but(const std::vector<std::string>& laws, const std::vector<std::string>& others,
-                    const std::string& note) {
-  if (others.size() + 1 == laws.size() && !others.empty())
-    return fmt::format("{} is not distinguishable from any other law ({})", laws.front(), note);
-  return fmt::format("{} is better than all {} ({})", laws.front(),
-                     others.empty() ? "others" : "but " + join(others, ", "), note);
-}
-
 } // namespace
 
 Comparisons compare(std::span<const LawErrors> laws, std::size_t resamples, std::uint64_t seed) {
@@ -273,17 +265,23 @@ std::vector<std::string> as_good_as_first(const Comparisons& comparisons) {
 std::string pairwise_sentence(const Comparisons& comparisons) {
   const std::vector<std::string> laws = candidates_of(comparisons);
   if (laws.size() < 2) return "";
-  return all_but(laws, as_good_as_first(comparisons), "95 % per pair, paired by experiment");
+  const std::vector<std::string> tied = as_good_as_first(comparisons);
+  const std::size_t others = laws.size() - 1;
+  constexpr const char* note = "95 % per pair, paired by experiment";
+  if (tied.size() == others)
+    return fmt::format("{} is not distinguishable from any other law ({})", laws.front(), note);
+  return fmt::format("{} is significantly better than {} of {} other law{} ({}){}", laws.front(),
+                     others - tied.size(), others, others == 1 ? "" : "s", note,
+                     tied.empty() ? "" : "; tied with: " + join(tied, ", "));
 }
 
-std::string family_sentence(const Comparisons& comparisons) {
+std::string family_sentence(const Comparisons& comparisons, bool named) {
   const std::size_t laws = candidates_of(comparisons).size();
   if (laws < 2) return "";
-  const std::vector<std::string> names = possibly_best(comparisons);
-  const std::string note = fmt::format("95 % for all {} laws together", laws);
-  if (names.size() == 1) return fmt::format("{} is the best of them ({})", names.front(), note);
-  if (names.size() == laws) return "any of them may be the best (" + note + ")";
-  return fmt::format("the best of them is one of {} ({})", join(names, ", "), note);
+  const std::vector<std::string> possible = possibly_best(comparisons);
+  return fmt::format("not ruled out as best (95 %, {} laws compared together): {} of {}{}", laws,
+                     possible.size(), laws,
+                     named || possible.size() == 1 ? " (" + join(possible, ", ") + ")" : "");
 }
 
 void add_comparisons(Calibration& calibration, const CalibrationInput& input) {

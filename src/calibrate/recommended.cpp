@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/choice.h"
 #include "calibrate/experiment_errors.h"
 #include "core/parallel.h"
 #include "core/text.h"
@@ -19,23 +20,64 @@ struct JudgedLaw {
   std::vector<double> influence;
 };
 
-JudgedLaw judged_law(const LawErrors& law) {
-  std::vector<double> absolute, rows;
-  for (const stats::ErrorSums& one : law.sums) {
-    absolute.push_back(one.absolute);
-    rows.push_back(one.rows);
+// Errors of all laws on experiments that count `times` each.
+class JudgedLaws {
+public:
+  explicit JudgedLaws(std::span<const LawErrors> laws)
+      : absolute_(laws.size()), difference_(laws.front().sums.size()) {
+    for (std::size_t i = 0; i < laws.size(); ++i)
+      for (const stats::ErrorSums& one : laws[i].sums)
+        absolute_[i].push_back(one.absolute);
+    for (const stats::ErrorSums& one : laws.front().sums)
+      rows_.push_back(one.rows);
+    judged_.resize(laws.size(), {0, std::vector<double>(rows_.size())});
   }
-  JudgedLaw out{0, std::vector<double>(rows.size())};
-  const std::vector<double> once(rows.size(), 1.0);
-  out.mae_MPa = stats::ratio_of(absolute, rows, once, stats::Measure::mean, out.influence);
+
+  void judge(std::span<const double> times) {
+    times_ = times;
+    for (std::size_t i = 0; i < judged_.size(); ++i)
+      judged_[i].mae_MPa =
+          stats::ratio_of(absolute_[i], rows_, times, stats::Measure::mean, judged_[i].influence);
+  }
+  double mae_MPa(std::size_t law) const { return judged_[law].mae_MPa; }
+  double standard_error_of_difference(std::size_t a, std::size_t b) {
+    for (std::size_t e = 0; e < difference_.size(); ++e)
+      difference_[e] = judged_[a].influence[e] - judged_[b].influence[e];
+    return stats::standard_error(difference_, times_);
+  }
+
+private:
+  std::vector<std::vector<double>> absolute_;
+  std::vector<double> rows_, difference_;
+  std::vector<JudgedLaw> judged_;
+  std::span<const double> times_;
+};
+
+struct Place {
+  std::size_t law = 0;
+  double behind_MPa = 0, std_error_MPa = 0;
+};
+
+// Applies the rule to the judged laws, of which `best` is the best.
+Place simplest_near(JudgedLaws& judged, std::size_t best, std::span<const std::size_t> numbers) {
+  Place out{best};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i == best) continue;
+    const double behind = judged.mae_MPa(i) - judged.mae_MPa(best);
+    const bool closer = numbers[i] == numbers[out.law] && behind < out.behind_MPa;
+    if (numbers[i] >= numbers[out.law] && !closer) continue;
+    const double error = judged.standard_error_of_difference(i, best);
+    if (behind > std::max(error, same_error * judged.mae_MPa(best))) continue;
+    out = {i, behind, error};
+  }
   return out;
 }
 
-double paired_error(const JudgedLaw& a, const JudgedLaw& b) {
-  std::vector<double> difference(a.influence.size());
-  for (std::size_t e = 0; e < difference.size(); ++e)
-    difference[e] = a.influence[e] - b.influence[e];
-  return stats::standard_error(difference, std::vector<double>(difference.size(), 1.0));
+std::size_t first_of_least(const JudgedLaws& judged, std::size_t laws) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < laws; ++i)
+    if (judged.mae_MPa(i) * (1 + same_error) < judged.mae_MPa(best)) best = i;
+  return best;
 }
 
 std::string numbers_text(std::size_t numbers) {
@@ -56,19 +98,30 @@ std::size_t numbers_of(const ModelFit& fit, std::span<const ModelFit> fits) {
   return numbers;
 }
 
-Recommended recommend(std::span<const LawErrors> laws, std::span<const std::size_t> numbers) {
+Recommended recommend(std::span<const LawErrors> laws, std::span<const std::size_t> numbers,
+                      std::size_t resamples, std::uint64_t seed) {
+  if (laws.empty()) return {};
+  const std::size_t experiments = laws.front().sums.size();
+  JudgedLaws judged(laws);
+  const std::vector<double> once(experiments, 1.0);
+  judged.judge(once);
+  const Place place = experiments < 2 ? Place{} : simplest_near(judged, 0, numbers);
   Recommended out;
-  if (laws.empty()) return out;
-  const JudgedLaw best = judged_law(laws.front());
-  out = {laws.front().law, laws.front().law, numbers.front(), numbers.front()};
-  for (std::size_t i = 1; i < laws.size() && laws.front().sums.size() >= 2; ++i) {
-    const JudgedLaw one = judged_law(laws[i]);
-    const double behind = one.mae_MPa - best.mae_MPa, error = paired_error(one, best);
-    if (behind > std::max(error, same_error * best.mae_MPa)) continue;
-    const bool closer = numbers[i] == out.numbers && behind < out.behind_MPa;
-    if (numbers[i] >= out.numbers && !closer) continue;
-    out = {laws[i].law, out.best, numbers[i], out.numbers_of_best, behind, error};
-  }
+  out.law = laws[place.law].law;
+  out.best = laws.front().law;
+  out.numbers = numbers[place.law];
+  out.numbers_of_best = numbers.front();
+  out.behind_MPa = place.behind_MPa;
+  out.std_error_MPa = place.std_error_MPa;
+  out.expected_mae_MPa = judged.mae_MPa(place.law);
+  if (experiments < 2 || resamples == 0) return out;
+  const auto rule = [&](std::span<const double> times) {
+    judged.judge(times);
+    return simplest_near(judged, first_of_least(judged, laws.size()), numbers).law;
+  };
+  const RepeatedChoice again = repeat_choice(laws, rule, resamples, seed);
+  out.expected_mae_MPa = again.expected_mae_MPa;
+  out.expected_interval = again.interval;
   return out;
 }
 
@@ -89,7 +142,7 @@ void add_recommended(Calibration& calibration, const CalibrationInput& input,
     laws[i] = {fits[i]->model.law->name,
                stats::by_recording(unseen_sums(*fits[i], input.validation))};
   });
-  calibration.recommended = recommend(laws, numbers);
+  calibration.recommended = recommend(laws, numbers, input.options.bootstrap, input.options.seed);
 }
 
 std::size_t best_place(const Calibration& calibration) {

@@ -2,6 +2,7 @@
 // error.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,8 +24,11 @@ std::size_t numbers_of(const ModelFit& fit, std::span<const ModelFit> fits);
 // fewest numbers among those whose MAE exceeds that of the first by at most one standard error of
 // the difference, paired by experiment (one-standard-error rule: Breiman, Friedman, Olshen and
 // Stone 1984, 3.4.3); among equally simple ones that with the smallest MAE. Errors that count as
-// equal (same_error) are not worse. With fewer than 2 experiments, returns the first.
-Recommended recommend(std::span<const LawErrors> laws, std::span<const std::size_t> numbers);
+// equal (same_error) are not worse. With fewer than 2 experiments, returns the first. With
+// `resamples`, its expected error is that of the same rule on new tests (choice.h), otherwise that
+// on the tests that chose it, without an interval.
+Recommended recommend(std::span<const LawErrors> laws, std::span<const std::size_t> numbers,
+                      std::size_t resamples = 0, std::uint64_t seed = 1);
 
 // Fills calibration.recommended from its candidates in their order, without those named in
 // `overruled`; leaves it empty if no test judges the laws.

@@ -157,18 +157,21 @@ std::string delivery_sentence(const Calibration& c, int decimals) {
   if (!on_other_experiments(c.judged_by)) return nothing_left_to_add(c);
   const std::string trained = experiments_words(c.fits.front().training.n_experiments);
   if (c.deliver == Deliver::training)
-    return fmt::format("delivered as judged: fitted to the {} of the training alone", trained);
+    return fmt::format("delivered: fitted to the {} of the training; calibration.deliver = \"all\" "
+                       "fits again to all",
+                       trained);
   const auto first = std::find_if(c.fits.begin(), c.fits.end(),
                                   [](const ModelFit& fit) { return fit.on_all != nullptr; });
   if (first == c.fits.end()) return "";
   const ModelFit& fit = *first->on_all;
-  return fmt::format(
-      "delivered are the laws fitted again to all {}; on new tests expect {:.{}f} MPa{} of {}, "
-      "{}; the errors above are of the fits to the {} of the training alone{}",
-      experiments_words(fit.training.n_experiments), fit.validation.mae_MPa, decimals,
-      interval_words(fit.validation.mae_interval, decimals), fit.model.law->name,
-      folds_text(c.delivery_folds, fit.training.n_experiments, c.recordings), trained,
-      traced_words(c));
+  return fmt::format("delivered: fitted again to all {}; cross-validated over these {} errs by "
+                     "{:.{}f} MPa{}, {}; the "
+                     "errors above are of the fits to the {} of the training{}",
+                     experiments_words(fit.training.n_experiments), fit.model.law->name,
+                     fit.validation.mae_MPa, decimals,
+                     interval_words(fit.validation.mae_interval, decimals),
+                     folds_text(c.delivery_folds, fit.training.n_experiments, c.recordings),
+                     trained, traced_words(c));
 }
 
 } // namespace frictab::calibrate

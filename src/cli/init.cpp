@@ -162,7 +162,7 @@ int init_from(const Options& options, const CommonOptions& common) {
   for (const std::string& line : passed)
     note(common, line);
   for (const std::string& question : guessed.questions)
-    note(common, "to be answered in it: " + question);
+    note(common, "open question in " + file + ": " + question);
   note(common, fmt::format("next: frictab data {0} (shows what is read), frictab run {0}", file));
   return 0;
 }

@@ -377,9 +377,9 @@ private:
     if (!from.times.empty()) wanted = "1";
     if (from.area_mm2 > 0) wanted = "N";
     if (from.slope_rows > 0) wanted = quantity.unit == "mm/s" ? "mm" : quantity.unit;
-    const char* const known = !from.unit.empty() ? "as the job says"
-                              : unit.empty()     ? "as nobody says otherwise"
-                                                 : "as the file says";
+    const char* const where = !from.unit.empty() ? "in the job"
+                              : unit.empty()     ? "assumed, as no unit is given"
+                                                 : "in the file";
     if (unit.empty()) {
       assume(quantity, raw, wanted);
       unit = wanted;
@@ -399,7 +399,7 @@ private:
     const std::string over =
         from.area_mm2 > 0 ? fmt::format(" over {} mm2: {}", shortest(area), quantity.unit) : "";
     out_.notes.push_back(
-        fmt::format("{}: {} {}, taken as {}{}", quantity.name, unit, known, wanted, over));
+        fmt::format("{}: {} {}, converted to {}{}", quantity.name, unit, where, wanted, over));
   }
 
   // Records an assumed unit for a column without one; a canonical name states its unit, and so does

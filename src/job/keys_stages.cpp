@@ -193,7 +193,7 @@ std::vector<KeyRule> model_keys() {
           above(0),
       key<std::uint64_t>(
           "calibration.seed", [](Job & job) -> auto& { return job.calibration.seed; },
-          "seed of everything random: the same seed gives the same bytes") |
+          "random seed: the same seed gives the same bytes") |
           at_least(0),
       key<std::size_t>(
           "calibration.bootstrap", [](Job & job) -> auto& { return job.calibration.bootstrap; },
@@ -379,8 +379,8 @@ std::vector<KeyRule> proof_keys() {
           at_least(1, 1e9),
       key<std::size_t>(
           "verify.proof_boxes", [](Job & job) -> auto& { return job.verify.proof_boxes; },
-          "parts of a table's range that its proof may look at, which bounds its time; a table of "
-          "more cells has no proof") |
+          "number of boxes that a table's proof may examine, which limits its time; a table of more "
+          "cells has no proof") |
           at_least(1, 1e12),
       key<bool>(
           "verify.require_proof", [](Job & job) -> auto& { return job.verify.require_proof; },

@@ -55,7 +55,7 @@ void add_dots(svg::Plot& plot, const std::vector<ExperimentError>& tests, bool h
   std::vector<std::string> text;
   for (std::size_t e = 0; e < tests.size(); ++e) {
     if (tests[e].held_out != held_out) continue;
-    x.push_back(static_cast<double>(e + 1));
+    x.push_back(static_cast<double>(e));
     y.push_back(tests[e].mae_MPa);
     text.push_back(described(tests[e], decimals));
   }
@@ -81,7 +81,7 @@ void add_names(svg::Plot& plot, const std::vector<ExperimentError>& tests,
         std::none_of(worst.begin(), worst.begin() + static_cast<long>(i), [&](std::size_t other) {
           return std::abs(x - static_cast<double>(other)) < apart;
         });
-    if (free) plot.label(x + 1, tests[worst[i]].mae_MPa, tests[worst[i]].experiment, "#111");
+    if (free) plot.label(x, tests[worst[i]].mae_MPa, tests[worst[i]].experiment, "#111");
   }
 }
 
@@ -89,9 +89,12 @@ words::Section figure_of(const ReportInput& input, std::size_t law, const svg::A
   const std::vector<ExperimentError>& tests = input.by_experiment[law].experiments;
   const int decimals = words::error_decimals(input.calibration);
   const double mae = input.calibration.fits[law].validation.mae_MPa;
-  svg::Plot plot(figure_width, figure_height,
-                 svg::nice_axis(0, static_cast<double>(tests.size() + 1), 10, "test"), errors);
-  const std::vector<double> ends{0, static_cast<double>(2 * tests.size() + 20)}, line{mae, mae};
+  std::vector<std::string> names;
+  for (const ExperimentError& test : tests)
+    names.push_back(test.experiment);
+  const svg::Axis by_name = svg::named_axis(std::move(names), "");
+  svg::Plot plot(figure_width, figure_height, by_name, errors);
+  const std::vector<double> ends{by_name.low, by_name.high}, line{mae, mae};
   plot.line(ends, line, {"#111", 1, "4 3", false});
   for (const bool held_out : {false, true})
     add_dots(plot, tests, held_out, decimals);

@@ -1,5 +1,5 @@
-// Writes formulas as MathML; Law::formula of a user's law is the text as it was written, which can
-// be parsed.
+// Writes formulas as MathML: of a user's law and of traced effects from Law::formula, the text as
+// it was written; of registered laws from the tree that is computed, because theirs is for people.
 #include "report/formula.h"
 
 #include <array>
@@ -63,9 +63,42 @@ std::optional<std::string> as_mathml(const std::string& text) {
 
 } // namespace
 
-std::string formula_html(const models::Law& law) {
+namespace {
+
+std::string equation(const std::string& left, const std::string& right) {
+  return "<mtr><mtd>" + left + "<mo>=</mo>" + right + "</mtd></mtr>";
+}
+
+// The piece that tables sample, then tau_R made from it; nothing for formulas
+// of trained laws, which no one reads.
+std::optional<std::string> tree_as_mathml(const models::Model& model) {
+  constexpr std::size_t most_parts = 80;
+  const models::Law& law = *model.law;
+  if (models::is_trained(law.calibrated) || !law.build) return std::nullopt;
+  const models::Formula formula = law.build(model.conventions);
+  std::size_t parts = 0;
+  for (const expr::Expr& one : {formula.value, formula.combine})
+    expr::for_each_part(one, [&](const expr::Expr&) { ++parts; });
+  if (parts > most_parts) return std::nullopt;
+  const bool is_mu = law.quantity == models::PieceQuantity::mu;
+  const std::string piece = is_mu ? "<mi>&mu;</mi>" : "<mi>&tau;</mi>", tau = symbol("tau_R");
+  const auto named = [&](const std::string& name) {
+    return name == "value" ? piece : symbol(name);
+  };
+  const std::string value = expr::mathml(formula.value, named),
+                    combine = expr::mathml(formula.combine, named);
+  if (combine == piece) return "<math><mtable>" + equation(tau, value) + "</mtable></math>";
+  return "<math><mtable columnalign=\"left\">" + equation(piece, value) + equation(tau, combine) +
+         "</mtable></math>";
+}
+
+} // namespace
+
+std::string formula_html(const models::Model& model) {
+  const models::Law& law = *model.law;
   if (!models::is_registered(law) && law.base.empty())
     if (const auto set = as_mathml(law.formula)) return *set;
+  if (const auto set = tree_as_mathml(model)) return *set;
   return svg::escape(law.formula);
 }
 

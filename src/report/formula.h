@@ -7,8 +7,9 @@
 
 namespace frictab::report {
 
-// Writes a user's own law as MathML, one line for the formula and one for each of its parts; for
-// other laws their own text. Safe for HTML.
-std::string formula_html(const models::Law& law);
+// Writes a law as MathML: a user's own with one line for the formula and one for each of its parts,
+// a registered one as the piece that tables sample and tau_R made from it. Trained laws and very
+// long formulas as their own text. Safe for HTML.
+std::string formula_html(const models::Model& model);
 
 } // namespace frictab::report

@@ -63,6 +63,23 @@ svg::Density residual_cells(const ReportInput& input, std::size_t law, const Plo
                   frame.residual, wide, square);
 }
 
+// Share of the rows per MPa, for each row of cells, smoothed over its neighbours by 1:2:1.
+std::vector<double> residual_density(const svg::Density& cells, const svg::Axis& axis) {
+  std::vector<double> sums(cells.ny);
+  double rows = 0;
+  for (std::size_t i = 0; i < cells.counts.size(); ++i) {
+    sums[i / cells.nx] += cells.counts[i];
+    rows += cells.counts[i];
+  }
+  const double cell_MPa = (axis.high - axis.low) / static_cast<double>(cells.ny);
+  const double per_MPa = 1 / (4 * std::max(rows, 1.0) * cell_MPa);
+  std::vector<double> density;
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    density.push_back(per_MPa * ((i > 0 ? sums[i - 1] : 0) + 2 * sums[i] +
+                                 (i + 1 < sums.size() ? sums[i + 1] : 0)));
+  return density;
+}
+
 std::string beyond(std::size_t outside, std::size_t rows, const char* plot) {
   if (outside == 0) return "";
   const double percent = 100 * static_cast<double>(outside) / static_cast<double>(rows);
@@ -156,10 +173,13 @@ PlotFrame plot_frame(const ReportInput& input) {
   frame.residual =
       svg::nice_axis(residual.low, residual.high, 9, "measured \u2212 predicted / MPa");
   std::uint32_t largest = 1;
-  for (std::size_t law = 0; law < input.predicted.size(); ++law)
-    for (const svg::Density& cells :
-         {predicted_cells(input, law, frame), residual_cells(input, law, frame)})
+  for (std::size_t law = 0; law < input.predicted.size(); ++law) {
+    const svg::Density residual_counts = residual_cells(input, law, frame);
+    for (const svg::Density& cells : {predicted_cells(input, law, frame), residual_counts})
       largest = std::max(largest, *std::max_element(cells.counts.begin(), cells.counts.end()));
+    for (const double density : residual_density(residual_counts, frame.residual))
+      frame.densest_per_MPa = std::max(frame.densest_per_MPa, density);
+  }
   frame.classes = svg::count_classes(largest, colour_classes);
   return frame;
 }
@@ -185,6 +205,10 @@ LawPlots law_plots(const ReportInput& input, std::size_t law, const PlotFrame& f
   right.line(band.x, band.low, {line_colour, 1.6, "5 3", true});
   right.line(band.x, band.high, {line_colour, 1.6, "5 3", true});
   right.line(band.x, band.median, {line_colour, 2.2, "", true});
+
+  if (frame.densest_per_MPa > 0)
+    right.density_beside(residual_density(right_cells, frame.residual), frame.densest_per_MPa,
+                         "density");
 
   const calibrate::Metrics& v = input.calibration.fits[law].validation;
   const std::string figures_text =

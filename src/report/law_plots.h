@@ -15,6 +15,7 @@ struct PlotFrame {
   svg::Axis measured;
   svg::Axis residual;
   std::vector<std::uint32_t> classes; // lower bounds of counts per cell
+  double densest_per_MPa = 0;         // largest density of residuals of any law
 };
 
 struct LawPlots {

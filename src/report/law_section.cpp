@@ -1,4 +1,5 @@
-// Draws the best law as lines over the contact normal stress, with the validation rows.
+// Draws laws as lines over the contact normal stress, with the rows they are
+// judged by: all laws in one plot, then the best one by each of its inputs.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "report/state_plots.h"
 #include "report/svg.h"
 #include "words/numbers.h"
+#include "words/published.h"
 
 namespace frictab::report {
 
@@ -26,14 +28,13 @@ struct DrawnLaw {
   models::AssembledLaw law;
   expr::Program program;
   std::vector<std::vector<double>> sorted; // finite values per input
-  std::size_t sigma = 0;                   // index of the normal stress among the inputs
+  std::size_t sigma = 0;                   // index of the normal stress among the inputs; their
+                                           // number: none of them
 };
 
-std::optional<DrawnLaw> drawn_law(const ReportInput& input) {
-  const calibrate::ModelFit& fit = calibrate::best_fit(input.calibration);
+std::optional<DrawnLaw> drawn_law(const ReportInput& input, const calibrate::ModelFit& fit) {
   models::AssembledLaw law(fit.model);
   const auto at = std::find(law.inputs.begin(), law.inputs.end(), abscissa_name);
-  if (at == law.inputs.end()) return std::nullopt;
   if (!calibrate::missing_inputs(law.inputs, input.validation).empty()) return std::nullopt;
   const auto sigma = static_cast<std::size_t>(at - law.inputs.begin());
   const calibrate::InputColumns columns =
@@ -56,7 +57,7 @@ std::vector<double> tau_over(const DrawnLaw& drawn, const std::vector<double>& x
   for (std::size_t i = 0; i < drawn.sorted.size(); ++i)
     row.push_back(quantile(drawn.sorted[i], i == other ? share : 0.5));
   for (const double sigma : x) {
-    row[drawn.sigma] = sigma;
+    if (drawn.sigma < row.size()) row[drawn.sigma] = sigma;
     tau.push_back(drawn.program(row, {}));
   }
   return tau;
@@ -142,13 +143,18 @@ std::string draw_levels(svg::Plot& plot, const std::vector<Level>& levels,
                      (at_low ? median : high).value);
 }
 
+std::vector<double> evenly(std::pair<double, double> range) {
+  std::vector<double> x;
+  for (std::size_t i = 0; i < line_points; ++i)
+    x.push_back(range.first + (range.second - range.first) * static_cast<double>(i) /
+                                  static_cast<double>(line_points - 1));
+  return x;
+}
+
 words::Picture panel(const ReportInput& input, const DrawnLaw& drawn, std::size_t other,
                      const svg::Axis& x_axis, const svg::Axis& y_axis) {
   const auto& sigma = drawn.sorted[drawn.sigma];
-  std::vector<double> x;
-  for (std::size_t i = 0; i < line_points; ++i)
-    x.push_back(sigma.front() + (sigma.back() - sigma.front()) * static_cast<double>(i) /
-                                    static_cast<double>(line_points - 1));
+  const std::vector<double> x = evenly({sigma.front(), sigma.back()});
   svg::Plot plot(340, 200, x_axis, y_axis);
   draw_rows(plot, input, x_axis, y_axis);
   const std::vector<Level> levels = levels_of(drawn, x, other);
@@ -165,7 +171,81 @@ words::Picture panel(const ReportInput& input, const DrawnLaw& drawn, std::size_
           what + lines};
 }
 
+// ---- all laws ----
+
+struct LawLine {
+  std::vector<double> tau;
+  std::string names; // of all laws that this line stands for
+  svg::Stroke stroke;
+};
+
+// Constants of the literature are grey and thin; the best law is thick.
+svg::Stroke line_style(const models::Law& law, std::size_t place) {
+  constexpr const char* colours[] = {"#c2410c", "#1d5491", "#0f766e", "#7e22ce",
+                                     "#a16207", "#be185d", "#4d7c0f", "#0e7490"};
+  constexpr const char* dashes[] = {"", "7 3", "2 3"};
+  if (words::kind_of(law) == words::LawKind::literature) return {"#6b7580", 1.2, "4 3", true};
+  return {colours[place % std::size(colours)], place == 0 ? 2.6 : 1.5,
+          dashes[place / std::size(colours) % std::size(dashes)], true};
+}
+
+// A law whose line coincides with one that is drawn already adds its name to that.
+void add_line(std::vector<LawLine>& lines, const svg::Plot& plot, LawLine line) {
+  for (LawLine& drawn : lines)
+    if (plot.one_line(drawn.tau, line.tau)) {
+      drawn.names += ", " + line.names;
+      return;
+    }
+  lines.push_back(std::move(line));
+}
+
+words::Picture all_laws_picture(const ReportInput& input, std::pair<double, double> sigma,
+                                const svg::Axis& x_axis, const svg::Axis& y_axis) {
+  svg::Plot plot(620, 320, x_axis, y_axis);
+  draw_rows(plot, input, x_axis, y_axis);
+  const std::vector<double> x = evenly(sigma);
+  std::vector<LawLine> lines;
+  const auto& fits = input.calibration.fits;
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    if (const auto drawn = drawn_law(input, fits[i]))
+      add_line(lines, plot,
+               {tau_over(*drawn, x, drawn->sigma, 0.5), fits[i].model.law->name,
+                line_style(*fits[i].model.law, i)});
+  std::vector<svg::EndLabel> names;
+  for (std::size_t i = lines.size(); i-- > 0;) { // the best on top
+    plot.line(x, lines[i].tau, lines[i].stroke);
+    names.push_back({std::clamp(lines[i].tau.back(), y_axis.low, y_axis.high), lines[i].names,
+                     lines[i].stroke.colour});
+  }
+  plot.labels_beside(x.back(), names);
+  return {plot.text("all laws over contact normal stress, with the data",
+                    "One line per law at the medians of its other inputs; shades: rows"),
+          {}};
+}
+
 } // namespace
+
+words::Section all_laws_with_data(const ReportInput& input) {
+  words::Section section{"laws", "All laws", {}};
+  const data::Dataset& data = input.validation;
+  if (input.calibration.fits.empty() || !data.has(abscissa_name) || !data.has("tau_R_MPa") ||
+      data.rows() == 0)
+    return section;
+  const auto tau = span_of(data.values("tau_R_MPa"));
+  const auto sigma = span_of(data.values(abscissa_name));
+  if (!tau || !sigma) return section;
+  section.title = "All laws over the contact normal stress, with the data";
+  section.say("Lines: " + words::symbol("tau_R") + " of each law over " + words::symbol("sigma_N") +
+              " at the medians of its other inputs; constants of the literature in grey; laws on "
+              "one line share it. Shades: all rows the laws are judged by, at all values of their "
+              "inputs. Other states, maps and single tests: " +
+              words::link("explore.html", "./explore.html") + ".");
+  const svg::Axis x = svg::nice_axis(sigma->first, sigma->second, 6, axis_name(abscissa_name));
+  const svg::Axis y =
+      svg::nice_axis(std::min(0.0, tau->first), tau->second, 6, axis_name("tau_R_MPa"));
+  section.add(words::Pictures{"scroll wide", {all_laws_picture(input, *sigma, x, y)}});
+  return section;
+}
 
 words::Section best_law_with_data(const ReportInput& input) {
   words::Section section{"law", "The law", {}};
@@ -173,10 +253,10 @@ words::Section best_law_with_data(const ReportInput& input) {
   if (input.calibration.fits.empty() || !data.has(abscissa_name) || !data.has("tau_R_MPa") ||
       data.rows() == 0)
     return section;
-  const auto drawn = drawn_law(input);
+  const auto drawn = drawn_law(input, calibrate::best_fit(input.calibration));
   const auto tau = span_of(data.values("tau_R_MPa"));
   const auto sigma = span_of(data.values(abscissa_name));
-  if (!drawn || !tau || !sigma) return section;
+  if (!drawn || !tau || !sigma || drawn->sigma == drawn->sorted.size()) return section;
   section.title = "The law with the data: " + drawn->law.model.law->name;
   section.say(words::symbol("tau_R") + " over " + words::symbol("sigma_N") +
               ", one plot for each other input of the law. Lines: the law with that input low "

@@ -119,7 +119,7 @@ words::Section law_against_measurement(const ReportInput& input, std::size_t i,
   section.foldable = true;
   section.open = i == 0;
   section.say(law.title + ".");
-  section.add(words::Pictures{"formula", {{formula_html(law)}}});
+  section.add(words::Pictures{"scroll formula", {{formula_html(fit.model)}}});
   section.add(words::Pictures{"pair", {{plots.predicted}, {plots.residual}}});
   section.say(plots.note, "small");
   // Errors of constants of the literature do not depend on a single state.
@@ -138,14 +138,20 @@ words::Section each_law(const ReportInput& input) {
     return section;
   }
   const PlotFrame frame = plot_frame(input);
-  section.say(
-      words::judged_words(input.calibration.judged_by).plotted +
-      ". The same axes and colours for all laws. Left: a good law follows the line. Right, "
-      "and below over each state (not for constants of the literature): a good law leaves a "
-      "narrow band around zero, without trend. Residuals stand over the prediction and the "
-      "states, not over the measurement: its noise alone would tilt every law. The residual "
-      "axis holds 99 % of the rows of each calibrated law. Rows are counted in cells; each "
-      "point of the running lines stands for at least 20 rows.");
+  section.say(words::judged_words(input.calibration.judged_by).plotted +
+              ". The same axes and colours for all laws. Left: a good law "
+              "follows the line. Right, "
+              "and below over each input (not for constants of the "
+              "literature): a good law leaves a "
+              "narrow band around zero, without trend. At the right edge: the "
+              "probability density of the "
+              "residual, on one scale for all laws. Residuals stand over the "
+              "prediction and the "
+              "states, not over the measurement: its noise alone would tilt "
+              "every law. The residual "
+              "axis holds 99 % of the rows of each calibrated law. Rows are "
+              "counted in cells; each "
+              "point of the running lines stands for at least 20 rows.");
   section.add(words::Pictures{"legends", {{plot_legend(frame)}}});
   for (std::size_t i = 0; i < input.calibration.fits.size(); ++i)
     section.add(law_against_measurement(input, i, frame));

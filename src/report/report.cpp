@@ -5,11 +5,15 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "core/version.h"
+#include "io/json.h"
 #include "report/page.h"
 #include "report/sections.h"
 #include "words/answer.h"
 #include "words/data.h"
+#include "words/drift.h"
 #include "words/laws.h"
 #include "words/render.h"
 #include "words/tables.h"
@@ -70,19 +74,26 @@ Section drift_with_details(const ReportInput& input) {
   return section;
 }
 
-Section in_short(const ReportInput& input) {
-  return words::in_short({&input.calibration,
-                          input.verification.records.empty() ? nullptr : &input.verification,
-                          input.traces,
-                          {}}); // times of forms differ from run to run
+words::Answers answers_of(const ReportInput& input) {
+  return {&input.calibration,
+          input.verification.records.empty() ? nullptr : &input.verification,
+          input.traces,
+          input.tables,
+          input.training.cautions,
+          input.job};
 }
 
 } // namespace
 
 std::string report_html(const ReportInput& input) {
-  Page page{words::shown_path(input.title), "Friction report", {}, in_short(input), {}};
+  Page page{words::shown_path(input.title),
+            "Friction report",
+            {},
+            words::in_short(answers_of(input)),
+            {}};
   if (input.calibration.synthetic) page.warnings.push_back(synthetic_warning());
   page.sections = {ranking_with_bars(input),
+                   all_laws_with_data(input),
                    words::comparison(input.calibration),
                    words::all_errors(input.calibration),
                    errors_by_test(input),
@@ -115,16 +126,26 @@ Section markdown_page(const std::string& title, bool synthetic, std::vector<Sect
 } // namespace
 
 std::string report_md(const ReportInput& input) {
-  std::vector<Section> sections = {in_short(input), words::data_read(data_of(input), Detail::brief),
-                                   words::ranking(input.calibration),
-                                   words::drift(input.verification, Detail::brief),
-                                   words::tables(input.tables)};
+  std::vector<Section> sections = {
+      words::in_short(answers_of(input)), words::data_read(data_of(input), Detail::brief),
+      words::ranking(input.calibration), words::drift(input.verification, Detail::brief),
+      words::tables(input.tables)};
   for (const trace::Trace& trace : input.traces)
     sections.push_back(words::trace(trace, Detail::brief));
   sections.push_back(words::wiring(input.recipes, Detail::brief));
   return words::as_markdown(markdown_page("Friction report: " + input.title,
                                           input.calibration.synthetic, std::move(sections)),
                             1);
+}
+
+std::string report_json(const ReportInput& input) {
+  nlohmann::ordered_json j = {{"schema", "frictab/summary/1"},
+                              {"tool_version", tool_version()},
+                              {"data_hash", input.calibration.data_hash},
+                              {"synthetic_data", input.calibration.synthetic},
+                              {"campaign", input.title}};
+  words::add_answers(j, answers_of(input));
+  return io::json_text(j);
 }
 
 std::string benchmark_md(const calibrate::Calibration& calibration) {

@@ -17,6 +17,7 @@ namespace frictab::report {
 
 struct ReportInput {
   std::string title; // the campaign's name
+  std::string job;   // file name of the job
   const calibrate::Calibration& calibration;
   const data::Dataset& training;
   const data::Dataset& validation;
@@ -35,8 +36,11 @@ struct ReportInput {
 // residual against predicted tau_R with density per law (inline SVG), parameters, tables, drift.
 std::string report_html(const ReportInput& input);
 
-// Writes a short version as Markdown, to be pasted into a ticket: ranking, drift, traced effects,
-// wiring, remarks.
+// Returns the answers of the first box as JSON: summary.json.
+std::string report_json(const ReportInput& input);
+
+// Writes a short version as Markdown, to be pasted into a ticket: ranking,
+// drift, traced effects, wiring, remarks.
 std::string report_md(const ReportInput& input);
 
 // Writes all that a calibration found, as Markdown.

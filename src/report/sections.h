@@ -10,6 +10,7 @@ namespace frictab::report {
 
 words::Section ranking_with_bars(const ReportInput& input);
 words::Section errors_by_test(const ReportInput& input);
+words::Section all_laws_with_data(const ReportInput& input); // Fig. 1 of the paper it follows
 words::Section best_law_with_data(const ReportInput& input);
 words::Section strokes(const ReportInput& input);
 words::Section traces_with_plots(const ReportInput& input);

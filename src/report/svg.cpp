@@ -83,6 +83,31 @@ std::size_t labelled_ticks(const Axis& axis, double width) {
   return static_cast<std::size_t>(std::ceil((widest_tick(axis) + digit) / room));
 }
 
+// The same for names, which need the height of a line.
+std::size_t named_ticks(const Axis& axis, double width) {
+  constexpr double line = 14;
+  return static_cast<std::size_t>(std::ceil(line * static_cast<double>(axis.names.size()) / width));
+}
+
+// Room below the drawing area: for slanted names as long as the longest of them, up to 24 letters.
+constexpr std::size_t longest_name = 24;
+double room_below(const Axis& axis) {
+  std::size_t longest = 0;
+  for (const std::string& name : axis.names)
+    longest = std::max(longest, std::min(characters(name), longest_name));
+  return bottom + (axis.names.empty() ? 0 : 0.64 * digit * static_cast<double>(longest));
+}
+
+// Ends at the point, rising to it.
+std::string slanted_label(double x, double y, const std::string& name) {
+  const std::string shown = characters(name) > longest_name
+                                ? std::string(utf8_start(name, longest_name)) + "\u2026"
+                                : name;
+  return fmt::format("<text text-anchor=\"end\" transform=\"translate({} {}) "
+                     "rotate(-40)\">{}</text>",
+                     pixel(x + 4), pixel(y), escape(shown));
+}
+
 // Returns one path per class: runs of neighbouring cells of a row are one rectangle.
 std::string runs_of_class(const Density& d, std::uint32_t from, std::uint32_t to) {
   std::string path;
@@ -111,17 +136,11 @@ std::string pixel(double value) {
   return text == "-0" ? "0" : text;
 }
 
-Axis nice_axis(double low, double high, int wanted, std::string label) {
+namespace {
+
+// low < high. A step is 1, 2 or 5 times a power of ten.
+Axis axis_with_ticks(double low, double high, int wanted) {
   Axis axis;
-  axis.label = std::move(label);
-  if (!std::isfinite(low)) low = 0;
-  if (!std::isfinite(high)) high = low + 1;
-  if (high < low) std::swap(low, high);
-  const double size = std::max({std::abs(low), std::abs(high), 1e-12});
-  if (high - low < 1e-9 * size) {
-    low -= 0.5 * size;
-    high += 0.5 * size;
-  }
   const double rough = (high - low) / std::max(wanted, 1);
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
   double step = 10 * power;
@@ -134,7 +153,46 @@ Axis nice_axis(double low, double high, int wanted, std::string label) {
     axis.ticks.push_back(i * step);
   axis.low = axis.ticks.front();
   axis.high = axis.ticks.back();
+  constexpr double far = 0.1, near = 1.0 / 30;
+  const double range = high - low;
+  if (low - axis.low > far * range) {
+    axis.low = low - near * range;
+    axis.ticks.erase(axis.ticks.begin());
+  }
+  if (axis.high - high > far * range) {
+    axis.high = high + near * range;
+    axis.ticks.pop_back();
+  }
   axis.decimals = std::clamp(-static_cast<int>(std::floor(std::log10(step) + 1e-9)), 0, 12);
+  return axis;
+}
+
+} // namespace
+
+Axis nice_axis(double low, double high, int wanted, std::string label) {
+  if (!std::isfinite(low)) low = 0;
+  if (!std::isfinite(high)) high = low + 1;
+  if (high < low) std::swap(low, high);
+  const double size = std::max({std::abs(low), std::abs(high), 1e-12});
+  if (high - low < 1e-9 * size) {
+    low -= 0.5 * size;
+    high += 0.5 * size;
+  }
+  Axis axis = axis_with_ticks(low, high, wanted);
+  for (int more = wanted + 1; axis.ticks.size() < 2; ++more) // two ticks show a scale
+    axis = axis_with_ticks(low, high, more);
+  axis.label = std::move(label);
+  return axis;
+}
+
+Axis named_axis(std::vector<std::string> names, std::string label) {
+  Axis axis;
+  axis.low = -0.6;
+  axis.high = static_cast<double>(std::max<std::size_t>(names.size(), 1)) - 0.4;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    axis.ticks.push_back(static_cast<double>(i));
+  axis.names = std::move(names);
+  axis.label = std::move(label);
   return axis;
 }
 
@@ -259,6 +317,28 @@ void Plot::dots(std::span<const double> x, std::span<const double> y,
   body_ += "</g>";
 }
 
+void Plot::error_bars(std::span<const double> x, std::span<const double> y,
+                      std::span<const double> error, std::string_view colour) {
+  std::string path;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (std::isfinite(x[i]) && std::isfinite(y[i]) && std::isfinite(error[i]))
+      path += fmt::format("M{} {}V{}", pixel(pixel_x(x[i])), pixel(pixel_y(y[i] - error[i])),
+                          pixel(pixel_y(y[i] + error[i])));
+  if (!path.empty())
+    body_ += fmt::format("\n<path fill=\"none\" stroke=\"{}\" d=\"{}\"/>", colour, path);
+}
+
+void Plot::density_beside(std::span<const double> share, double most, std::string_view label) {
+  constexpr double width = 64, gap = 6;
+  const double x0 = left_ + width_ + gap, step = height_ / static_cast<double>(share.size());
+  std::string path = fmt::format("M{} {}", pixel(x0), pixel(top));
+  for (std::size_t i = 0; i < share.size(); ++i)
+    path += fmt::format("H{}v{}", pixel(x0 + width * std::min(share[i] / most, 1.0)), pixel(step));
+  beside_ += fmt::format("\n<path class=\"density\" d=\"{}H{}z\"/>", path, pixel(x0)) +
+             label_at(x0 + width / 2, top + height_ + 36, "middle", label);
+  right_ = std::max(right_, gap + width + 4);
+}
+
 void Plot::label(double x, double y, std::string_view text, std::string_view colour) {
   constexpr double letter = 6; // about the width of a letter
   const bool fits = pixel_x(x) > letter * static_cast<double>(text.size());
@@ -296,12 +376,15 @@ void Plot::labels_beside(double x, std::vector<EndLabel> labels) {
 
 std::string Plot::axes() const {
   std::string grid, labels;
-  const std::size_t every = labelled_ticks(x_, width_);
+  const std::size_t every = x_.names.empty() ? labelled_ticks(x_, width_) : named_ticks(x_, width_);
   for (std::size_t i = 0; i < x_.ticks.size(); ++i) {
     const double x = left_ + pixel_x(x_.ticks[i]);
-    grid += fmt::format("M{} {}v{}", pixel(x), pixel(top), pixel(height_ + 4));
-    if (i % every == 0)
-      labels += label_at(x, top + height_ + 17, "middle", tick_label(x_, x_.ticks[i]));
+    if (x_.names.empty() || i % every == 0)
+      grid += fmt::format("M{} {}v{}", pixel(x), pixel(top), pixel(height_ + 4));
+    if (i % every != 0) continue;
+    labels += x_.names.empty()
+                  ? label_at(x, top + height_ + 17, "middle", tick_label(x_, x_.ticks[i]))
+                  : slanted_label(x, top + height_ + 14, x_.names[i]);
   }
   for (const double tick : y_.ticks) {
     const double y = top + pixel_y(tick);
@@ -313,12 +396,14 @@ std::string Plot::axes() const {
                      "<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>"
                      "<text class=\"label\" text-anchor=\"middle\" "
                      "transform=\"translate(14 {}) rotate(-90)\">{}</text>\n",
-                     grid, labels, pixel(left_ + width_ / 2), pixel(top + height_ + 36),
-                     axis_label(x_.label), pixel(middle), axis_label(y_.label));
+                     grid, labels, pixel(left_ + width_ / 2),
+                     pixel(top + height_ + room_below(x_) - 10), axis_label(x_.label),
+                     pixel(middle), axis_label(y_.label));
 }
 
 std::string Plot::text(std::string_view title, std::string_view description) const {
-  return begin_svg(left_ + width_ + right_, top + height_ + bottom, "plot", title, description) +
+  return begin_svg(left_ + width_ + right_, top + height_ + room_below(x_), "plot", title,
+                   description) +
          "\n" + axes() +
          fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">{}</svg>\n"
                      "<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>{}</svg>",

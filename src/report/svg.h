@@ -23,15 +23,20 @@ struct Axis {
   double low = 0;
   double high = 1;
   std::vector<double> ticks;
-  int decimals = 0; // decimals of the ticks' labels
-  // Letters after "_" are a subscript to a Greek letter, "\u03C4_R / MPa", and to one letter where
-  // a unit follows, "v_rel / (mm/s)".
+  std::vector<std::string> names; // of the ticks, in place of numbers; slanted below the axis
+  int decimals = 0;               // decimals of the ticks' labels
+  // Letters after "_" are a subscript to a Greek letter, "\u03C4_R / MPa", and
+  // to one letter where a unit follows, "v_rel / (mm/s)".
   std::string label;
 };
 
-// Moves low and high outwards to ticks, about `wanted` of them. If one is not finite, or both are
+// Moves low and high outwards to ticks, about `wanted` of them; an end that a tick would move by
+// more than a tenth of the range moves by a thirtieth instead. If one is not finite, or both are
 // equal, the axis surrounds the value that is known.
 Axis nice_axis(double low, double high, int wanted, std::string label);
+
+// One tick per name, at 0, 1, 2, ...
+Axis named_axis(std::vector<std::string> names, std::string label);
 
 // Tick label with the axis' decimals and a proper minus sign.
 std::string tick_label(const Axis& axis, double tick);
@@ -87,8 +92,16 @@ public:
   void dots(std::span<const double> x, std::span<const double> y, std::span<const std::string> text,
             double size, std::string_view colour, bool rings = false);
 
-  // Writes a short text above a point of the drawing area, where it ends; a text that would not fit
-  // starts at the point.
+  // Draws vertical bars of half height `error` about points.
+  void error_bars(std::span<const double> x, std::span<const double> y,
+                  std::span<const double> error, std::string_view colour);
+
+  // Draws, to the right of the drawing area, how often values of the vertical axis occur: one entry
+  // of `share` per even part of the axis from the top, `most` as wide as the strip.
+  void density_beside(std::span<const double> share, double most, std::string_view label);
+
+  // Writes a short text above a point of the drawing area, where it ends; a
+  // text that would not fit starts at the point.
   void label(double x, double y, std::string_view text, std::string_view colour);
 
   // Whether two lines over the same x coincide in the plot: nowhere a pixel apart.

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include "calibrate/input_columns.h"
-#include "core/text.h"
 #include "report/law_plots.h"
 #include "report/sections.h"
 #include "report/state_plots.h"
 #include "words/judged.h"
+#include "words/numbers.h"
 #include "words/trace.h"
 
 namespace frictab::report {
@@ -30,6 +30,13 @@ void draw_cloud(svg::Plot& plot, Values x, Values y, const svg::Axis& x_axis,
   plot.density(cells, svg::count_classes(most, 6));
 }
 
+double mean_of(Values values) {
+  double sum = 0;
+  for (const double value : values)
+    sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
 struct Cloud {
   Values x, y;
 };
@@ -45,6 +52,68 @@ std::string residual_plot(const Cloud& cloud, const svg::Axis& x_axis, const svg
   plot.line(band.x, band.low, {"#c2410c", 1, "4 3", true});
   plot.line(band.x, band.high, {"#c2410c", 1, "4 3", true});
   return plot.text(title, "density of rows, with running median and 10 and 90 % quantiles");
+}
+
+// ---- effects between tests: one dot per test ----
+
+struct TestPoints {
+  std::vector<double> x, residual, error;
+  std::vector<std::string> text;
+};
+
+// Standard error of the mean of one test's rows, from the means of its eighths:
+// rows next to each other are not independent.
+double error_of_mean(Values rows) {
+  constexpr std::size_t parts = 8;
+  if (rows.size() < parts) return 0;
+  std::vector<double> means;
+  for (std::size_t i = 0; i < parts; ++i) {
+    const std::size_t first = i * rows.size() / parts, end = (i + 1) * rows.size() / parts;
+    const Values part = rows.subspan(first, end - first);
+    means.push_back(mean_of(part));
+  }
+  const double middle = mean_of(means);
+  double squares = 0;
+  for (const double mean : means)
+    squares += (mean - middle) * (mean - middle);
+  return std::sqrt(squares / (parts * (parts - 1)));
+}
+
+TestPoints test_points(const data::Dataset& data, Values x, Values residual) {
+  TestPoints points;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
+    const Values r = residual.subspan(first, rows);
+    points.x.push_back(mean_of(x.subspan(first, rows)));
+    points.residual.push_back(mean_of(r));
+    points.error.push_back(error_of_mean(r));
+    points.text.push_back(fmt::format("{}: residual {} +- {} MPa at {}", data.experiments[e],
+                                      words::figures(points.residual.back()),
+                                      words::figures(points.error.back(), 2),
+                                      words::short_figures(points.x.back())));
+  }
+  return points;
+}
+
+svg::Axis axis_of(const TestPoints& points) {
+  double low = 0, high = 0;
+  for (std::size_t i = 0; i < points.residual.size(); ++i)
+    if (std::isfinite(points.residual[i])) {
+      low = std::min(low, points.residual[i] - points.error[i]);
+      high = std::max(high, points.residual[i] + points.error[i]);
+    }
+  return svg::nice_axis(low, high, 5, "mean residual / MPa");
+}
+
+std::string tests_plot(const TestPoints& points, const svg::Axis& x_axis, const svg::Axis& y_axis,
+                       const std::string& title) {
+  svg::Plot plot(plot_width, plot_height, x_axis, y_axis);
+  const double ends[] = {x_axis.low, x_axis.high}, zero[] = {0, 0};
+  plot.line(ends, zero, {"#222", 1, "", false});
+  plot.error_bars(points.x, points.residual, points.error, "#6595c4");
+  plot.dots(points.x, points.residual, points.text, points.x.size() > 60 ? 2.5 : 3.5, "#1d5491");
+  return plot.text(title, "one dot per test, named under the pointer, with the standard error of "
+                          "its mean");
 }
 
 std::string curve_plot(const trace::TracedEffect& effect, const svg::Axis& x_axis) {
@@ -96,18 +165,25 @@ std::string effect_plots(const ReportInput& input, const trace::Trace& trace,
   const auto r0 = residuals(measured, input.predicted[before]);
   const auto r1 = residuals(measured, input.predicted[after]);
   const auto [low, high] = std::minmax_element(x.begin(), x.end());
-  std::string label = axis_name(input_of_effect.column);
-  if (effect.placed.form->categorical)
-    label += " (0 = " + join(input_of_effect.levels, ", ...") + ")";
-  const svg::Axis x_axis = svg::nice_axis(std::min(*low, input_of_effect.low),
-                                          std::max(*high, input_of_effect.high), 5, label);
+  const std::string label = axis_name(input_of_effect.column);
+  const svg::Axis x_axis = effect.placed.form->categorical
+                               ? svg::named_axis(input_of_effect.levels, label)
+                               : svg::nice_axis(std::min(*low, input_of_effect.low),
+                                                std::max(*high, input_of_effect.high), 5, label);
+  const std::string on = ", " + words::judged_words(input.calibration.judged_by).trace;
+  const std::string before_title = "residual before" + on, after_title = "residual after" + on;
+  if (effect.between) {
+    const TestPoints without = test_points(input.validation, x, r0);
+    const svg::Axis means = axis_of(without);
+    return tests_plot(without, x_axis, means, before_title) + curve_plot(effect, x_axis) +
+           tests_plot(test_points(input.validation, x, r1), x_axis, means, after_title);
+  }
   std::vector<double> sorted = r0;
   std::sort(sorted.begin(), sorted.end());
   const svg::Axis y_axis =
       svg::nice_axis(quantile(sorted, 0.005), quantile(sorted, 0.995), 5, "residual / MPa");
-  const std::string on = ", " + words::judged_words(input.calibration.judged_by).trace;
-  return residual_plot({x, r0}, x_axis, y_axis, "residual before" + on) +
-         curve_plot(effect, x_axis) + residual_plot({x, r1}, x_axis, y_axis, "residual after" + on);
+  return residual_plot({x, r0}, x_axis, y_axis, before_title) + curve_plot(effect, x_axis) +
+         residual_plot({x, r1}, x_axis, y_axis, after_title);
 }
 
 } // namespace

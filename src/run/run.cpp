@@ -72,7 +72,7 @@ const std::vector<Stage>& all_stages() {
        .run = verify_tables},
       {.name = "report",
        .needs = {"calibrate", "tabulate"},
-       .results = {"report.html", "report.md"},
+       .results = {"report.html", "explore.html", "report.md", "summary.json"},
        .run = write_report}};
   return all;
 }

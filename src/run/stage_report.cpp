@@ -1,9 +1,10 @@
-// Stage report: writes report.html and report.md from all existing results.
+// Stage report: writes report.html, explore.html, report.md and summary.json from all results.
 #include <algorithm>
 #include <filesystem>
 
 #include "calibrate/experiment_errors.h"
 #include "io/file_streams.h"
+#include "report/explore.h"
 #include "report/report.h"
 #include "run/law_accuracy.h"
 #include "run/stage_functions.h"
@@ -52,9 +53,10 @@ void write_report(Run& run) {
   for (const Table& table : run.tables)
     sizes.push_back(verify::form_sizes(law_of(run, table), table));
   std::vector<std::string> written = run.workspace.files();
-  written.insert(written.end(), {"report.html", "report.md"});
+  written.insert(written.end(), {"report.html", "explore.html", "report.md", "summary.json"});
   const report::ReportInput input{
       campaign_name(run.job.file),
+      fs::path(run.job.file).filename().string(),
       *run.calibration,
       run.data->training,
       run.data->judged(),
@@ -67,7 +69,9 @@ void write_report(Run& run) {
       calibrate::errors_by_experiment(*run.calibration, run.data->training, run.data->judged()),
       recipes_of(run)};
   run.workspace.write("report.html", report::report_html(input));
+  run.workspace.write("explore.html", report::explore_html(input));
   run.workspace.write("report.md", report::report_md(input));
+  run.workspace.write("summary.json", report::report_json(input));
   run.present.insert("report");
 }
 

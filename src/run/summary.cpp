@@ -11,8 +11,8 @@
 
 #include "core/text.h"
 #include "verify/forms.h"
-#include "words/answer.h"
 #include "words/data.h"
+#include "words/drift.h"
 #include "words/laws.h"
 #include "words/numbers.h"
 #include "words/render.h"
@@ -60,13 +60,23 @@ std::string next_step(const Run& run) {
 
 } // namespace
 
+words::Answers answers_of(const Run& run) {
+  static const std::vector<std::string> none;
+  return {run.calibration ? &*run.calibration : nullptr,
+          run.verification ? &*run.verification : nullptr,
+          run.traces,
+          run.tables,
+          run.data ? run.data->training.cautions : none,
+          run.job.file};
+}
+
 std::string summary_text(const Run& run, words::Detail detail) {
   std::vector<words::Section> sections;
   if (run.data)
     sections.push_back(words::data_read(
         {run.data->training, run.data->validation, run.data->judged_by}, words::Detail::brief));
   if (run.calibration) {
-    sections.push_back(words::ranking(*run.calibration));
+    sections.push_back(words::ranking(*run.calibration, detail));
     sections.push_back(words::conditional_use(*run.calibration));
   }
   for (const trace::Trace& trace : run.traces)
@@ -74,15 +84,14 @@ std::string summary_text(const Run& run, words::Detail detail) {
   if (!run.tables.empty()) sections.push_back(words::tables(run.tables));
   if (run.verification && !run.verification->records.empty())
     sections.push_back(words::drift(*run.verification, detail));
-  if (detail == words::Detail::brief)
-    sections.push_back(
-        words::in_short({run.calibration ? &*run.calibration : nullptr,
-                         run.verification ? &*run.verification : nullptr, run.traces, run.forms}));
+  if (detail == words::Detail::brief) sections.push_back(words::in_short(answers_of(run)));
   std::string out;
   for (const words::Section& section : sections)
     if (!section.blocks.empty()) out += words::as_text(section) + "\n";
   if (detail != words::Detail::brief && !run.forms.empty())
     out += verify::forms_text(run.forms) + "\n";
+  else if (const std::string tip = verify::forms_in_short(run.forms); !tip.empty())
+    out += "Tip: " + tip + "\n";
   const auto files = run.workspace.files();
   out += fmt::format("Wrote {} to {}: {}\n", words::count_of(files.size(), "file"),
                      run.job.directory, file_list(files));

@@ -4,9 +4,11 @@
 #include <string>
 
 #include "run/run.h"
-#include "words/drift.h"
+#include "words/answer.h"
 
 namespace frictab::run {
+
+words::Answers answers_of(const Run& run);
 
 // `brief` ends with the findings in a few lines; `full` has everything that the report has.
 std::string summary_text(const Run& run, words::Detail detail);

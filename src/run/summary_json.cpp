@@ -2,14 +2,11 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/calibration_file.h"
-#include "calibrate/noise_floor.h"
-#include "calibrate/recommended.h"
 #include "io/json.h"
 #include "run/summary.h"
 #include "table/beyond_data.h"
 #include "trace/trace_file.h"
 #include "verify/verify.h"
-#include "words/answer.h"
 #include "words/judged.h"
 #include "words/render.h"
 
@@ -58,12 +55,6 @@ std::string summary_json(const Run& run) {
   if (run.calibration)
     j["calibration"] =
         io::parse_json(calibrate::calibration_json(*run.calibration), "calibration.json");
-  if (run.calibration && !run.calibration->fits.empty()) {
-    const std::string& recommended = run.calibration->recommended.law;
-    j["best"] = calibrate::best_fit(*run.calibration).model.law->name;
-    j["recommended"] =
-        recommended.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(recommended);
-  }
   nlohmann::ordered_json tables = nlohmann::ordered_json::array();
   for (const table::Table& table : run.tables)
     tables.push_back(table_json(table));
@@ -75,9 +66,9 @@ std::string summary_json(const Run& run) {
                                 "trace.json");
   for (const verify::FormComparison& form : run.forms)
     j["forms"].push_back(form_json(form));
-  j["in_short"] = words::as_json(words::in_short({run.calibration ? &*run.calibration : nullptr,
-                                                  run.verification ? &*run.verification : nullptr,
-                                                  run.traces, run.forms}))["lines"];
+  const words::Answers answers = answers_of(run);
+  j["in_short"] = words::as_json(words::in_short(answers))["lines"];
+  words::add_answers(j, answers);
   j["directory"] = run.job.directory;
   j["files"] = run.workspace.files();
   return io::json_text(j);

@@ -39,7 +39,7 @@ words::Text verdict_text(const Plan& plan, const Tally& tally) {
   words::Text text =
       words::strong(name) +
       fmt::format(
-          " is best, or indistinguishable from the best, in {} campaigns that compare laws; "
+          " is best or statistically tied in {} campaigns that compare laws; "
           "it is best in {} of {}.",
           judged, thousands(law->best), thousands(law->campaigns));
   if (tally.counts.missing > 0)
@@ -50,7 +50,7 @@ words::Text verdict_text(const Plan& plan, const Tally& tally) {
 
 std::string size_sentence(const Plan& plan, const Tally& tally) {
   std::string text = fmt::format(
-      "{} campaigns: {}. {} tests, {} rows. Each was taken up to the stage {}.",
+      "{} campaigns: {}. {} tests, {} rows. Each campaign ran through the stage {}.",
       thousands(plan.keys.size()), counts_text(tally.counts), thousands(tally.experiments),
       thousands(tally.rows), stage_name(plan.study.stage));
   if (!plan.notes.empty())

@@ -167,8 +167,8 @@ void add_distance(Table& table, const models::AssembledLaw& law, const data::Dat
 
 std::string distance_text(const Table& table) {
   if (!table.record.share_far) return "";
-  return fmt::format("{:.0f} % of its range is far from every test: by more than a quarter of what "
-                     "the data span of one axis",
+  return fmt::format("{:.0f} % of the table extrapolates: no test within 1/4 of an axis' measured "
+                     "span",
                      100 * *table.record.share_far);
 }
 

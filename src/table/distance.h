@@ -52,8 +52,8 @@ private:
 // counts. Parallel; the same bytes on any number of threads.
 void add_distance(Table& table, const models::AssembledLaw& law, const data::Dataset& data);
 
-// "34 % of its range is far from every test: by more than a quarter of what the data span of one
-// axis"; empty if the share is not known.
+// "34 % of the table extrapolates: no test within 1/4 of an axis' measured span"; empty if the
+// share is not known.
 std::string distance_text(const Table& table);
 
 } // namespace frictab::table

@@ -146,8 +146,8 @@ std::string forms_in_short(const std::vector<FormComparison>& comparisons) {
     if (c.why_not.empty() && c.direct.ns_per_query <= c.table.ns_per_query)
       names.push_back(c.model);
   if (names.empty()) return "";
-  return join(names, ", ") + ": the law itself is faster than its table, and without drift: "
-                             "export.form = \"direct\"";
+  return "export.form = \"direct\": the formula of " + join(names, ", ") +
+         " is faster than the table, and exact";
 }
 
 namespace {

@@ -7,7 +7,6 @@
 #include "calibrate/judgement.h"
 #include "data/dataset.h"
 #include "words/document.h"
-#include "words/drift.h"
 
 namespace frictab::words {
 

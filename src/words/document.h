@@ -13,6 +13,9 @@
 
 namespace frictab::words {
 
+// brief: what a user has to know. full: everything that a page has. verbose: also coefficients.
+enum class Detail { brief, full, verbose };
+
 // plain; strong; emphasis; code; symbol: "tau_R", "sigma_N", "mu" as Greek letters with indices
 // where the medium has them; link: detail is the target; badge: detail is pass, fail or none.
 enum class Mark { plain, strong, emphasis, code, symbol, link, badge };

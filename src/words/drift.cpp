@@ -153,7 +153,7 @@ Section rows_outside(const Verification& verification) {
 
 // One item per law: drift of table and routines below the tested contact normal stresses.
 Section below_the_range(const Verification& verification) {
-  Section section{"", "", "Off the law below the tested contact normal stresses, MPa"};
+  Section section{"", "", "Deviation from the law below the tested contact normal stresses, MPa"};
   List list;
   for (const std::string& model : models_of(verification)) {
     std::optional<verify::BelowRange> table, routines;
@@ -318,29 +318,39 @@ Section drift(const Verification& verification, Detail detail) {
   return section;
 }
 
-Text drift_in_short(const Verification& verification) {
-  if (verification.records.empty()) return {};
-  LawDrift all;
-  Text not_ok;
-  bool proven = true;
-  double bound = 0;
+Drift largest_drift(const Verification& verification) {
+  double found = 0, bound = 0;
+  Drift drift;
   for (const std::string& model : models_of(verification)) {
     const LawDrift law = drift_of(verification, model);
-    all.table = larger(all.table, law.table);
-    all.routines = larger(all.routines, law.routines);
-    all.count += law.count;
-    proven = proven && law.proven_MPa;
+    found = larger(found, law.table);
     bound = std::max(bound, law.proven_MPa.value_or(0));
+    drift.proven = drift.proven && law.proven_MPa;
+  }
+  drift.value_MPa = drift.proven ? rounded_up(std::max(bound, found)) : found;
+  return drift;
+}
+
+Text drift_in_short(const Verification& verification) {
+  if (verification.records.empty()) return {};
+  double routines = 0;
+  std::size_t count = 0;
+  Text not_ok;
+  for (const std::string& model : models_of(verification)) {
+    const LawDrift law = drift_of(verification, model);
+    routines = larger(routines, law.routines);
+    count += law.count;
     const Text result = result_of(law);
     if (result.spans.front().text != "ok") not_ok += "; " + (model + " ") + result;
   }
+  const Drift drift = largest_drift(verification);
   std::string text = fmt::format(
-      "{} MPa off the law{}, {} allowed",
-      drift_figures(proven ? rounded_up(std::max(bound, all.table)) : all.table),
-      proven ? " at most (proven)" : " as found (not proven)", verify::allowed_text(verification));
-  if (all.count > 0)
-    text += fmt::format("; {} compiled and run: {} MPa", count_of(all.count, "routine"),
-                        drift_figures(all.routines));
+      "tables differ from their law by {}{} MPa{}, {} allowed",
+      drift.proven && drift.value_MPa >= 1e-9 ? "at most " : "", drift_figures(drift.value_MPa),
+      drift.proven ? " (proven)" : " as found (not proven)", verify::allowed_text(verification));
+  if (count > 0)
+    text += fmt::format("; {} compiled and run: largest {} MPa", count_of(count, "routine"),
+                        drift_figures(routines));
   const auto changed =
       std::count_if(verification.findings.begin(), verification.findings.end(),
                     [](const verify::Finding& f) { return f.failed && f.model.empty(); });

@@ -168,7 +168,7 @@ Text parameters_text(const ModelFit& fit) {
   return join(parts, ", ");
 }
 
-Section ranking(const Calibration& c) {
+Section ranking(const Calibration& c, Detail detail) {
   Section section{"ranking", "Ranking", judged_words(c.judged_by).ranking + " (tau_R, MPa)"};
   if (c.fits.empty()) {
     section.title = "Ranking of the laws";
@@ -188,19 +188,21 @@ Section ranking(const Calibration& c) {
   section.add(ranking_table(c));
   if (const std::string advice = calibrate::noise_floor_advice(c); !advice.empty())
     section.say(
-        sentence((c.noise_floors.empty()               ? "the noise floor is not known: "
-                  : c.noise_floors.front().lower_bound ? "the noise floor is a lower bound: "
-                                                       : "the noise floor is too high: ") +
+        sentence((c.noise_floors.empty()               ? "noise floor unknown: "
+                  : c.noise_floors.front().lower_bound ? "noise floor known as a lower bound only: "
+                                                       : "noise floor too high: ") +
                  advice));
-  if (c.comparisons.laws.size() > 1)
-    section.say(
-        sentence(fmt::format("pair by pair, {}; {}", calibrate::pairwise_sentence(c.comparisons),
-                             calibrate::family_sentence(c.comparisons))));
-  if (c.choice.draws > 0)
-    section.say(sentence(fmt::format("the best law was chosen by the tests that give its error: "
-                                     "{}; {}",
-                                     calibrate::expectation_sentence(c.choice, decimals),
-                                     calibrate::share_sentence(c.choice))));
+  if (const std::string pairs = calibrate::pairwise_sentence(c.comparisons); !pairs.empty())
+    section.say(sentence("pair by pair, " + pairs));
+  const bool named = detail != Detail::brief;
+  if (const std::string family = calibrate::family_sentence(c.comparisons, named); !family.empty())
+    section.say(sentence(family + (named || calibrate::possibly_best(c.comparisons).size() == 1
+                                       ? ""
+                                       : "; names with -v")));
+  if (c.choice.draws > 0) {
+    section.say(sentence(calibrate::expectation_sentence(c.choice, decimals)));
+    section.say(sentence(calibrate::share_sentence(c.choice)));
+  }
   section.say(sentence(calibrate::recommended_sentence(c, decimals)));
   section.say(sentence(literature_clause(c)));
   section.say(sentence(calibrate::delivery_sentence(c, decimals)));
@@ -388,7 +390,7 @@ Section all_errors(const Calibration& c) {
       section.say("Validation experiments: " + join(c.validation_experiments, ", ") + ".", "small");
   }
   const std::string advice = calibrate::noise_floor_advice(c);
-  section.say("What is left where a law of the state is exact: " +
+  section.say("Irreducible error, which even an exact law of the state would have: " +
               calibrate::noise_floor_sentence(c, decimals) + (advice.empty() ? "" : "; " + advice) +
               ".");
   if (!c.noise_floors.empty()) section.add(floors_table(c, decimals));
@@ -446,6 +448,7 @@ Section polynomial_terms(const Calibration& c) {
 
 Section published_comparison(const Calibration& calibration) {
   Section section{"published", "Published figures", "Published figures and yours"};
+  if (!is_cold_forging(calibration)) return section;
   section.say(published_warning);
   Table table{"Published figures",
               {{"mean absolute error of tau_R"},

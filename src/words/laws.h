@@ -13,9 +13,9 @@ namespace frictab::words {
 // of a law with its numbers in the formula.
 Text parameters_text(const calibrate::ModelFit& fit);
 
-// The laws by error with the noise floor, what is known of their order, which law is
-// recommended, remarks, and the laws left out.
-Section ranking(const calibrate::Calibration& calibration);
+// The laws by error with the noise floor, what is known of their order, which law is recommended,
+// remarks, and the laws left out. brief: counts the laws that may be the best, full: names them.
+Section ranking(const calibrate::Calibration& calibration, Detail detail = Detail::full);
 // Laws fitted again to all tests, with errors and parameters of their own; without blocks where
 // there are none.
 Section delivered_laws(const calibrate::Calibration& calibration);

@@ -17,6 +17,17 @@ std::span<const PublishedFigure> published_figures() {
   return figures;
 }
 
+bool is_cold_forging(const calibrate::Calibration& calibration) {
+  constexpr double least_MPa = 200;
+  bool pressed = false, formed = false;
+  for (const calibrate::ModelFit& fit : calibration.fits)
+    for (const auto& [input, range] : fit.data_range) {
+      pressed = pressed || (input == "sigma_n_MPa" && range.second >= least_MPa);
+      formed = formed || input == "psi" || input == "sigma_f_MPa";
+    }
+  return pressed && formed;
+}
+
 LawKind kind_of(const models::Law& law) {
   if (law.calibrated == models::Calibrated::fixed) return LawKind::literature;
   if (law.calibrated == models::Calibrated::mean) return LawKind::constants;

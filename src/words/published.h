@@ -17,10 +17,15 @@ struct PublishedFigure {
 std::span<const PublishedFigure> published_figures();
 
 inline constexpr const char* published_source =
-    "Benchmark of friction models on shear-stress level for cold forging";
+    "Comparison of Conventional and Data-Driven Friction Models for Cold Forging on a Shear Stress "
+    "Level";
 inline constexpr const char* published_warning =
     "The published figures refer to the paper's own measured data, not to yours; they show the "
     "order of magnitude.";
+
+// Whether the campaign is of cold forging, as the paper's: contact normal stresses of hundreds of
+// MPa, and the surface grows or a flow stress is known.
+bool is_cold_forging(const calibrate::Calibration& calibration);
 
 // Returns this calibration's figure for comparison with published_figures()[index]: "24.2 to 94.8",
 // or empty if it has none of that kind.

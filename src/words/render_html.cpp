@@ -151,7 +151,9 @@ public:
     if (all.pictures.empty()) return;
     const bool scrolls = all.layout.starts_with("scroll");
     out_ += "<div class=\"" + all.layout + "\"" +
-            (scrolls ? " tabindex=\"0\" role=\"group\" aria-label=\"plot\">\n" : ">\n");
+            (scrolls ? fmt::format(" tabindex=\"0\" role=\"group\" aria-label=\"{}\">\n",
+                                   all.layout.ends_with("formula") ? "formula" : "plot")
+                     : ">\n");
     for (const Picture& one : all.pictures)
       out_ += one.caption.empty() ? one.svg + "\n"
                                   : "<figure><figcaption>" + words::html_of(one.caption) +

@@ -199,12 +199,11 @@ std::string unconfirmed_text(const Lead& lead) {
 
 // Findings that are not confirmed, or that nothing was found; with the remaining structure.
 std::string nothing_text(const Trace& t) {
-  if (t.least_p_value > t.alpha) return "nothing that so few tests can prove";
+  if (t.least_p_value > t.alpha) return "no effect that so few tests can prove";
   std::string text = not_confirmed(t);
-  if (text.empty()) text = "nothing was found";
+  if (text.empty()) text = "no missing effect found";
   if (!t.repeatability && t.noise_floor.n_experiments > 1)
-    text +=
-        fmt::format("; tests differ by {:.2g} % that nothing explains", 100 * t.scatter_between);
+    text += fmt::format("; unexplained scatter between tests {:.2g} %", 100 * t.scatter_between);
   return text;
 }
 
@@ -213,7 +212,7 @@ std::string headline(const Trace& t) {
   case Verdict::effect_added:
     return "effect added";
   case Verdict::nothing_missing:
-    return "nothing is missing: the remaining scatter is within the rig's repeatability";
+    return "no effect is missing: the remaining scatter is within the rig's repeatability";
   case Verdict::nothing_found:
     return nothing_text(t);
   case Verdict::unexplained_structure:
@@ -243,7 +242,7 @@ void add_leads_in_short(Section& section, const Trace& t) {
       section.add(lead_section(lead));
     else
       names.push_back(lead_name(lead));
-  if (!names.empty()) section.say("leads, which prove nothing: " + join(names, ", "));
+  if (!names.empty()) section.say("not confirmed, not added: " + join(names, ", "));
 }
 
 void add_errors(Section& section, const Trace& t) {
@@ -320,19 +319,40 @@ std::string not_confirmed(const Trace& t) {
   return names.empty() ? "" : "not confirmed: " + join(names, ", ");
 }
 
+std::string design_in_short(const trace::Design& d) {
+  std::vector<std::string> groups;
+  for (std::size_t t = 0; t < d.tests.size();) {
+    std::size_t alike = t + 1;
+    while (alike < d.tests.size() && d.tests[alike] == d.tests[t])
+      ++alike;
+    std::vector<std::string> values;
+    for (std::size_t c = 0; c < d.columns.size(); ++c)
+      values.push_back(d.columns[c] + " = " + d.tests[t][c]);
+    groups.push_back(fmt::format(
+        "{} with {}", groups.empty() ? count_of(alike - t, "test") : std::to_string(alike - t),
+        join(values, ", ")));
+    t = alike;
+  }
+  return fmt::format("run {}, otherwise like {}, to settle {} ({:.0f} %)", join(groups, "; "),
+                     d.like, join(d.settles, ", "), 100 * d.probability);
+}
+
 std::string trace_in_short(const Trace& t) {
   std::string aliases;
   for (const trace::Alias& alias : t.cannot_tell)
     aliases += fmt::format("; {} cannot be distinguished from {}", alias.column, alias.state);
+  if (t.effects.empty()) return fmt::format("{}: {}{}", t.model, headline(t), aliases);
+  const calibrate::Difference& gain = t.improvement;
+  const std::string errors = fmt::format(
+      "{} -> {} MPa on unseen tests (gain 95 %: {})", digits(t.before.validation.mae_MPa),
+      digits(t.after.validation.mae_MPa), interval(gain.interval));
+  if (!(gain.interval.low > 0))
+    return fmt::format("{}: {} added that may gain nothing, {}{}", t.model,
+                       count_of(t.effects.size(), "effect"), errors, aliases);
   std::vector<std::string> causes;
   for (const TracedEffect& effect : t.effects)
     causes.push_back(cause_text(effect));
-  const std::string scatter =
-      fmt::format("scatter by the noise model {} MPa", digits(t.noise_floor.mae_MPa));
-  if (causes.empty()) return fmt::format("{}: {}{}; {}", t.model, headline(t), aliases, scatter);
-  return fmt::format("{} in {}: {} -> {} MPa on unseen tests, {}{}", join(causes, ", "), t.model,
-                     digits(t.before.validation.mae_MPa), digits(t.after.validation.mae_MPa),
-                     scatter, aliases);
+  return fmt::format("{} lacked {}, now added: {}{}", t.model, join(causes, ", "), errors, aliases);
 }
 
 Section detectable_effects(const Trace& t) {
@@ -351,10 +371,11 @@ Section detectable_effects(const Trace& t) {
           {{d.column, figures(d.size_MPa), figures(100 * d.share) + " %",
             fixed(
                 std::ceil(experiments * std::pow(d.share / trace::tuning::wanted_share_of_tau, 2)),
-                0)}});
+                0),
+            ""}});
     else
       table.rows.push_back({{d.column, "\u2013", "\u2013", "\u2013",
-                             "cannot be seen: the law's own parameters imitate it"}});
+                             "cannot be seen: confounded with the law's own parameters"}});
   section.add(std::move(table));
   section.say("Found in 80 % of such campaigns: a straight line over the column's range; root mean "
               "square of tau_R. Fewer experiments do where a column is spread wider (twice the "

@@ -5,7 +5,6 @@
 
 #include "trace/trace.h"
 #include "words/document.h"
-#include "words/drift.h"
 
 namespace frictab::words {
 
@@ -18,7 +17,12 @@ Section trace(const trace::Trace& trace, Detail detail);
 // blocks where that is not known.
 Section detectable_effects(const trace::Trace& trace);
 
-// The missing effects and the gain of adding them, in one line.
+// Tests that settle an effect, in one line: "run 2 tests with humidity_pct = 20 and 2 with 80,
+// otherwise like V07, to settle humidity_pct (85 %)".
+std::string design_in_short(const trace::Design& design);
+
+// The missing effects and the gain of adding them, in one line. Names no effect whose gain on
+// unseen tests may be zero.
 std::string trace_in_short(const trace::Trace& trace);
 
 // Findings that are not delivered: "not confirmed: v_rel_mm_s (p = 0.001, would take 15.0 to about

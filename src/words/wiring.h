@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "words/document.h"
-#include "words/drift.h"
 
 namespace frictab::words {
 

@@ -2,10 +2,12 @@
 // needed to build or to use frictab: tests skip where Chromium (Debian's chromium-headless-shell or
 // chromium) is absent, where FRICTAB_AXE does not name axe-core's axe.min.js (npm install
 // axe-core), or pdftotext (poppler-utils).
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <regex>
+#include <map>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -40,6 +42,18 @@ CommandResult browse(const std::string& page, std::vector<std::string> flags) {
   return run_command(argv);
 }
 
+// The stress of the first row that `frictab predict` prints.
+double tau_in(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string titles, first, title, value;
+  std::getline(lines, titles);
+  std::getline(lines, first);
+  std::istringstream names(titles), values(first);
+  while (std::getline(names, title, ',') && std::getline(values, value, ','))
+    if (title == "tau_R_MPa") return std::stod(value);
+  return std::nan("");
+}
+
 class SlowPagesInBrowser : public testing::Test {
 protected:
   void SetUp() override {
@@ -63,7 +77,7 @@ protected:
     run({"study", "run", "study.toml"});
     run({"study", "report", "study.toml"});
     pages = {directory.path("twin/out/report.html"), directory.path("twin/out/data.html"),
-             directory.path("study/report.html")};
+             directory.path("study/report.html"), directory.path("twin/out/explore.html")};
     if (!build_site()) return;
     for (const char* page : {"index", "start", "measurements", "laws"})
       pages.push_back(directory.path("site/" + std::string(page) + ".html"));
@@ -115,7 +129,7 @@ TEST_F(SlowPagesInBrowser, HaveNoFindingsOfAxe) {
   const char* axe = std::getenv("FRICTAB_AXE");
   if (!axe) GTEST_SKIP() << "FRICTAB_AXE does not name axe.min.js of axe-core";
   ASSERT_NO_FATAL_FAILURE(make_pages());
-  pages.resize(3); // those of the documentation are a theme's
+  pages.resize(4); // those of the documentation are a theme's
   const std::string script =
       "<script>" + io::read_file(axe) +
       "</script><script>axe.run().then(r => { document.title = 'axe: ' + r.violations.length + ' ' "
@@ -135,6 +149,39 @@ TEST_F(SlowPagesInBrowser, FitAPhone) {
       "<script>document.title = document.documentElement.scrollWidth - innerWidth</script>";
   for (const std::string& page : pages)
     EXPECT_EQ(said(page, script, {narrow}), "0") << page << " is wider than its window by so much";
+}
+
+TEST_F(SlowPagesInBrowser, ExploreShowsTheValuesOfTheProgram) {
+  ASSERT_NO_FATAL_FAILURE(make_pages());
+  const std::string page = pages[3];
+  // Its slider of the contact normal stress is moved; then title: states, laws with their stress.
+  const std::string script =
+      "<script>get('states').querySelector('input[type=number]').value = 777;"
+      "get('states').querySelector('input[type=number]').onchange();"
+      "document.title = Object.entries(view.at).flat().concat(Array.from("
+      "document.querySelectorAll('#values tbody tr'), r => [r.dataset.law, r.dataset.tau]).flat())"
+      ".join(' ');</script>";
+  std::istringstream words(said(page, script, {"--window-size=1400,900"}));
+  std::map<std::string, std::string> states;
+  std::size_t compared = 0;
+  for (std::string name, value; words >> name >> value;) {
+    const std::string model = directory.path("twin/out/models/" + name + ".json");
+    if (!fs::exists(model)) {
+      states[name] = value;
+      continue;
+    }
+    std::string header = "experiment", row = "a";
+    for (const auto& [state, at] : states) {
+      header += "," + state;
+      row += "," + at;
+    }
+    directory.write("rows.csv", header + "\n" + row + "\n" + row + "\n");
+    const double tau = tau_in(run_frictab({"predict", model, "rows.csv"}, directory.path()).out);
+    EXPECT_NEAR(std::stod(value), tau, 1e-12 * tau) << name;
+    ++compared;
+  }
+  EXPECT_EQ(states.at("sigma_n_MPa"), "777");
+  EXPECT_GE(compared, 2U);
 }
 
 TEST_F(SlowPagesInBrowser, PrintEverySectionAndNoEmptyPage) {

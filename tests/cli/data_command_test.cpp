@@ -78,7 +78,7 @@ TEST_F(DataCommand, ShowsEachTestAndWhatWasDoneToIt) {
                         "  82 rows of 2 experiments to train, 41 rows of 1 experiment to validate\n"
                         "  files: rig/K1.csv and rig/K2.csv\n"
                         "  files: rig/K3.csv\n"
-                        "  read: F_N_N: kN as the file says, taken as N\n"
+                        "  read: F_N_N: kN in the file, converted to N\n"
                         "  read: tests.csv: batch, by test\n"
                         "  read: joined by time_s: sigma_n_MPa\n"
                         "  read: of data.join not taken, the rows have their own: F_N_N\n"
@@ -90,7 +90,7 @@ TEST_F(DataCommand, ShowsEachTestAndWhatWasDoneToIt) {
                         "is mapped: sigma_n_MPa = { column = \"p\", unit = \"MPa\", ... }\n"
                         "  in none of the data: tests.csv: K4\n");
   const std::string page = directory.read("out/data.html");
-  for (const char* text : {"test K1", "test K3", "F_N_N: kN as the file says", "tests.csv: K4"})
+  for (const char* text : {"test K1", "test K3", "F_N_N: kN in the file", "tests.csv: K4"})
     EXPECT_THAT(page, HasSubstr(text));
 }
 

@@ -184,7 +184,7 @@ TEST_F(InitFrom, FindsALineOfUnitsAndAColumnThatNamesTests) {
   EXPECT_THAT(job, HasSubstr("first values: 2, 2.1, 2.2; in kN, as the file says"));
   const Read found = read();
   EXPECT_EQ(found.tests, "1 30, 2 30, 3 30, 4 30");
-  EXPECT_THAT(found.text, HasSubstr("F_N_N: kN as the file says, taken as N"));
+  EXPECT_THAT(found.text, HasSubstr("F_N_N: kN in the file, converted to N"));
 }
 
 TEST_F(InitFrom, TakesAHeaderThatComesAgainForTheNextTest) {
@@ -214,7 +214,7 @@ TEST_F(InitFrom, TakesACoefficientTimesThePressure) {
                                              "times = \"sigma_n_MPa\" } "));
   const Read found = read();
   EXPECT_EQ(found.tests, "S1 30, S2 30, S3 30, S4 30");
-  EXPECT_THAT(found.text, HasSubstr("v_rel_mm_s: m/s as the file says, taken as mm/s"));
+  EXPECT_THAT(found.text, HasSubstr("v_rel_mm_s: m/s in the file, converted to mm/s"));
 }
 
 // ---- what names say ----
@@ -345,16 +345,17 @@ TEST_F(InitFrom, AsksForWhatIsMissing) {
   directory.write("a.csv", "Time [s];FF;Batch\n0;100.5;40\n1;101.5;40\n0;99.5;41\n1;99;41\n");
   const CommandResult result = frictab({"init", "--from", "a.csv"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err,
-            "to be answered in it: Which column names the tests? None was found: the file is taken "
-            "as one test.\n"
-            "to be answered in it: In which units? The file does not say, and these are taken: FF "
-            "(N). A line here replaces the one above.\n"
-            "to be answered in it: Where does the contact normal stress come from? None was "
-            "found.\n"
-            "to be answered in it: Which normal force belongs to the friction force? None was "
-            "found.\n"
-            "next: frictab data job.toml (shows what is read), frictab run job.toml\n");
+  EXPECT_EQ(
+      result.err,
+      "open question in job.toml: Which column names the tests? None was found: the file is taken "
+      "as one test.\n"
+      "open question in job.toml: In which units? The file does not say, and these are taken: FF "
+      "(N). A line here replaces the one above.\n"
+      "open question in job.toml: Where does the contact normal stress come from? None was "
+      "found.\n"
+      "open question in job.toml: Which normal force belongs to the friction force? None was "
+      "found.\n"
+      "next: frictab data job.toml (shows what is read), frictab run job.toml\n");
   EXPECT_EQ(
       directory.read("job.toml"),
       R"(# Guessed from the files; every line may be wrong. frictab data shows what is read with it,

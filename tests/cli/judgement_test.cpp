@@ -48,9 +48,9 @@ TEST_F(Judgement, SummaryHoldsTheFloorOfTheOracleAndWhoIsBest) {
   EXPECT_THAT(out, testing::ContainsRegex(
                        "  noise floor +[0-9.]+ +[0-9.]+ to [0-9.]+ +[0-9.]+ +the twin's own "
                        "truth, synthetic data only\n"
-                       "  Pair by pair, log_coulomb is better than all others \\(95 % per pair, "
-                       "paired by experiment\\); "
-                       "log_coulomb is the best of them \\(95 % for all 2 laws together\\)\\.\n"));
+                       "  Pair by pair, log_coulomb is significantly better than 1 of 1 other law "
+                       "\\(95 % per pair, paired by experiment\\)\\.\n  Not ruled out as best "
+                       "\\(95 %, 2 laws compared together\\): 1 of 2 \\(log_coulomb\\)\\.\n"));
   const auto floor = calibration().at("noise_floor");
   EXPECT_EQ(floor.at("method"), "oracle");
   EXPECT_EQ(floor.at("part"), "validation");
@@ -139,8 +139,8 @@ TEST_F(Judgement, RecommendsTheSimplestLawThatIsNotWorseAndTabulatesIt) {
 TEST_F(Judgement, WithoutOracleAndRepeatsSaysWhatWouldGiveTheFloor) {
   const std::string out = calibrate({}, {two_laws});
   EXPECT_THAT(out, testing::ContainsRegex("  noise floor +> [0-9.]+ .*scatter within experiments "
-                                          "only, .*\n  The noise floor is a lower bound: repeat "
-                                          "some tests at the same set levels to know it\\.\n"));
+                                          "only, .*\n  Noise floor known as a lower bound only: "
+                                          "repeat 3 or more tests at identical settings\\.\n"));
   EXPECT_EQ(calibration().at("noise_floor").at("lower_bound"), true);
   EXPECT_THAT(directory.read("data/out/benchmark.md"), HasSubstr("\n|  | noise floor | \\> "));
 }
@@ -175,9 +175,8 @@ TEST_F(Judgement, OfFewTestsEachIsLeftOutInTurnAndTheTextSaysSo) {
               testing::StartsWith("Data:\n  640 rows of 16 experiments, each experiment judged by "
                                   "laws fitted without it - SYNTHETIC data\n"));
   EXPECT_THAT(out, testing::ContainsRegex(
-                       ": on new tests expect [0-9.]+ MPa of a law chosen like this; [0-9.]+ is of "
-                       "the tests that chose log_coulomb; "
-                       "of 1,000 resamples of the tests 100 % choose log_coulomb\\.\n"));
+                       "  Expected error of the best law on new tests: [0-9.]+ MPa\\.\n"
+                       "  Of 1,000 resamples of the tests 100 % choose log_coulomb\\.\n"));
   const auto json = calibration();
   EXPECT_EQ(json.at("judged_by"), "leave_one_out");
   EXPECT_EQ(json.at("validation_experiments").size(), 16U);
@@ -213,7 +212,7 @@ TEST_F(Judgement, OfOneTestErrorsAreOfTheFitAndEveryTextSaysSo) {
           "them.\n\n"
           "Laws by mean absolute error on the ONE experiment they are fitted to; no other was "
           "seen (tau_R, MPa):\n"));
-  EXPECT_THAT(out, Not(HasSubstr("on new tests expect")));
+  EXPECT_THAT(out, Not(HasSubstr("expected error of")));
   const auto json = calibration();
   EXPECT_EQ(json.at("judged_by"), "fit");
   const auto best = json.at("models").at(0);
@@ -225,9 +224,9 @@ TEST_F(Judgement, OfOneTestErrorsAreOfTheFitAndEveryTextSaysSo) {
               HasSubstr("log_coulomb,E001,0,"));
   const auto run = run_frictab({"run", directory.path("data/job.toml"), "--set", two_laws});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("nothing that so few tests can prove"));
+  EXPECT_THAT(run.out, HasSubstr("no effect that so few tests can prove"));
   const std::string report = directory.read("data/out/report.html");
-  EXPECT_THAT(report, HasSubstr(" on the test it is fitted to: no other judges it</li>"));
+  EXPECT_THAT(report, HasSubstr(" on the test that it is fitted to</li>"));
   EXPECT_THAT(report, Not(HasSubstr("left out in turn")));
 }
 
@@ -243,7 +242,7 @@ TEST_F(Judgement, OfFewTestsAShareIsHeldOutWhereTheJobSaysSo) {
   const std::string out = calibrate({"--no-bystanders"}, {two_laws, "data.holdout=0.25"});
   EXPECT_THAT(out, HasSubstr("480 rows of 12 experiments to train, 160 rows of 4 experiments to "
                              "validate"));
-  EXPECT_THAT(out, HasSubstr("; of 1,000 other splits of all tests 100 % choose log_coulomb.\n"));
+  EXPECT_THAT(out, HasSubstr("  Of 1,000 other splits of all tests 100 % choose log_coulomb.\n"));
   const auto json = calibration();
   EXPECT_EQ(json.at("judged_by"), "held_out");
   EXPECT_TRUE(json.at("models").at(0).at("by_experiment_left_out").is_null());

@@ -289,7 +289,7 @@ from_name = '(?<powder>powder \d)'
   EXPECT_EQ(test["rows"], 60);
   EXPECT_NEAR(span(test, "sigma_n_MPa")[1], 0.009005, 1e-6);
   EXPECT_THAT(span(test, "time_s"), ElementsAre(0.5, 30));
-  EXPECT_THAT(said, HasSubstr("sigma_n_MPa: Pa as the file says, taken as MPa"));
+  EXPECT_THAT(said, HasSubstr("sigma_n_MPa: Pa in the file, converted to MPa"));
   calibrate();
 }
 

@@ -82,9 +82,9 @@ TEST_F(MainJob, RunWritesEveryFileOfTheContractAndSaysNothingOnStderr) {
   const auto result = run_frictab({"run", job, "-q"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_EQ(result.err, "");
-  for (const char* part :
-       {"SYNTHETIC data", "Laws by mean absolute error", "Tables:", "Drift from the law", "Wrote ",
-        "\nIn short:\n  best law: ", "\n  tables: ", "\n  missing: "})
+  for (const char* part : {"SYNTHETIC data", "Laws by mean absolute error", "Tables:",
+                           "Drift from the law", "Wrote ", "\nIn short (synthetic data):\n  take: ",
+                           "\n  expect: ", "\n  missing: ", "\n  valid: ", "\n  drift: "})
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   EXPECT_TRUE(result.out.ends_with("\nnext: open " + directory.path("out") + "/report.html\n"));
   EXPECT_EQ(result.out.find('\x1b'), std::string::npos) << "colours in a pipe";
@@ -364,9 +364,10 @@ TEST_F(SlowMainJob, RoutinesAreComparedAtTheConstantsOfTheJobAndTheCostIsTold) {
       std::string::npos)
       << result.out;
   EXPECT_NE(result.err.find("marc_ufric is for 2-D models"), std::string::npos) << result.err;
-  EXPECT_NE(result.out.find("Off the law below the tested contact normal stresses, MPa:\n"
-                            "    levanov: "),
-            std::string::npos);
+  EXPECT_NE(
+      result.out.find("Deviation from the law below the tested contact normal stresses, MPa:\n"
+                      "    levanov: "),
+      std::string::npos);
 }
 
 TEST_F(SlowMainJob, ARoutineInSinglePrecisionIsVerifiedAndItsRoundingReported) {

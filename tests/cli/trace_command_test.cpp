@@ -87,7 +87,7 @@ TEST_F(TraceCommand, SaysThatNothingWasFoundAndWhatItCouldHaveSeen) {
   ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);
   const auto result = run_frictab({"trace", job, "--power"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("log_coulomb lacks, by its residual: nothing was found"));
+  EXPECT_THAT(result.out, HasSubstr("log_coulomb lacks, by its residual: no missing effect found"));
   EXPECT_THAT(result.out, HasSubstr("Smallest effect on mu that this campaign would have shown"));
   EXPECT_THAT(result.out, HasSubstr("humidity_pct"));
   EXPECT_THAT(result.out, HasSubstr("would have been seen (80 %) from"));
@@ -97,7 +97,8 @@ TEST_F(TraceCommand, SaysThatNothingWasFoundAndWhatItCouldHaveSeen) {
   // Nothing is missing only beside what the rig is known to repeat.
   const auto known = run_frictab({"trace", job, "--set", "trace.repeatability=0.05"});
   ASSERT_EQ(known.exit_code, 0) << known.err;
-  EXPECT_THAT(known.out, HasSubstr("nothing is missing: the remaining scatter is within the rig"));
+  EXPECT_THAT(known.out,
+              HasSubstr("no effect is missing: the remaining scatter is within the rig"));
   EXPECT_EQ(trace().at("verdict"), "nothing_missing");
 }
 

@@ -362,7 +362,7 @@ TEST(SlowComparison, ALawThatIsNoCandidateIsComparedAndCannotBeTheBest) {
   EXPECT_TRUE(std::isnan(c.best_p_values.front()));
   EXPECT_EQ(c.best_p_values[1], 1) << "the best of those that compete";
   EXPECT_EQ(calibrate::possibly_best(c).front(), c.laws[1]);
-  EXPECT_THAT(family_sentence(c), testing::HasSubstr("for all 3 laws together"));
+  EXPECT_THAT(family_sentence(c, false), testing::HasSubstr("3 laws compared together"));
   EXPECT_EQ(pairwise_sentence(c).find(c.laws[1]), 0u);
   EXPECT_EQ(pairwise_sentence(c).find(c.laws.front()), std::string::npos);
   EXPECT_EQ(c.pairs.front().mae.p_value, with.pairs.front().mae.p_value);
@@ -429,7 +429,7 @@ TEST(SlowComparison, OfOneExperimentOrWithoutResamplesIsNotMade) {
   const std::vector<LawErrors> two{law("a", {3, 4}), law("b", {4, 9})};
   EXPECT_TRUE(compare(two, 0, 1).pairs.empty());
   EXPECT_EQ(pairwise_sentence(compare(one, 500, 1)), "");
-  EXPECT_EQ(family_sentence(compare(one, 500, 1)), "");
+  EXPECT_EQ(family_sentence(compare(one, 500, 1), true), "");
 }
 
 TEST(SlowComparison, IsSaidInTheseWords) {
@@ -439,19 +439,24 @@ TEST(SlowComparison, IsSaidInTheseWords) {
   c.pairs = {{"a", "b", {1, {-1, 3}, 0.3}, {}},
              {"a", "c", {9, {7, 11}, 0.001}, {}},
              {"b", "c", {8, {6, 10}, 0.001}, {}}};
-  EXPECT_EQ(pairwise_sentence(c),
-            "a is better than all but b (95 % per pair, paired by experiment)");
-  EXPECT_EQ(family_sentence(c), "the best of them is one of a, b (95 % for all 3 laws together)");
+  EXPECT_EQ(pairwise_sentence(c), "a is significantly better than 1 of 2 other laws (95 % per "
+                                  "pair, paired by experiment); tied "
+                                  "with: b");
+  EXPECT_EQ(family_sentence(c, true),
+            "not ruled out as best (95 %, 3 laws compared together): 2 of 3 (a, b)");
   c.pairs[0].mae.p_value = 0.01;
   c.best_p_values[1] = 0.02;
-  EXPECT_EQ(pairwise_sentence(c),
-            "a is better than all others (95 % per pair, paired by experiment)");
-  EXPECT_EQ(family_sentence(c), "a is the best of them (95 % for all 3 laws together)");
+  EXPECT_EQ(
+      pairwise_sentence(c),
+      "a is significantly better than 2 of 2 other laws (95 % per pair, paired by experiment)");
+  EXPECT_EQ(family_sentence(c, false),
+            "not ruled out as best (95 %, 3 laws compared together): 1 of 3 (a)");
   c.pairs[0].mae.p_value = c.pairs[1].mae.p_value = 0.5;
   c.best_p_values = {1, 0.5, 0.5};
   EXPECT_EQ(pairwise_sentence(c), "a is not distinguishable from any other law (95 % per pair, "
                                   "paired by experiment)");
-  EXPECT_EQ(family_sentence(c), "any of them may be the best (95 % for all 3 laws together)");
+  EXPECT_EQ(family_sentence(c, false),
+            "not ruled out as best (95 %, 3 laws compared together): 3 of 3");
 }
 
 TEST(Metrics, IntervalsHoldTheTruthIn90To98OfAHundredCampaignsOf30Experiments) {

@@ -145,14 +145,17 @@ TEST(Deliver, FromThirtyExperimentsOnThereAreTenFolds) {
 
 TEST(Deliver, SaysWhatIsDeliveredAndWhatToExpectOfIt) {
   const Dataset training = campaign(24, 1), validation = campaign(6, 2);
-  EXPECT_EQ(delivery_sentence(calibrated(training, validation, Deliver::training, {"orowan"}), 2),
-            "delivered as judged: fitted to the 24 experiments of the training alone");
+  EXPECT_EQ(
+      delivery_sentence(calibrated(training, validation, Deliver::training, {"orowan"}), 2),
+      "delivered: fitted to the 24 experiments of the training; calibration.deliver = \"all\" fits "
+      "again to all");
   Calibration c = calibrated(training, validation, Deliver::all, {"coulomb", "exp_coulomb"});
   const calibrate::Metrics& m = c.fits.front().on_all->validation;
   const std::string said = fmt::format(
-      "delivered are the laws fitted again to all 30 experiments; on new tests expect {:.2f} MPa "
-      "({:.2f} to {:.2f}) of exp_coulomb, cross-validated by experiment in 10 folds; the errors "
-      "above are of the fits to the 24 experiments of the training alone",
+      "delivered: fitted again to all 30 experiments; cross-validated over these exp_coulomb errs "
+      "by {:.2f} MPa ({:.2f} to {:.2f}), cross-validated by experiment in 10 folds; the errors "
+      "above "
+      "are of the fits to the 24 experiments of the training",
       m.mae_MPa, m.mae_interval.low, m.mae_interval.high);
   EXPECT_EQ(delivery_sentence(c, 2), said);
   c.fits.back().on_all = nullptr; // as a law that tracing added
@@ -210,7 +213,7 @@ TEST(Deliver, FilesReadBackAndThoseOfEarlierVersionsToo) {
   }
 }
 
-TEST(SlowDeliver, AllIsTheSameForAnyNumberOfThreads) {
+TEST(LongDeliver, AllIsTheSameForAnyNumberOfThreads) {
   const Dataset training = campaign(24, 1), validation = campaign(8, 2);
   std::string first;
   for (const unsigned threads : {1U, 2U, 3U}) {

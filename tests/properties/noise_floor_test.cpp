@@ -242,7 +242,7 @@ TEST(NoiseFloor, IsTakenFromTheMostTrustworthySourceAndSaidAsWhatItIs) {
                         "between experiments not included",
                         c.noise_floors[0].mae_MPa));
   EXPECT_EQ(calibrate::noise_floor_advice(c),
-            "repeat some tests at the same set levels to know it");
+            "repeat 3 or more tests at identical settings");
   c.noise_floors.clear();
   EXPECT_EQ(calibrate::noise_floor_sentence(c, 2),
             "noise floor unknown: no repeated tests, and experiments "

@@ -126,7 +126,7 @@ TEST(Aliases, StandBesideNothingWasFound) {
   EXPECT_THAT(test::trace_text(t, words::Detail::brief),
               HasSubstr("\n  batch cannot be distinguished from sigma_n_MPa: A"));
   EXPECT_THAT(words::trace_in_short(t),
-              HasSubstr("wzl: nothing was found; batch cannot be distinguished from sigma_n_MPa;"));
+              HasSubstr("wzl: no missing effect found; batch cannot be distinguished from sigma_n_MPa"));
 }
 
 } // namespace

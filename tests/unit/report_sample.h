@@ -21,7 +21,8 @@ struct ReportSample {
   std::vector<std::string> files{"report.html", "calibration.json"};
 
   report::ReportInput input() const {
-    return {"job.toml", calibration, training, validation, predicted, tables, verification, files};
+    return {"job.toml", "job.toml", calibration,  training, validation,
+            predicted,  tables,     verification, files};
   }
 };
 

@@ -45,8 +45,8 @@ std::vector<std::string> links_of(const std::string& page) {
 TEST(Report, IsWellFormedWithEverySection) {
   const std::string page = report_html(report_sample(14, 6, 100).input());
   EXPECT_EQ(xml_fault(page), "");
-  for (const char* id : {"verdict", "ranking", "comparison", "errors", "published", "plots", "data",
-                         "tables", "drift", "files"})
+  for (const char* id :
+       {"verdict", "ranking", "comparison", "errors", "plots", "data", "tables", "drift", "files"})
     EXPECT_THAT(page, HasSubstr("<section id=\"" + std::string(id) + "\""));
 }
 
@@ -100,9 +100,15 @@ TEST(Report, EscapesWhateverComesFromTheUser) {
   sample.verification.records.back().ran = false;
   sample.verification.records.back().why_not = bad;
   sample.files = {bad};
-  report::ReportInput input{
-      bad,           sample.calibration,  sample.training, sample.validation, sample.predicted,
-      sample.tables, sample.verification, sample.files};
+  report::ReportInput input{bad,
+                            bad,
+                            sample.calibration,
+                            sample.training,
+                            sample.validation,
+                            sample.predicted,
+                            sample.tables,
+                            sample.verification,
+                            sample.files};
   const std::string page = report_html(input);
   EXPECT_EQ(xml_fault(page), "");
   EXPECT_THAT(page, Not(HasSubstr("<b>")));
@@ -143,7 +149,8 @@ TEST(Report, ShowsNotANumberDriftAsFailedAndNotAsZero) {
   ReportSample sample = report_sample(1, 2, 30);
   sample.verification.records[0].worst_case_MPa = std::nan("");
   sample.verification.records[0].passed = false;
-  EXPECT_THAT(report_html(sample.input()), HasSubstr("</strong>: \u2013 MPa off the law as found"));
+  EXPECT_THAT(report_html(sample.input()),
+              HasSubstr("</strong>: tables differ from their law by \u2013 MPa as found"));
 }
 
 TEST(Report, CountsRowsThatThePlotsDoNotShow) {
@@ -250,13 +257,13 @@ TEST(Report, SaysTheBestLawFirstAndEachFindingInALineOfItsOwn) {
   const std::string page = report_html(sample.input());
   EXPECT_THAT(page,
               testing::ContainsRegex("<h2>In short</h2>\n<ul class=\"findings\">\n<li><strong>"
-                                     "best law</strong>: <strong>" +
-                                     best + "</strong> misses tau_R by [^\n]* on 4 tests"));
-  EXPECT_THAT(page, HasSubstr("\n<li><strong>tables</strong>: "));
+                                     "take</strong>: <strong>" +
+                                     best + "</strong>[^\n]*\n<li><strong>expect</strong>: "));
+  EXPECT_THAT(page, HasSubstr("\n<li><strong>drift</strong>: "));
   EXPECT_THAT(page, HasSubstr("\n<p>Pair by pair, "));
-  EXPECT_THAT(page, HasSubstr("\n<p>The noise floor is not known: "));
+  EXPECT_THAT(page, HasSubstr("\n<p>Noise floor unknown: "));
   EXPECT_THAT(report::report_md(sample.input()),
-              HasSubstr("## In short\n\n- **best law**: **" + best + "** misses tau_R by "));
+              HasSubstr("## In short\n\n- **take**: **" + best + "**"));
 }
 
 TEST(Report, LinksToItsFilesWithWhatAUrlReservesWrittenOut) {
@@ -350,10 +357,19 @@ TEST(Report, SurvivesEmptyInput) {
   EXPECT_THAT(page, HasSubstr("Nothing was verified."));
 }
 
+TEST(Report, ComparesWithPublishedFiguresOnlyWhereTheCampaignIsOfColdForging) {
+  ReportSample sample = report_sample(2, 3, 50);
+  EXPECT_THAT(report_html(sample.input()), Not(HasSubstr("Published figures")));
+  sample.calibration.fits[0].data_range = {{"sigma_n_MPa", {500, 2000}}, {"psi", {1, 20}}};
+  EXPECT_THAT(report_html(sample.input()),
+              HasSubstr("Comparison of Conventional and Data-Driven Friction Models for Cold "
+                        "Forging on a Shear Stress Level"));
+}
+
 TEST(Report, SurvivesOneLawAndOneRow) {
   const std::string page = report_html(report_sample(1, 1, 1).input());
   EXPECT_EQ(xml_fault(page), "");
-  EXPECT_THAT(page, HasSubstr(" on 1 test it has not seen"));
+  EXPECT_THAT(page, HasSubstr(" of 1 experiment"));
 }
 
 TEST(Report, SurvivesConstantMeasurementsAndPredictions) {
@@ -420,12 +436,13 @@ TEST(Benchmark, IsThisTextForTwoLaws) {
       "0.0020, m = 0.4998 |\n"
       "| 2 | coulomb_0.08 | 26.30 | 21.60 to 31.60 | 30.20 | \u221224.80 | 28.50 | mu = 0.08 |\n"
       "\n"
-      "The noise floor is not known: repeat some tests at the same set levels to know it.\n"
+      "Noise floor unknown: repeat 3 or more tests at identical settings.\n"
       "\n"
       "The fixed constant of the literature (coulomb_0.08) is off by 26.3 MPa: 2.3 times as much "
       "as the best law.\n"
       "\n"
-      "Delivered as judged: fitted to the 81 experiments of the training alone.\n"
+      "Delivered: fitted to the 81 experiments of the training; calibration.deliver = \"all\" fits "
+      "again to all.\n"
       "\n"
       "- orowan: a\\|b\n"
       "\n"
@@ -451,9 +468,9 @@ TEST(Benchmark, IsThisTextForTwoLaws) {
       "\n"
       "Validation experiments: E3, E\\|7.\n"
       "\n"
-      "What is left where a law of the state is exact: noise floor unknown: no repeated tests, and "
-      "experiments too short to see their scatter; repeat some tests at the same set levels to "
-      "know it.\n"
+      "Irreducible error, which even an exact law of the state would have: noise floor unknown: no "
+      "repeated tests, and experiments too short to see their scatter; repeat 3 or more tests at "
+      "identical settings.\n"
       "\n"
       "## The band of experiments\n"
       "\n" +
@@ -463,22 +480,8 @@ TEST(Benchmark, IsThisTextForTwoLaws) {
           "| law | 5 % below | 95 % below | validation experiments inside |\n"
           "|---|--:|--:|--:|\n"
           "| orowan | 0.800 | 1.260 | 27 of 30 (90 % expected) |\n"
-          "| coulomb_0.08 | \u2013 | \u2013 | too few training experiments: 19 give these ends |\n"
-          "\n"
-          "## Published figures and yours\n"
-          "\n"
-          "The published figures refer to the paper's own measured data, not to yours; they show "
-          "the order of magnitude.\n"
-          "\n"
-          "| mean absolute error of tau_R | published, MPa | here, MPa |\n"
-          "|---|--:|--:|\n"
-          "| standard constants | 24 to 95 | 26.3 |\n"
-          "| of these, the Coulomb constant of the abstract | 51.38 | 26.3 (coulomb_0.08) |\n"
-          "| calibrated constants | 12 to 15 | \u2013 |\n"
-          "| neural network | 9.35 | \u2013 |\n"
-          "\n"
-          "Published: *Benchmark of friction models on shear-stress level for cold forging*. Here: "
-          "validation experiments of this job.\n");
+          "| coulomb_0.08 | \u2013 | \u2013 | too few training experiments: 19 give these ends "
+          "|\n");
 }
 
 TEST(Report, ShowsAllPairsAsATriangleWithTheirShades) {
@@ -494,7 +497,7 @@ TEST(Report, ShowsAllPairsAsATriangleWithTheirShades) {
   EXPECT_THAT(page, HasSubstr("<td class=\"num better\" title=\"b against c"));
   EXPECT_THAT(page, HasSubstr("<td>no (p &lt; 0.001)</td>"));
   EXPECT_THAT(page,
-              HasSubstr("the best of them is one of a&lt;b, b (95 % for all 3 laws together)"));
+              HasSubstr("ruled out as best (95 %, 3 laws compared together): 2 of 3 (a&lt;b, b)"));
 }
 
 TEST(Report, ShowsTheNoiseFloorBelowTheLawsAndSaysWhatItIs) {
@@ -536,13 +539,13 @@ TEST(Benchmark, SaysWhatChoosingTheBestLawDoesToItsError) {
   c.choice = {"wzl", 8.7, 9.12, {{"wzl", 0.71}, {"shaw", 0.288}, {"shear", 0.002}}, 1000, false};
   EXPECT_THAT(
       benchmark_md(c),
-      HasSubstr("\nThe best law was chosen by the tests that give its error: on new tests "
-                "expect 9.12 MPa of a law chosen like this; 8.70 is of the tests that chose "
-                "wzl; of 1,000 resamples of the tests 71 % choose wzl, 29 % shaw.\n"));
+      HasSubstr("\nExpected error of the best law on new tests: 9.12 MPa; 8.70 MPa is optimistic, "
+                "because the same tests picked wzl.\n\nOf 1,000 resamples of the tests 71 % choose "
+                "wzl, 29 % shaw.\n"));
   EXPECT_THAT(report_html(sample.input()),
-              HasSubstr("The best law was chosen by the tests that give its error: on new tests "));
+              HasSubstr("Expected error of the best law on new tests: 9.12 MPa"));
   c.choice.splits = true;
-  EXPECT_THAT(benchmark_md(c), HasSubstr("; of 1,000 other splits of all tests 71 % choose wzl, "));
+  EXPECT_THAT(benchmark_md(c), HasSubstr("\nOf 1,000 other splits of all tests 71 % choose wzl, "));
 }
 
 TEST(Benchmark, HoldsEveryPairAndWhoMayBeTheBest) {

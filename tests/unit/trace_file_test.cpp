@@ -217,7 +217,8 @@ TEST(TraceText, WhatIsNotConfirmedComesFirstWithWhatItWouldGain) {
   trace.leads[0].with_MPa = 15.1; // fits under weights: no such promise
   EXPECT_EQ(words::not_confirmed(trace), "not confirmed: v_rel_mm_s (p = 0.001)");
   trace.leads[0].significant = false;
-  EXPECT_THAT(words::trace_in_short(trace), testing::StartsWith("coulomb: nothing was found;"));
+  EXPECT_THAT(words::trace_in_short(trace),
+              testing::StartsWith("coulomb: no missing effect found"));
 }
 
 } // namespace

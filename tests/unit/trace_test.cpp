@@ -595,7 +595,7 @@ TEST(LongTrace, FewExperimentsProveNothingAndSaySo) {
                                 twin::default_design(twin::twin_set("D")));
   const Trace t = traced(options);
   EXPECT_TRUE(t.effects.empty());
-  EXPECT_THAT(trace_text(t), HasSubstr("lacks, by its residual: nothing that so few tests can"));
+  EXPECT_THAT(trace_text(t), HasSubstr("lacks, by its residual: no effect that so few tests can"));
   EXPECT_EQ(t.least_p_value, 0.03125) << "of four tests and two to validate";
   // Twelve tests, which all show the same effect.
   options.design = parse_design("T=20,56,92,128,164,200", *options.design);

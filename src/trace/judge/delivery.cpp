@@ -338,8 +338,8 @@ private:
     if (gain.error == 0 && gain.error_se == 0)
       return fmt::format("a search without some of the tests does not find it ({} folds)",
                          d_.nested.folds);
-    return fmt::format("does not predict tests that the search has not seen any better: error "
-                       "{:+.2g} +- {:.2g} % of the stress, log score {:+.2g} +- {:.2g} per test, "
+    return fmt::format("did not improve predictions of unseen tests: error {:+.2g} +- {:.2g} "
+                       "% of the stress, log score {:+.2g} +- {:.2g} per test, "
                        "{} folds",
                        -100 * gain.error, 100 * gain.error_se, gain.score, gain.score_se,
                        d_.nested.folds);

@@ -31,7 +31,7 @@ bool agrees_with_repeats(const Trace& t) {
 
 std::string scatter_sentence(const Trace& t) {
   if (t.noise_floor.n_experiments < 2) return "one test says nothing about how tests differ";
-  std::string text = fmt::format("tests differ by {} that nothing explains (95 %: {} to {})",
+  std::string text = fmt::format("unexplained scatter between tests: {} (95 %: {} to {})",
                                  percent(t.scatter_between), percent(t.scatter_interval.low),
                                  percent(t.scatter_interval.high));
   if (std::isfinite(t.smallest_seen))
@@ -39,7 +39,7 @@ std::string scatter_sentence(const Trace& t) {
                         "from {} on",
                         percent(t.smallest_seen));
   if (!t.repeatability)
-    text += "; whether that is more than the rig repeats is not known: repeat tests, or give "
+    text += "; it is unknown whether this exceeds the rig's repeatability: repeat tests, or give "
             "trace.repeatability";
   return text;
 }
