@@ -379,7 +379,8 @@ std::vector<KeyRule> proof_keys() {
           at_least(1, 1e9),
       key<std::size_t>(
           "verify.proof_boxes", [](Job & job) -> auto& { return job.verify.proof_boxes; },
-          "number of boxes that a table's proof may examine, which limits its time; a table of more "
+          "number of boxes that a table's proof may examine, which limits its time; a table of "
+          "more "
           "cells has no proof") |
           at_least(1, 1e12),
       key<bool>(

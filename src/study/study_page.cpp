@@ -38,10 +38,9 @@ words::Text verdict_text(const Plan& plan, const Tally& tally) {
   const std::string judged = of_campaigns(law->may_be_best, tally.compared);
   words::Text text =
       words::strong(name) +
-      fmt::format(
-          " is best or statistically tied in {} campaigns that compare laws; "
-          "it is best in {} of {}.",
-          judged, thousands(law->best), thousands(law->campaigns));
+      fmt::format(" is best or statistically tied in {} campaigns that compare laws; "
+                  "it is best in {} of {}.",
+                  judged, thousands(law->best), thousands(law->campaigns));
   if (tally.counts.missing > 0)
     text += fmt::format(" {} of {} campaigns are missing here.", thousands(tally.counts.missing),
                         thousands(plan.keys.size()));

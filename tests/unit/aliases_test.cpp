@@ -125,8 +125,9 @@ TEST(Aliases, StandBesideNothingWasFound) {
   t.cannot_tell = trace::find_aliases(data, fit.model, {});
   EXPECT_THAT(test::trace_text(t, words::Detail::brief),
               HasSubstr("\n  batch cannot be distinguished from sigma_n_MPa: A"));
-  EXPECT_THAT(words::trace_in_short(t),
-              HasSubstr("wzl: no missing effect found; batch cannot be distinguished from sigma_n_MPa"));
+  EXPECT_THAT(
+      words::trace_in_short(t),
+      HasSubstr("wzl: no missing effect found; batch cannot be distinguished from sigma_n_MPa"));
 }
 
 } // namespace

@@ -252,9 +252,8 @@ TEST_F(LoadFiles, SayUnitsBehindTheNamesOfTheirColumns) {
   const Dataset data =
       read("t [ms];Friction force (kN);F_N_N / N;sigma_n_MPa, Pa;T_contact_C [K];x [new]\n"
            "0;1;10;5e6;300;1\n1000;2;10;5e6;300;2\n");
-  EXPECT_THAT(data.notes,
-              testing::IsSupersetOf({"sigma_n_MPa: Pa in the file, converted to MPa",
-                                     "T_contact_C: K in the file, converted to degC"}));
+  EXPECT_THAT(data.notes, testing::IsSupersetOf({"sigma_n_MPa: Pa in the file, converted to MPa",
+                                                 "T_contact_C: K in the file, converted to degC"}));
   EXPECT_THAT(column(data, "sigma_n_MPa"), ElementsAre(5, 5));
   EXPECT_NEAR(data.values("T_contact_C")[0], 26.85, 1e-9);
   EXPECT_TRUE(data.has("x [new]")) << "no unit that is known: part of the name";
