@@ -47,6 +47,8 @@ Text take_text(const Calibration& calibration) {
   if (recommended.empty())
     return strong(best_law) + ", which fits best; one test cannot judge laws";
   Text text = strong(recommended);
+  const models::Law& law = *calibrate::recommended_fit(calibration).model.law;
+  if (!law.base.empty()) text += " (" + law.base + " with the effects below)";
   if (recommended == best_law)
     text += ", the best law";
   else
@@ -70,7 +72,7 @@ Expected expected_error(const Calibration& calibration) {
   }
   const calibrate::Recommended& r = calibration.recommended;
   if (r.expected_mae_MPa > 0)
-    return {r.expected_mae_MPa, r.expected_interval, "the choice of the law allowed for"};
+    return {r.expected_mae_MPa, r.expected_interval, "picking among the laws included"};
   return {fit.validation.mae_MPa, fit.validation.mae_interval, ""};
 }
 
@@ -86,7 +88,10 @@ Text expect_text(const Calibration& calibration) {
   if (!expected.from.empty()) text += ", " + expected.from;
   if (!calibration.noise_floors.empty()) {
     const calibrate::NoiseFloor& floor = calibration.noise_floors.front();
-    text += fmt::format("; noise floor {}{} MPa", calibrate::noise_floor_sign(floor),
+    text += fmt::format("; {}{} MPa of it is scatter that no law can predict",
+                        floor.lower_bound        ? "at least "
+                        : floor.measured_MPa > 0 ? "at most "
+                                                 : "",
                         fixed(floor.mae_MPa, decimals));
   }
   return text;
@@ -109,15 +114,23 @@ std::string far_text(const Answers& answers) {
   for (const table::Table& table : answers.tables)
     if (table.model == calibrate::recommended_fit(*answers.calibration).model.law->name &&
         table.record.share_far.value_or(0) >= 0.005)
-      return fmt::format("; {:.0f} % of the table extrapolates", 100 * *table.record.share_far);
+      return fmt::format("; {:.0f} % of its table is far from every test",
+                         100 * *table.record.share_far);
   return "";
+}
+
+// "sigma_N 500 to 2,105 MPa"; a column that is no quantity by its name.
+std::string state_range(const std::string& name, const Range& range) {
+  const data::Quantity* quantity = data::find_quantity(name);
+  return fmt::format("{} {} to {}{}", quantity ? quantity->symbol : name,
+                     short_figures(range.first, 3), short_figures(range.second, 3),
+                     quantity && quantity->unit != "1" ? " " + quantity->unit : "");
 }
 
 std::string valid_text(const Answers& answers) {
   std::vector<std::string> parts;
   for (const auto& [name, range] : valid_ranges(*answers.calibration))
-    parts.push_back(fmt::format("{} {} to {}", name, short_figures(range.first, 3),
-                                short_figures(range.second, 3)));
+    parts.push_back(state_range(name, range));
   return parts.empty() ? "" : join(parts, ", ") + far_text(answers);
 }
 
@@ -147,7 +160,8 @@ Next next_of(const Answers& answers) {
     for (const auto& open : calibrate::recommended_fit(c).delivered().determination.not_determined)
       next.tests.push_back(open.text);
     const std::string advice = calibrate::noise_floor_advice(c);
-    if (!advice.empty()) next.tests.push_back(advice);
+    if (!advice.empty())
+      next.tests.push_back(advice + ": their scatter shows how good a law can be");
   }
   next.checks.insert(next.checks.begin(), answers.cautions.begin(), answers.cautions.end());
   next.tests.resize(std::min(next.tests.size(), shown));
@@ -192,7 +206,7 @@ Section in_short(const Answers& answers) {
     add("take", "no law was calibrated");
   }
   for (const trace::Trace& trace : answers.traces)
-    add("missing", trace_in_short(trace));
+    add("effects", trace_in_short(trace));
   if (is_calibrated(answers)) add("valid", valid_text(answers));
   if (answers.verification) add("drift", drift_in_short(*answers.verification));
   add("next", next_text(next_of(answers)));

@@ -344,18 +344,18 @@ Text drift_in_short(const Verification& verification) {
     if (result.spans.front().text != "ok") not_ok += "; " + (model + " ") + result;
   }
   const Drift drift = largest_drift(verification);
-  std::string text = fmt::format(
-      "tables differ from their law by {}{} MPa{}, {} allowed",
-      drift.proven && drift.value_MPa >= 1e-9 ? "at most " : "", drift_figures(drift.value_MPa),
-      drift.proven ? " (proven)" : " as found (not proven)", verify::allowed_text(verification));
+  std::string text =
+      fmt::format("tables within {} MPa of their law {}", drift_figures(drift.value_MPa),
+                  drift.proven ? "at every state (proven)" : "as found (not proven)");
   if (count > 0)
-    text += fmt::format("; {} compiled and run: largest {} MPa", count_of(count, "routine"),
+    text += fmt::format(", {} compiled and run within {} MPa", count_of(count, "routine"),
                         drift_figures(routines));
+  text += fmt::format("; {} MPa allowed", verify::allowed_text(verification));
   const auto changed =
       std::count_if(verification.findings.begin(), verification.findings.end(),
                     [](const verify::Finding& f) { return f.failed && f.model.empty(); });
   if (changed > 0) not_ok += "; " + badge("FILES CHANGED", "fail");
-  return text + not_ok;
+  return not_ok.empty() ? Text(text + ": passed") : text + not_ok;
 }
 
 namespace {

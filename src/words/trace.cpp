@@ -352,7 +352,9 @@ std::string trace_in_short(const Trace& t) {
   std::vector<std::string> causes;
   for (const TracedEffect& effect : t.effects)
     causes.push_back(cause_text(effect));
-  return fmt::format("{} lacked {}, now added: {}{}", t.model, join(causes, ", "), errors, aliases);
+  return fmt::format("{} added to {}: {}; {}{}", join(causes, ", "), t.model, errors,
+                     t.remaining.structure ? "structure is left" : "no other effect found",
+                     aliases);
 }
 
 Section detectable_effects(const Trace& t) {

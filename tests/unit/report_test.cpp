@@ -150,7 +150,7 @@ TEST(Report, ShowsNotANumberDriftAsFailedAndNotAsZero) {
   sample.verification.records[0].worst_case_MPa = std::nan("");
   sample.verification.records[0].passed = false;
   EXPECT_THAT(report_html(sample.input()),
-              HasSubstr("</strong>: tables differ from their law by \u2013 MPa as found"));
+              HasSubstr("</strong>: tables within \u2013 MPa of their law as found"));
 }
 
 TEST(Report, CountsRowsThatThePlotsDoNotShow) {
