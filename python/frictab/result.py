@@ -290,10 +290,25 @@ class Result:
         with file_faults(os.fspath(file), f"a {name}"):
             return make(read_record(file, name))
 
+    def _in_short(self) -> list[str]:
+        """The first box of the report; nothing where it is of other results than these."""
+        path = self.directory / "summary.json"
+        if not path.exists():
+            return []
+        with file_faults(str(path), "a summary"):
+            record = read_record(path, "summary")
+            own = self.calibration
+            if (record["data_hash"], record.get("best"), record.get("recommended")) != (
+                    own.record.get("data_hash"), own.best, own.recommended):
+                return []
+            return [str(line) for line in record["in_short"]]
+
     def _findings(self) -> list[str]:
         record, found = self.calibration.record, []
         if self.synthetic:
             found.append("SYNTHETIC data: nothing here was measured")
+        if in_short := self._in_short():
+            return found + in_short
         fits = {f["name"]: f for f in record["models"]}
         if self.best in fits:
             unseen = fits[self.best]["validation"]

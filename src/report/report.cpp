@@ -145,6 +145,7 @@ std::string report_json(const ReportInput& input) {
                               {"synthetic_data", input.calibration.synthetic},
                               {"campaign", input.title}};
   words::add_answers(j, answers_of(input));
+  j["in_short"] = words::as_json(words::in_short(answers_of(input)))["lines"];
   return io::json_text(j);
 }
 

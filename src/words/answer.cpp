@@ -119,7 +119,7 @@ std::string far_text(const Answers& answers) {
   return "";
 }
 
-// "sigma_N 500 to 2,105 MPa"; a column that is no quantity by its name.
+// "sigma_N 500 to 2,105 MPa"; other columns by their own names.
 std::string state_range(const std::string& name, const Range& range) {
   const data::Quantity* quantity = data::find_quantity(name);
   return fmt::format("{} {} to {}{}", quantity ? quantity->symbol : name,

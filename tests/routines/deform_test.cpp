@@ -79,7 +79,9 @@ struct SlowDeform : test::NeedsGfortran {
   UsrbccCall call;
 };
 
-TEST_F(SlowDeform, AgreesWithFrictabForEveryKindOfArgumentAndFrictionType) {
+using LongDeform = SlowDeform;
+
+TEST_F(LongDeform, AgreesWithFrictabForEveryKindOfArgumentAndFrictionType) {
   std::vector<std::pair<const char*, codegen::SolverUnits>> choices = {{"coulomb", {}},
                                                                        {"shear", {}}};
   for (const test::SolverScale& scale : test::every_system())

@@ -36,7 +36,7 @@ nlohmann::ordered_json recipe(const std::string& target, const ExportRequest& re
 }
 
 // What ifort and ifx take as well: nothing beyond the standard but the solver's own includes.
-TEST(SlowExport, FixedFormSourcesAreFortran2008) {
+TEST(LongExport, FixedFormSourcesAreFortran2008) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   const TemporaryDirectory work;
   const std::vector<Table> tables = {test::four_axis_table(), test::spline_table(),
@@ -230,7 +230,7 @@ TEST(Export, RecipeListsTheCArgumentsInContractOrderAndTracedOnesBehind) {
                                           "sigma_f_MPa", "humidity %, room"));
 }
 
-TEST(SlowExport, SameRequestGivesTheSameBytes) {
+TEST(LongExport, SameRequestGivesTheSameBytes) {
   for (const test::NamedTable& sample : test::sample_tables())
     for (const Exporter& exporter : all_exporters())
       EXPECT_EQ(exporter.generate(test::SampleRequest(exporter, sample.table, "mm-t-s").get()),

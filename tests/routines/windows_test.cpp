@@ -51,7 +51,7 @@ BuildVariant for_windows(BuildVariant variant) {
   return variant;
 }
 
-class SlowWindows : public testing::TestWithParam<std::string> {
+class LongWindows : public testing::TestWithParam<std::string> {
 protected:
   void SetUp() override {
     if (!have_program(cross + "gfortran") || !have_program(cross + "gcc"))
@@ -59,7 +59,7 @@ protected:
   }
 };
 
-TEST_P(SlowWindows, RoutineAndDriverOfEveryTargetAreBuiltFromFilesWithCrlfInADirectoryWithABlank) {
+TEST_P(LongWindows, RoutineAndDriverOfEveryTargetAreBuiltFromFilesWithCrlfInADirectoryWithABlank) {
   const Exporter& exporter = *codegen::find_exporter(GetParam());
   const TemporaryDirectory work;
   const table::Table axes = test::four_axis_table(), histories = test::further_histories_table();
@@ -87,7 +87,7 @@ std::vector<std::string> compiled_targets() {
   return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, SlowWindows, testing::ValuesIn(compiled_targets()));
+INSTANTIATE_TEST_SUITE_P(Targets, LongWindows, testing::ValuesIn(compiled_targets()));
 
 // Reads columns of the six arguments from rows.bin and writes tau_R of each row to tau.bin.
 const char* const program = R"(#include <stdio.h>
