@@ -333,8 +333,11 @@ std::string design_in_short(const trace::Design& d) {
         join(values, ", ")));
     t = alike;
   }
-  return fmt::format("run {}, otherwise like {}, to settle {} ({:.0f} %)", join(groups, "; "),
-                     d.like, join(d.settles, ", "), 100 * d.probability);
+  return fmt::format("run {}, otherwise like {}, to decide {} ({:.0f} % chance of a clear answer)",
+                     join(groups, "; "), d.like,
+                     d.settles.size() == 1 ? "whether " + d.settles.front() + " has an effect"
+                                           : "between " + join(d.settles, ", "),
+                     100 * d.probability);
 }
 
 std::string trace_in_short(const Trace& t) {
