@@ -17,9 +17,9 @@ Section trace(const trace::Trace& trace, Detail detail);
 // blocks where that is not known.
 Section detectable_effects(const trace::Trace& trace);
 
-// Tests that settle an effect, in one line: "run 2 tests with humidity_pct = 20; 2 with humidity_pct
-// = 80, otherwise like V07, to decide whether humidity_pct has an effect (85 % chance of a clear
-// answer)".
+// Tests that settle an effect, in one line: "run 2 tests with humidity_pct = 20; 2 with
+// humidity_pct = 80, otherwise like V07, to decide whether humidity_pct has an effect (85 % chance
+// of a clear answer)".
 std::string design_in_short(const trace::Design& design);
 
 // The missing effects and the gain of adding them, in one line. Names no effect whose gain on
