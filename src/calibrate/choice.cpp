@@ -26,17 +26,6 @@ double mae_of(const LawErrors& law, std::span<const double> times) {
   return rows > 0 ? sum / rows : 0;
 }
 
-// Index of the best law; the first of those with equal errors, as in the ranking.
-std::size_t best_of(Laws laws, std::span<const double> times) {
-  std::vector<double> mae;
-  for (const LawErrors& law : laws)
-    mae.push_back(mae_of(law, times));
-  const double least = *std::min_element(mae.begin(), mae.end());
-  const auto first = std::find_if(mae.begin(), mae.end(),
-                                  [&](double one) { return one <= least * (1 + same_error); });
-  return static_cast<std::size_t>(first - mae.begin());
-}
-
 std::vector<Choice::Share> shares_of(Laws laws, const std::vector<std::size_t>& wins) {
   const auto draws = static_cast<double>(std::accumulate(wins.begin(), wins.end(), 0UL));
   std::vector<Choice::Share> shares;
@@ -75,6 +64,16 @@ private:
 };
 
 } // namespace
+
+std::size_t best_of(Laws laws, std::span<const double> times) {
+  std::vector<double> mae;
+  for (const LawErrors& law : laws)
+    mae.push_back(mae_of(law, times));
+  const double least = *std::min_element(mae.begin(), mae.end());
+  const auto first = std::find_if(mae.begin(), mae.end(),
+                                  [&](double one) { return one <= least * (1 + same_error); });
+  return static_cast<std::size_t>(first - mae.begin());
+}
 
 RepeatedChoice repeat_choice(Laws laws, const Rule& rule, std::size_t resamples,
                              std::uint64_t seed) {

@@ -14,6 +14,9 @@ namespace frictab::calibrate {
 // Position of the law that is chosen where experiments count `times` each.
 using Rule = std::function<std::size_t(std::span<const double> times)>;
 
+// Position of the best law; the first of those with equal errors, as in the ranking.
+std::size_t best_of(std::span<const LawErrors> laws, std::span<const double> times);
+
 struct RepeatedChoice {
   std::vector<std::size_t> wins; // per law
   double expected_mae_MPa = 0;   // on new tests, of a law chosen by this rule

@@ -73,13 +73,6 @@ Place simplest_near(JudgedLaws& judged, std::size_t best, std::span<const std::s
   return out;
 }
 
-std::size_t first_of_least(const JudgedLaws& judged, std::size_t laws) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < laws; ++i)
-    if (judged.mae_MPa(i) * (1 + same_error) < judged.mae_MPa(best)) best = i;
-  return best;
-}
-
 std::string numbers_text(std::size_t numbers) {
   return thousands(numbers) + (numbers == 1 ? " number" : " numbers");
 }
@@ -117,7 +110,7 @@ Recommended recommend(std::span<const LawErrors> laws, std::span<const std::size
   if (experiments < 2 || resamples == 0) return out;
   const auto rule = [&](std::span<const double> times) {
     judged.judge(times);
-    return simplest_near(judged, first_of_least(judged, laws.size()), numbers).law;
+    return simplest_near(judged, best_of(laws, times), numbers).law;
   };
   const RepeatedChoice again = repeat_choice(laws, rule, resamples, seed);
   out.expected_mae_MPa = again.expected_mae_MPa;

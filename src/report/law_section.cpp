@@ -223,40 +223,52 @@ words::Picture all_laws_picture(const ReportInput& input, std::pair<double, doub
           {}};
 }
 
+// Ranges of the rows that are drawn, which both plots share.
+struct DrawnRows {
+  std::pair<double, double> sigma, tau;
+
+  svg::Axis x(int ticks) const {
+    return svg::nice_axis(sigma.first, sigma.second, ticks, axis_name(abscissa_name));
+  }
+  svg::Axis y(int ticks) const {
+    return svg::nice_axis(std::min(0.0, tau.first), tau.second, ticks, axis_name("tau_R_MPa"));
+  }
+};
+
+// Nothing without laws, rows, or a range of either quantity.
+std::optional<DrawnRows> drawn_rows(const ReportInput& input) {
+  const data::Dataset& data = input.validation;
+  if (input.calibration.fits.empty() || !data.has(abscissa_name) || !data.has("tau_R_MPa") ||
+      data.rows() == 0)
+    return std::nullopt;
+  const auto sigma = span_of(data.values(abscissa_name)), tau = span_of(data.values("tau_R_MPa"));
+  if (!sigma || !tau) return std::nullopt;
+  return DrawnRows{*sigma, *tau};
+}
+
 } // namespace
 
 words::Section all_laws_with_data(const ReportInput& input) {
   words::Section section{"laws", "All laws", {}};
-  const data::Dataset& data = input.validation;
-  if (input.calibration.fits.empty() || !data.has(abscissa_name) || !data.has("tau_R_MPa") ||
-      data.rows() == 0)
-    return section;
-  const auto tau = span_of(data.values("tau_R_MPa"));
-  const auto sigma = span_of(data.values(abscissa_name));
-  if (!tau || !sigma) return section;
+  const auto rows = drawn_rows(input);
+  if (!rows) return section;
   section.title = "All laws over the contact normal stress, with the data";
   section.say("Lines: " + words::symbol("tau_R") + " of each law over " + words::symbol("sigma_N") +
               " at the medians of its other inputs; constants of the literature in grey; laws on "
               "one line share it. Shades: all rows the laws are judged by, at all values of their "
               "inputs. Other states, maps and single tests: " +
               words::link("explore.html", "./explore.html") + ".");
-  const svg::Axis x = svg::nice_axis(sigma->first, sigma->second, 6, axis_name(abscissa_name));
-  const svg::Axis y =
-      svg::nice_axis(std::min(0.0, tau->first), tau->second, 6, axis_name("tau_R_MPa"));
-  section.add(words::Pictures{"scroll wide", {all_laws_picture(input, *sigma, x, y)}});
+  section.add(words::Pictures{"scroll wide",
+                              {all_laws_picture(input, rows->sigma, rows->x(6), rows->y(6))}});
   return section;
 }
 
 words::Section best_law_with_data(const ReportInput& input) {
   words::Section section{"law", "The law", {}};
-  const data::Dataset& data = input.validation;
-  if (input.calibration.fits.empty() || !data.has(abscissa_name) || !data.has("tau_R_MPa") ||
-      data.rows() == 0)
-    return section;
+  const auto rows = drawn_rows(input);
+  if (!rows) return section;
   const auto drawn = drawn_law(input, calibrate::best_fit(input.calibration));
-  const auto tau = span_of(data.values("tau_R_MPa"));
-  const auto sigma = span_of(data.values(abscissa_name));
-  if (!drawn || !tau || !sigma || drawn->sigma == drawn->sorted.size()) return section;
+  if (!drawn || drawn->sigma == drawn->sorted.size()) return section;
   section.title = "The law with the data: " + drawn->law.model.law->name;
   section.say(words::symbol("tau_R") + " over " + words::symbol("sigma_N") +
               ", one plot for each other input of the law. Lines: the law with that input low "
@@ -264,9 +276,7 @@ words::Section best_law_with_data(const ReportInput& input) {
               "medians; lines that coincide are drawn once. Thin dotted lines: the band "
               "in which 90 % of new experiments are expected, around the median. Shades: all rows "
               "the law was judged by, at all values of their inputs.");
-  const svg::Axis x = svg::nice_axis(sigma->first, sigma->second, 5, axis_name(abscissa_name));
-  const svg::Axis y =
-      svg::nice_axis(std::min(0.0, tau->first), tau->second, 5, axis_name("tau_R_MPa"));
+  const svg::Axis x = rows->x(5), y = rows->y(5);
   words::Pictures panels{"panels", {}};
   for (std::size_t i = 0; i < drawn->sorted.size(); ++i)
     if (i != drawn->sigma && drawn->sorted[i].front() < drawn->sorted[i].back())

@@ -8,6 +8,7 @@
 
 namespace frictab::run {
 
+// The values of the first box; they refer to the run.
 words::Answers answers_of(const Run& run);
 
 // `brief` ends with the findings in a few lines; `full` has everything that the report has.
