@@ -44,10 +44,10 @@ bool is_load(const std::string& column) {
 
 } // namespace
 
-void check_values(Part& part) {
+void check_values(Part& part, const ReadRequest& options) {
   FaultsByCause causes;
   for (const Column& column : part.data.columns) {
-    const Quantity* quantity = find_quantity(column.name);
+    const Quantity* quantity = options.find_quantity(column.name);
     if (!quantity) continue;
     for (std::size_t i = 0; i < column.values.size(); ++i) {
       if (column.name == "F_N_N" && !part.measured_tau && column.values[i] == 0)
@@ -89,7 +89,7 @@ void check_computed(Part& part, const ReadRequest& options) {
   if (!part.faults.empty()) return;
   FaultsByCause causes;
   for (const Column& column : part.data.columns)
-    for (std::size_t i = 0; find_quantity(column.name) && i < column.values.size(); ++i)
+    for (std::size_t i = 0; options.find_quantity(column.name) && i < column.values.size(); ++i)
       if (!std::isfinite(column.values[i]) && (options.measured || !is_measured(column.name)))
         causes.add(column.name,
                    {part.place(i), column.name + " cannot be computed here",

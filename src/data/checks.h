@@ -19,7 +19,7 @@ void check_needed(Part& part, const DataOptions& options);
 
 // Reports quantities below their lowest value (friction may scatter about 0), and rows without load
 // where eq. 1 divides by it.
-void check_values(Part& part);
+void check_values(Part& part, const ReadRequest& options);
 
 // Reports values that could not be computed although every cell of their row is a number; not a
 // measured stress if the rows do not need one.

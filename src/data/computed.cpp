@@ -100,7 +100,7 @@ std::optional<expr::Expr> without_magnitudes(const expr::Expr& formula) {
 
 class Formulas {
 public:
-  Formulas(Part& part, const DataOptions& options) : part_(part), options_(options) {}
+  Formulas(Part& part, const ReadRequest& options) : part_(part), options_(options) {}
 
   void compute() {
     std::map<std::string, expr::Expr> open;
@@ -143,7 +143,7 @@ private:
       if (const std::string unit = unit_of(part_, *column); !unit.empty())
         inputs.push_back(name + " in " + unit);
     }
-    const Quantity& quantity = *find_quantity(canonical);
+    const Quantity& quantity = *options_.find_quantity(canonical);
     const ColumnSource& from = options_.columns.at(canonical);
     const auto values_of = [&](const expr::Expr& of) {
       std::vector<double> out(part_.row.size());
@@ -181,7 +181,7 @@ private:
     if (!column) {
       std::vector<std::string> known = {"pi"};
       for (const Column& one : part_.data.columns)
-        known.push_back(find_quantity(one.name) ? one.name : name_in_formulas(one.name));
+        known.push_back(options_.find_quantity(one.name) ? one.name : name_in_formulas(one.name));
       part_.faults.add(place,
                        fmt::format("the formula of {} needs {}, which {} does not have", canonical,
                                    name, part_.raw.file),
@@ -195,7 +195,7 @@ private:
   }
 
   Part& part_;
-  const DataOptions& options_;
+  const ReadRequest& options_;
 };
 
 } // namespace
@@ -263,13 +263,13 @@ std::vector<std::string> computed_from(const DataOptions& options, const std::st
   return quantities;
 }
 
-void compute_formulas(Part& part, const DataOptions& options) {
+void compute_formulas(Part& part, const ReadRequest& options) {
   Formulas(part, options).compute();
   if (!options.bystanders) return;
   // Kept, together with the columns that formulas used.
   const std::vector<std::string>& keep = *options.bystanders;
   std::erase_if(part.data.columns, [&](const Column& column) {
-    return !find_quantity(column.name) && !computed_from(options, column.name).empty() &&
+    return !options.find_quantity(column.name) && !computed_from(options, column.name).empty() &&
            std::find(keep.begin(), keep.end(), column.name) == keep.end();
   });
 }

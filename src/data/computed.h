@@ -20,7 +20,7 @@ void take_slopes(Part& part, const DataOptions& options);
 // is known. A formula may use the columns of other formulas. Faults are reported at the formula. If
 // a formula of the speed, the friction or the stress takes the magnitude of a signed column
 // (abs(x), sqrt(x^2)), its signed values are kept as well (signs.h).
-void compute_formulas(Part& part, const DataOptions& options);
+void compute_formulas(Part& part, const ReadRequest& options);
 
 // A column's name as formulas write it: "Drehzahl innen [1/min]" is Drehzahl_innen.
 std::string name_in_formulas(const std::string& column);

@@ -61,7 +61,7 @@ void finish_part(Part& part, const Reading& options, const Beside& beside) {
   const std::vector<Phase> phases = take_signs(part, options);
   integrate_distance(part); // over all rows
   leave_out_phases(part, phases, options);
-  check_values(part);
+  check_values(part, options);
   check_computed(part, options);
   leave_out_impossible(part, options);
   part.data.file_of.assign(part.data.experiments.size(), part.raw.file);
@@ -80,20 +80,6 @@ template <class Load> Part loaded(const Load& load) {
   return part;
 }
 
-// Reads one file of the second set.
-Part load_second_part(const FilePlan& plan) {
-  return loaded([&](Part& part) {
-    read_part(part, plan);
-    compute_formulas(part, plan.options);
-    multiply_coefficients(part, plan.options);
-    drop_missing(part, plan.options);
-    forget_signed(part);
-    report_odd_cells(part);
-    check_values(part);
-    check_computed(part, plan.options);
-  });
-}
-
 // Reads the files of data.join with its own keys.
 Dataset load_second(const DataOptions& options) {
   Reading own;
@@ -102,10 +88,23 @@ Dataset load_second(const DataOptions& options) {
   own.missing = options.missing;
   own.files = {options.join.how};
   own.files.front().match = "*";
-  return load_all(options.join.files, own, load_second_part);
+  return load_all(options.join.files, own, load_plain_part);
 }
 
 } // namespace
+
+Part load_plain_part(const FilePlan& plan) {
+  return loaded([&](Part& part) {
+    read_part(part, plan);
+    compute_formulas(part, plan.options);
+    multiply_coefficients(part, plan.options);
+    drop_missing(part, plan.options);
+    forget_signed(part);
+    report_odd_cells(part);
+    check_values(part, plan.options);
+    check_computed(part, plan.options);
+  });
+}
 
 Part load_part(const FilePlan& plan, const Beside& beside) {
   return loaded([&](Part& part) {

@@ -28,6 +28,8 @@ std::string reading_words(const FilePlan& plan);
 // Reads a whole file: maps, cuts into experiments, computes, leaves out and checks. Faults are in
 // Part::faults.
 Part load_part(const FilePlan& plan, const Beside& beside);
+// The same for rows that are not tests, without what is inferred about tests: signs, phases, eq. 1.
+Part load_plain_part(const FilePlan& plan);
 // Processes rows that are already read, `raw`: some experiments of the file.
 Part load_part(io::CsvTable&& raw, const FilePlan& plan, const Beside& beside);
 

@@ -62,7 +62,7 @@ public:
   MappedFile map() {
     map_experiment();
     std::vector<std::pair<const Quantity*, const CsvColumn*>> from;
-    for (const Quantity& quantity : quantities()) {
+    for (const Quantity& quantity : options_.quantities) {
       from.emplace_back(&quantity, source(quantity.name));
       ++uses_[from.back().second];
     }
@@ -132,7 +132,7 @@ private:
     const io::HeaderName known = io::read_header_name(text), any = io::split_header_name(text);
     if (any.name == text || known.name != text || is_named(text) || has_column(any.name))
       return known;
-    const bool is_own = find_quantity(any.name) && !options_.columns.count(any.name);
+    const bool is_own = options_.find_quantity(any.name) && !options_.columns.count(any.name);
     return is_own || is_named(any.name) ? any : known;
   }
 
@@ -406,7 +406,7 @@ private:
   // a name that ends with it.
   void assume(const Quantity& quantity, const CsvColumn& raw, const std::string& wanted) {
     const std::string& name = headers_[std::size_t(&raw - raw_.columns.data())].name;
-    if (wanted == "1" || find_quantity(name)) return;
+    if (wanted == "1" || options_.find_quantity(name)) return;
     const std::string own = unit_in_name(name, wanted);
     const auto says = own.empty() ? std::nullopt : convert(own, wanted);
     if (says && says->factor == 1 && says->offset == 0) return;
@@ -483,7 +483,7 @@ private:
         if (!by_name(name)) check_elsewhere(name);
     for (const CsvColumn& column : raw_.columns) {
       if (used_.count(&column) || column.name.empty()) continue;
-      if (find_quantity(column.name)) continue; // its canonical name is mapped from elsewhere
+      if (options_.find_quantity(column.name)) continue; // its canonical name is mapped from elsewhere
       const bool is_wanted = !options_.bystanders || keep.count(column.name) ||
                              column.name == origin_column ||
                              !computed_from(options_, column.name).empty();
@@ -538,7 +538,7 @@ private:
   void check_case(const CsvColumn& column) {
     const std::string& name = headers_[std::size_t(&column - raw_.columns.data())].name;
     const std::string lower = lower_case(name);
-    for (const Quantity& quantity : quantities())
+    for (const Quantity& quantity : options_.quantities)
       if (lower == lower_case(quantity.name))
         faults_.add(header(),
                     fmt::format("column '{}' differs from {} only in upper and lower case{}",
@@ -617,7 +617,7 @@ private:
           {name, "", std::vector<double>(raw_.rows(), value), std::move(levels)});
     };
     for (const auto& [name, value] : options_.constants)
-      if (!find_quantity(name)) add(name, value, {});
+      if (!options_.find_quantity(name)) add(name, value, {});
     for (const auto& [name, text] : options_.labels)
       add(name, 0, {text});
   }

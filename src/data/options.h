@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include "core/error.h"
 #include "data/dataset.h"
+#include "data/quantity.h"
 
 namespace frictab::data {
 
@@ -150,10 +152,13 @@ struct ReadRequest : DataOptions {
   // false: rows to predict. They need neither a measured stress nor the columns it is computed from
   // (NaN for an empty cell), and an experiment may be one row.
   bool measured = true;
+  // The canonical columns. Files of a simulation have others than those of tests.
+  std::span<const Quantity> quantities = data::quantities();
   // Size of a piece, for a file that is read in pieces.
   std::size_t piece_bytes = std::size_t{4} << 20;
 
   ReadRequest(DataOptions options = {}) : DataOptions(std::move(options)) {}
+  const Quantity* find_quantity(std::string_view name) const; // nullptr if it is not among these
 };
 
 // A request while it is carried out, with what the files have shown so far.
