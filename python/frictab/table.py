@@ -72,7 +72,7 @@ class Axis:
 
 class Table:
     """A friction table. `axes`, `inputs`, `value` (as its units say), `attributes` of the root;
-    `distance` of every node from the nearest test (1: what the data span of one axis), or None."""
+    `distance` of every node from half a test (1: what the data span of one axis), or None."""
 
     distance: Optional[Numbers] = None
 

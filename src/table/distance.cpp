@@ -1,10 +1,9 @@
-// Finds the nearest row of a test, by a k-d tree.
+// Finds the rows of tests nearest to a state, by a k-d tree.
 #include "table/distance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <nanoflann.hpp>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -17,7 +16,9 @@ namespace frictab::table {
 
 namespace {
 
-constexpr double same_place = 0.01; // share of the span within which rows of one test count once
+constexpr std::size_t rows_of_a_test = 64;
+// So many rows are always enough: each counts at least 1/64 of a test.
+constexpr auto most_rows = static_cast<std::size_t>(enough_tests * rows_of_a_test);
 constexpr std::size_t share_points = 4096;
 
 // Scale of one axis: (u - low)/span, u its coordinate.
@@ -54,27 +55,29 @@ struct Points {
 
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Adaptor<double, Points>, Points, -1>;
 
-Points points_of(const std::vector<Scale>& scales,
-                 const std::vector<std::span<const double>>& columns,
-                 std::span<const std::size_t> first_row) {
-  Points points{scales.size(), {}};
-  std::vector<double> u(scales.size()), place;
+struct PointsOfTests {
+  Points points;
+  std::vector<double> weight; // share of its test, per point
+};
+
+PointsOfTests points_of(const std::vector<Scale>& scales,
+                        const std::vector<std::span<const double>>& columns,
+                        std::span<const std::size_t> first_row) {
+  PointsOfTests all{{scales.size(), {}}, {}};
+  std::vector<double> u(scales.size());
   for (std::size_t test = 0; test + 1 < first_row.size(); ++test) {
-    std::set<std::vector<double>> places;
-    std::vector<double> last;
-    for (std::size_t row = first_row[test]; row < first_row[test + 1]; ++row) {
+    const std::size_t rows = first_row[test + 1] - first_row[test];
+    const std::size_t kept = std::min(rows, rows_of_a_test);
+    for (std::size_t i = 0; i < kept; ++i) {
+      const std::size_t row = first_row[test] + (2 * i + 1) * rows / (2 * kept);
       for (std::size_t a = 0; a < u.size(); ++a)
         u[a] = scales[a](columns[a][row]);
       if (!std::all_of(u.begin(), u.end(), [](double x) { return std::isfinite(x); })) continue;
-      place = u;
-      for (double& x : place)
-        x = std::floor(x / same_place);
-      if (place == last || !places.insert(place).second) continue;
-      last = place;
-      points.at.insert(points.at.end(), u.begin(), u.end());
+      all.points.at.insert(all.points.at.end(), u.begin(), u.end());
+      all.weight.push_back(1 / static_cast<double>(kept));
     }
   }
-  return points;
+  return all;
 }
 
 } // namespace
@@ -82,14 +85,21 @@ Points points_of(const std::vector<Scale>& scales,
 struct TestRows::Data {
   std::vector<TableAxis> axes;
   std::vector<Scale> scales;
-  Points points;
+  PointsOfTests tests;
   std::unique_ptr<Tree> tree; // null without points
 
-  double nearest(const std::vector<double>& u) const {
-    unsigned index = 0;
-    double squared = HUGE_VAL;
-    if (tree) tree->knnSearch(u.data(), 1, &index, &squared);
-    return std::sqrt(squared);
+  double far(const std::vector<double>& u) const {
+    if (!tree || !std::all_of(u.begin(), u.end(), [](double x) { return std::isfinite(x); }))
+      return HUGE_VAL;
+    unsigned index[most_rows];
+    double squared[most_rows];
+    const std::size_t found = tree->knnSearch(u.data(), most_rows, index, squared);
+    double near = 0;
+    for (std::size_t i = 0; i < found; ++i) {
+      near += tests.weight[index[i]];
+      if (near >= enough_tests * (1 - 1e-9)) return std::sqrt(squared[i]);
+    }
+    return HUGE_VAL;
   }
 };
 
@@ -99,9 +109,9 @@ TestRows::TestRows(std::vector<TableAxis> axes, const std::vector<std::span<cons
   for (std::size_t a = 0; a < axes.size(); ++a)
     data_->scales.push_back(scale_of(axes[a], columns[a]));
   data_->axes = std::move(axes);
-  data_->points = points_of(data_->scales, columns, first_row);
-  if (!data_->points.at.empty())
-    data_->tree = std::make_unique<Tree>(data_->points.dims, data_->points);
+  data_->tests = points_of(data_->scales, columns, first_row);
+  const Points& points = data_->tests.points;
+  if (!points.at.empty()) data_->tree = std::make_unique<Tree>(points.dims, points);
 }
 
 TestRows::~TestRows() = default;
@@ -114,7 +124,7 @@ double TestRows::distance(std::span<const double> state) const {
   std::vector<double> u(state.size());
   for (std::size_t a = 0; a < u.size(); ++a)
     u[a] = data_->scales[a](state[a]);
-  return data_->nearest(u);
+  return data_->far(u);
 }
 
 double TestRows::share_far() const {
@@ -128,7 +138,7 @@ double TestRows::share_far() const {
       const double low = data_->scales[a](nodes.front()), high = data_->scales[a](nodes.back());
       u[a] = low + u[a] * (high - low);
     }
-    beyond += data_->nearest(u) > far_from_tests;
+    beyond += data_->far(u) > far_from_tests;
   }
   return static_cast<double>(beyond) / static_cast<double>(share_points);
 }
@@ -167,8 +177,8 @@ void add_distance(Table& table, const models::AssembledLaw& law, const data::Dat
 
 std::string distance_text(const Table& table) {
   if (!table.record.share_far) return "";
-  return fmt::format("{:.0f} % of the table extrapolates: no test within 1/4 of an axis' measured "
-                     "span",
+  return fmt::format("{:.0f} % of the table extrapolates: less than half a test within 1/4 of the "
+                     "measured spans",
                      100 * *table.record.share_far);
 }
 

@@ -40,7 +40,7 @@ struct TableOptions {
   std::optional<std::size_t> nodes;
   std::optional<std::size_t> max_bytes;    // ... or so many bytes
   std::map<std::string, AxisOptions> axes; // by canonical name
-  bool distance = true;                    // store the distance of every node from the nearest test
+  bool distance = true;                    // store the distance of every node from the tests
   io::Hdf5Storage hdf5;
   Place place;
 

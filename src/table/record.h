@@ -48,7 +48,7 @@ struct TableRecord {
   std::optional<double> proven_drift_MPa; // no state in the range drifts further
   std::optional<double> asked_nodes;      // table.nodes of the job
   std::optional<double> asked_bytes;      // table.max_bytes of the job
-  // share of the range that is far from every test (table/distance.h)
+  // share of the range that is far from the tests (table/distance.h)
   std::optional<double> share_far;
   std::map<std::string, InputRecord> inputs; // by name
   TableAttributes others; // attributes of a file that are not members, kept as they are

@@ -60,7 +60,7 @@ struct Table {
   std::vector<TableAxis> axes; // none: the value is one constant
   // row-major, last axis fastest. Empty: the direct form, whose axes only give the range it covers
   std::vector<double> value;
-  // Distance of each node from the nearest test (table/distance.h); empty when unknown; not loaded
+  // Distance of each node from the tests (table/distance.h); empty when unknown; not loaded
   // from files.
   std::vector<double> distance;
   models::PieceQuantity quantity = models::PieceQuantity::mu;

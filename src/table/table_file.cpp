@@ -106,11 +106,14 @@ void write_distance(io::Hdf5Writer& out, const Table& table, const io::Hdf5Stora
   if (table.distance.empty()) return;
   out.dataset("distance", table.shape(), table.distance, storage);
   out.attribute("distance", "units", std::string("1"));
-  out.attribute("distance", "long_name", std::string("distance from the nearest test"));
-  out.attribute("distance", "comment",
-                std::string("Euclidean over the axes, each in its own coordinate (ln where its "
-                            "transform is log) and divided by what the data span of it: 1 is the "
-                            "whole range of the data of one axis"));
+  out.attribute("distance", "long_name", std::string("distance from half a test"));
+  out.attribute(
+      "distance", "comment",
+      std::string(
+          "radius that holds half a test's worth of rows, each row counting as its share of "
+          "its test; Euclidean over the axes, each in its own coordinate (ln where its "
+          "transform is log) and divided by what the data span of it: 1 is the "
+          "whole range of the data of one axis"));
   for (std::size_t a = 0; a < table.axes.size(); ++a)
     out.dimension_scale("distance", a, table.axes[a].name);
 }

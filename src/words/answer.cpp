@@ -121,12 +121,12 @@ std::vector<std::pair<std::string, Range>> valid_ranges(const Calibration& calib
   return found;
 }
 
-// Share of a table that is far from every test: of the law to take, if it was tabulated.
+// Share of a table that is far from the tests: of the law to take, if it was tabulated.
 std::string far_text(const Answers& answers) {
   for (const table::Table& table : answers.tables)
     if (table.model == calibrate::recommended_fit(*answers.calibration).model.law->name &&
         table.record.share_far.value_or(0) >= 0.005)
-      return fmt::format("; {:.0f} % of its table extrapolates, far from every test",
+      return fmt::format("; {:.0f} % of its table extrapolates, far from the tests",
                          100 * *table.record.share_far);
   return "";
 }

@@ -9,7 +9,7 @@
 namespace frictab::words {
 
 // A row per table, and what a user has to know of each: a stress kept below the tested range, nodes
-// beyond the data, fixed inputs, states far from every test.
+// beyond the data, fixed inputs, states far from the tests.
 Section tables(const std::vector<table::Table>& tables);
 
 // The axes of one table: range, nodes, where the range comes from.
