@@ -48,7 +48,8 @@ int main(int count, char** words) {
     if (command.setup.process == "check") return checks(command) ? 0 : 1;
     const Result result = run_process(command.setup);
     print(command.setup, result);
-    if (!command.output.empty()) write_result(result, command.output);
+    if (!command.output.empty())
+      write_result(result, command.output, static_cast<std::size_t>(command.every));
     return 0;
   } catch (const std::invalid_argument& fault) {
     std::fprintf(stderr, "process_benchmark: %s\n  hint: process_benchmark --help\n", fault.what());

@@ -62,6 +62,8 @@ const std::vector<Number>& numbers() {
       {"--sticking-share", 1e-6, 1, "share of the speed, v0 of the regularisation",
        into(&Setup::sticking_share)},
       {"--soft-pressure", 1e-6, 1000, "MPa, p0 of the regularisation", into(&Setup::soft_pressure)},
+      {"--every", 1, 1000, "contact points of each so many steps are written",
+       into(&Command::every)},
       {"--ccx-force", 0, 1e5, "kN, check: CalculiX's force with --ccx-mu",
        into(&Command::ccx_force)},
       {"--ccx-radius", 0, 1e3, "mm, check: CalculiX's inner radius at mid height",

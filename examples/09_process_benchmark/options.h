@@ -9,6 +9,7 @@ struct Command {
   bool help = false;
   Setup setup;
   std::string output;                               // prefix of the files, none if empty
+  double every = 4;                                 // contact points of each so many steps
   double ccx_force = 0, ccx_radius = 0, ccx_mu = 0; // check: what CalculiX gives; 0: not there
 };
 

@@ -177,7 +177,7 @@ Result run_process(const Setup& setup) {
   return Run(setup).go();
 }
 
-void write_result(const Result& result, const std::string& name) {
+void write_result(const Result& result, const std::string& name, std::size_t every) {
   std::ofstream force(name + "_force.csv"), contact(name + "_contact.csv");
   force.precision(10);
   contact.precision(10);
@@ -191,7 +191,7 @@ void write_result(const Result& result, const std::string& name) {
           << s.energies.elastic / 1e3 << '\n';
   contact << "stroke_mm,r_mm,z_mm,area_mm2,sigma_n_MPa,psi,v_rel_mm_s,T_contact_C,s_mm,"
              "sigma_f_MPa,tau_MPa,outside\n";
-  for (std::size_t i = 0; i < result.contact.size(); i += 4)
+  for (std::size_t i = 0; i < result.contact.size(); i += every)
     for (const ContactRecord& c : result.contact[i])
       if (c.touches)
         contact << result.steps[i + 1].stroke << ',' << c.r << ',' << c.z << ',' << c.area << ','

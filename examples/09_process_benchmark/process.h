@@ -55,5 +55,5 @@ struct Result {
 Setup default_setup(const std::string& process);
 Result run_process(const Setup& setup);
 
-// NAME_force.csv: one line per step; NAME_contact.csv: the contact points of every fourth step.
-void write_result(const Result& result, const std::string& name);
+// NAME_force.csv: one line per step; NAME_contact.csv: the contact points of each `every`-th step.
+void write_result(const Result& result, const std::string& name, std::size_t every);

@@ -164,6 +164,11 @@ PolynomialFit fit_polynomial(const PolynomialProblem& problem) {
   return fit;
 }
 
+MatrixXd bin_covariance(const PolynomialNoise& noise, const VectorXd& position,
+                        const VectorXd& relative_rows) {
+  return ExperimentNoise(noise, position, relative_rows).sum();
+}
+
 VectorXd jackknife_errors(const PolynomialFit& fit) {
   const auto experiments = static_cast<double>(fit.without.cols());
   if (fit.without.cols() < 3) return VectorXd::Constant(fit.coefficients.size(), no_value);

@@ -48,6 +48,10 @@ struct PolynomialFit {
 // each) stay near the defaults of PolynomialNoise. Accepts any number of bins, also none.
 PolynomialFit fit_polynomial(const PolynomialProblem& problem);
 
+// V of one experiment with bins at these positions; `relative_rows` of a mean bin is 1.
+Eigen::MatrixXd bin_covariance(const PolynomialNoise& noise, const Eigen::VectorXd& position,
+                               const Eigen::VectorXd& relative_rows);
+
 // Standard errors of the coefficients by experiment (jackknife: Tukey 1958), with the ridge fixed;
 // NaN with fewer than three experiments.
 Eigen::VectorXd jackknife_errors(const PolynomialFit& fit);

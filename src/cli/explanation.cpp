@@ -2,6 +2,7 @@
 #include "cli/explanation.h"
 
 #include <limits>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include "job/schema.h"
 #include "job/systems.h"
 #include "models/law.h"
+#include "process/quantities.h"
 
 namespace frictab::cli {
 
@@ -160,6 +162,40 @@ Explanation about_section(const std::string& path, const std::string& title) {
   return out;
 }
 
+// [process]: the columns of its files, then the keys.
+Explanation about_process(const std::string& title) {
+  Explanation out = about_section("process", title);
+  out.fields = {
+      {"contact", "one row per written increment and facet (or node) that touches: time_s, facet, "
+                  "area_mm2, sigma_n_MPa, and v_rel_mm_s or slip_1_mm and slip_2_mm"},
+      {"derived",
+       "v_rel_mm_s from slips, as a vector; s_mm since each facet first touched; psi from "
+       "area_mm2/area_start_mm2; sigma_f_MPa by process.flow_curve or a formula"},
+      {"held", "what is missing: psi at 1, other states at the median of the tests, with what that "
+               "may cost"},
+      {"tool", "time_s, force_kN, speed_mm_s; stroke_mm, and friction_J, which shows a wrong "
+               "symmetry or unit"},
+      {"files",
+       "as [data] reads them: text, workbooks, HDF5, MATLAB, several files, other names and "
+       "units"},
+      {"scripts", "frictab process --script abaqus, calculix, deform, getfem, lsdyna"},
+      {"first order",
+       "a force's change at the motion as it was; for the shape of the part only its "
+       "sign, none under a given force or energy; beyond 10 % rerun"}};
+  std::vector<Explanation::Item> columns;
+  const auto add = [&](const char* file, std::span<const data::Quantity> quantities) {
+    for (const data::Quantity& quantity : quantities)
+      columns.push_back({fmt::format("{}: {}", file, quantity.name),
+                         fmt::format("[{}] {}", quantity.unit, quantity.meaning),
+                         {}});
+  };
+  add("contact", process::contact_quantities());
+  add("tool", process::tool_quantities());
+  out.items_label = "columns, then keys";
+  out.items.insert(out.items.begin(), columns.begin(), columns.end());
+  return out;
+}
+
 // Layout required of a table made elsewhere: `verify --table`, `export --table` and `table` read
 // it.
 Explanation about_table_layout() {
@@ -213,13 +249,10 @@ Explanation about_table_layout() {
        "written for readers: share of the nodes that lie beyond them, 0 to 1",
        {}},
       {"distance",
-       "written for readers: how far each node is from the nearest test; 1 is what the data span "
-       "of "
-       "one axis",
+       "written for readers: radius around each node that holds half a test's worth of rows; 1 is "
+       "what the data span of one axis",
        {}},
-      {"/: share_far",
-       "optional: share of the range, 0 to 1, that is further than 0.25 from every test",
-       {}},
+      {"/: share_far", "optional: share of the range, 0 to 1, with a distance above 0.25", {}},
       {"value: extension",
        "where a side says law: the law's own `value` (never its ln) as an expression of the axes "
        "and constants; a long one goes on in extension_2, extension_3, ...",
@@ -312,6 +345,8 @@ std::optional<Explanation> explain(const std::string& name) {
   if (auto topic = explain_topic(name)) return topic;
   const std::string path = rule_path(name);
   if (const job::KeyRule* key = job::find_key(path)) return about(*key);
+  if (const job::SectionRule* section = job::find_section(path); section && path == "process")
+    return about_process(section->meaning);
   if (const job::SectionRule* section = job::find_section(path))
     return about_section(path, section->meaning);
   return about_last_part(name);

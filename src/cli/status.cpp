@@ -52,7 +52,7 @@ std::vector<StageStatus> status_of(const job::Job& job) {
   const std::string key = data::fingerprint(data.training, data.validation);
   std::vector<StageStatus> out;
   for (const run::Stage& stage : run::all_stages()) {
-    if (!stage.is_recorded()) continue;
+    if (!stage.is_recorded() || (stage.optional && !stage.applies_to(job))) continue;
     const std::string& name = stage.name;
     StageStatus status{name, "missing", ""};
     if (stages.has(name)) {

@@ -12,6 +12,7 @@
 #include "job/literature.h"
 #include "job/reader.h"
 #include "models/law.h"
+#include "process/quantities.h"
 
 namespace frictab::job {
 
@@ -257,6 +258,46 @@ void check_models(JobReader& reader, const std::string& path,
   }
 }
 
+// Columns of [process.columns] or [process.tool_columns].
+void check_process_columns(JobReader& reader, const std::string& section,
+                           std::span<const data::Quantity> quantities,
+                           std::map<std::string, data::ColumnSource>& columns) {
+  for (auto& [name, source] : columns) {
+    const std::string path = section + "." + name;
+    const bool has_column = !source.names.empty() || source.number > 0;
+    if (!source.formula.empty() && has_column)
+      reader.fault(source.place, path + " has a formula and a column", "keep one of the two");
+    if (!has_column) source.names = {name};
+    check_formula(reader, source, path);
+    const auto quantity = std::find_if(quantities.begin(), quantities.end(),
+                                       [&](const auto& one) { return one.name == name; });
+    const std::string unit = quantity == quantities.end() ? "" : quantity->unit;
+    if (!source.unit.empty() && !convert(source.unit, unit))
+      reader.fault(reader.place_of(path + ".unit"),
+                   unit.empty() ? path + " is a label: it has no unit"
+                                : fmt::format("{}.unit = {} does not convert to {}", path,
+                                              toml_quoted(source.unit), unit),
+                   unit.empty() ? "" : suggest(source.unit, units_like(unit)));
+  }
+}
+
+void check_process(JobReader& reader) {
+  process::ProcessOptions& process = reader.job.process;
+  check_process_columns(reader, "process.columns", process::contact_quantities(), process.columns);
+  check_process_columns(reader, "process.tool_columns", process::tool_quantities(),
+                        process.tool_columns);
+  for (const auto& [name, value] : process.constants) {
+    if (process.columns.count(name))
+      reader.fault(reader.place_of("process.constants." + name),
+                   name + " stands in [process.columns] and in [process.constants]",
+                   "keep one of the two");
+    if (const data::Quantity& quantity = *data::find_quantity(name); value < quantity.lowest)
+      reader.fault(reader.place_of("process.constants." + name),
+                   fmt::format("process.constants.{} is {}", name, value),
+                   fmt::format("a {} cannot be below {}", quantity.meaning, quantity.lowest));
+  }
+}
+
 void remember_inputs(JobReader& reader) {
   codegen::ExportOptions& exports = reader.job.exports;
   const auto remember = [&](const std::string& section, const auto& inputs) {
@@ -298,6 +339,7 @@ void check_job(JobReader& reader) {
   check_models(reader, "models.use", reader.job.models.use);
   check_models(reader, "table.model", reader.job.table.model);
   check_models(reader, "trace.models", reader.job.trace.models);
+  check_process(reader);
   check_models(reader, "export.targets", reader.job.exports.targets);
   remember_inputs(reader);
 }

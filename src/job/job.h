@@ -10,6 +10,7 @@
 #include "codegen/options.h"
 #include "core/text.h"
 #include "data/options.h"
+#include "process/options.h"
 #include "table/options.h"
 #include "trace/options.h"
 #include "verify/options.h"
@@ -27,6 +28,7 @@ struct Job {
   codegen::ExportOptions exports;
   verify::VerifyOptions verify;
   trace::TraceOptions trace;
+  process::ProcessOptions process;
   std::string directory = "out"; // relative to the job file, already joined with its directory
   bool replaces_others = false;  // --force: also files in it that frictab did not write
   // Values of file and overrides by section head, as text without places and order; by it a stage

@@ -185,6 +185,7 @@ models::ParameterText& parameter_text(Job& job, const std::string& name); // "my
 std::vector<KeyRule> data_keys();
 std::vector<KeyRule> law_keys();          // keys of [models.NAME]
 std::vector<KeyRule> registry_law_keys(); // further keys of laws of the registry
+std::vector<KeyRule> process_keys();
 std::vector<KeyRule> stage_keys();
 
 } // namespace frictab::job::schema

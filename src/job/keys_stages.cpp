@@ -300,7 +300,7 @@ std::vector<KeyRule> table_keys() {
           Allowed{"", sides} | outside_problem,
       key<bool>(
           "table.distance", [](Job & job) -> auto& { return job.table.distance; },
-          "says how far every node is from the nearest test, as a second dataset of the table's "
+          "says how far every node is from the tests, as a second dataset of the table's "
           "file"),
       key<std::size_t>(
           "table.hdf5.chunk", [](Job & job) -> auto& { return job.table.hdf5.chunk; },
@@ -467,7 +467,7 @@ std::vector<std::string> option_names() {
 
 std::vector<KeyRule> stage_keys() {
   std::vector<KeyRule> rules;
-  for (auto* part : {model_keys, law_keys, table_keys, export_keys, proof_keys})
+  for (auto* part : {model_keys, law_keys, table_keys, export_keys, proof_keys, process_keys})
     for (KeyRule& rule : part())
       rules.push_back(std::move(rule));
   return rules;

@@ -227,6 +227,7 @@ void resolve_paths(Job& job) {
   namespace fs = std::filesystem;
   const fs::path base = fs::path(job.file).parent_path();
   job.data.base = base.string();
+  job.process.base = base.string();
   job.directory = (base / job.directory).lexically_normal().string();
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "job/key_builder.h"
+#include "process/quantities.h"
 
 namespace frictab::job {
 
@@ -53,6 +54,16 @@ Place* axis_place(Job& job, const std::string& name) {
 }
 Place* export_place(Job& job, const std::string&) {
   return &job.exports.place;
+}
+
+Place* process_place(Job& job, const std::string&) {
+  return &job.process.place;
+}
+Place* contact_column_place(Job& job, const std::string& name) {
+  return &job.process.columns[name].place;
+}
+Place* tool_column_place(Job& job, const std::string& name) {
+  return &job.process.tool_columns[name].place;
 }
 
 std::string either(const std::vector<std::string>& words) {
@@ -172,6 +183,20 @@ const std::vector<SectionRule>& section_rules() {
        "", schema::option_names, nullptr, "option"},
       {"verify", "the proof of drift", "", nullptr, nullptr},
       {"trace", "the search for effects a law lacks", "", nullptr, nullptr},
+      {"process", "a simulation of yours, in which the laws are judged before it is rerun", "",
+       nullptr, process_place},
+      {"process.columns", "columns of the contact files: the name here = the file's own",
+       "sigma_n_MPa = { column = \"CPRESS\", unit = \"Pa\" }", process::contact_columns, nullptr},
+      {"process.columns.*", "how one column is taken from the file", "", nullptr,
+       contact_column_place, "quantity", false, false, "column"},
+      {"process.tool_columns", "columns of the tool's file: the name here = the file's own",
+       "force_kN = { column = \"RF2\", unit = \"N\" }", process::tool_columns, nullptr},
+      {"process.tool_columns.*", "how one column is taken from the file", "", nullptr,
+       tool_column_place, "quantity", false, false, "column"},
+      {"process.constants", "states that the contact files lack", "T_contact_C = 60.0",
+       process::constant_states, nullptr},
+      {"process.rig", "what the rig can be set to, for the tests that are proposed",
+       "sigma_n_MPa = [100, 2750]", process::rig_settings, nullptr},
       {"output", "where results go", "", nullptr, nullptr},
   };
   return rules;

@@ -170,11 +170,9 @@ std::string explore_html(const ReportInput& input) {
       states.push_back(std::move(state));
   const std::string recommended =
       c.fits.empty() ? "" : calibrate::recommended_fit(c).model.law->name;
-  const Json data = {{"laws", std::move(laws)},
-                     {"recommended", recommended},
-                     {"states", std::move(states)},
-                     {"tests", tests_json(parts)},
-                     {"nodes", nodes_json(input.tables)}};
+  const Json data = {{"laws", std::move(laws)},           {"recommended", recommended},
+                     {"states", std::move(states)},       {"tests", tests_json(parts)},
+                     {"nodes", nodes_json(input.tables)}, {"process", input.process}};
   TemplateValues values;
   values.text = {{"title", words::escape(words::shown_path(input.title))},
                  {"style", std::string(embedded_template("report/explore.css"))},

@@ -2,6 +2,7 @@
 // values.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct ReportInput {
   std::vector<trace::Trace> traces = {}; // empty if not traced
   std::vector<calibrate::ErrorsOfLaw> by_experiment = {}; // per calibration.fits entry
   std::vector<words::Recipe> recipes = {};                // recipes of the generated sources
+  // States of a process that was judged, drawn by friction work: columns by name.
+  std::map<std::string, std::vector<double>> process = {};
 };
 
 // Writes one self-contained page that opens offline: ranking, measured against predicted and

@@ -10,6 +10,7 @@
 
 #include "core/text.h"
 #include "core/wrapped.h"
+#include "words/numbers.h"
 
 namespace frictab::report::svg {
 
@@ -185,6 +186,20 @@ Axis nice_axis(double low, double high, int wanted, std::string label) {
   return axis;
 }
 
+Axis log_axis(double low, double high, std::string label) {
+  Axis axis;
+  axis.log = true;
+  axis.label = std::move(label);
+  if (high < 1.2 * low) high = 1.2 * low;
+  axis.low = std::log(low);
+  axis.high = std::log(high);
+  for (double decade = std::pow(10, std::floor(std::log10(low))); decade <= high; decade *= 10)
+    for (const double step : {1.0, 2.0, 5.0})
+      if (const double x = step * decade; x >= low * (1 - 1e-9) && x <= high * (1 + 1e-9))
+        axis.ticks.push_back(std::log(x));
+  return axis;
+}
+
 Axis named_axis(std::vector<std::string> names, std::string label) {
   Axis axis;
   axis.low = -0.6;
@@ -197,6 +212,7 @@ Axis named_axis(std::vector<std::string> names, std::string label) {
 }
 
 std::string tick_label(const Axis& axis, double tick) {
+  if (axis.log) return words::short_figures(std::exp(tick), 3);
   const std::string digits = fmt::format("{:.{}f}", std::abs(tick), axis.decimals);
   const bool zero = digits.find_first_not_of("0.") == std::string::npos;
   return (tick < 0 && !zero ? "\u2212" : "") + digits;

@@ -25,6 +25,7 @@ struct Axis {
   std::vector<double> ticks;
   std::vector<std::string> names; // of the ticks, in place of numbers; slanted below the axis
   int decimals = 0;               // decimals of the ticks' labels
+  bool log = false;               // coordinates are natural logarithms, labels are not
   // Letters after "_" are a subscript to a Greek letter, "\u03C4_R / MPa", and
   // to one letter where a unit follows, "v_rel / (mm/s)".
   std::string label;
@@ -34,6 +35,9 @@ struct Axis {
 // more than a tenth of the range moves by a thirtieth instead. If one is not finite, or both are
 // equal, the axis surrounds the value that is known.
 Axis nice_axis(double low, double high, int wanted, std::string label);
+
+// Logarithmic axis over positive values, with ticks at 1, 2 and 5 times powers of ten.
+Axis log_axis(double low, double high, std::string label);
 
 // One tick per name, at 0, 1, 2, ...
 Axis named_axis(std::vector<std::string> names, std::string label);

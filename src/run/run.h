@@ -1,7 +1,7 @@
 // One command on one job. Run holds the job, the workspace (the output directory) and the values
 // that move from stage to stage:
 //
-//   data -> calibration -> traces -> tables -> sources -> verification -> report
+//   data -> calibration -> traces -> tables -> sources -> verification -> process -> report
 //
 // The whole program flow is in three files: this one has the values, run/stage.h defines a stage,
 // and run.cpp has the table of stages and the loop over them. Each stage's work is in its
@@ -17,6 +17,7 @@
 #include "calibrate/calibration.h"
 #include "codegen/exporter.h"
 #include "job/job.h"
+#include "process/process.h"
 #include "run/job_data.h"
 #include "run/stage.h"
 #include "run/workspace.h"
@@ -50,6 +51,7 @@ struct Run {
   std::map<std::string, verify::DriftRecord> drift_of_tables;
   std::map<std::string, codegen::SourceBundle> sources; // export, or loaded by verify; by directory
   std::optional<verify::Verification> verification;     // verify
+  std::optional<process::Process> process;              // process, if the job has one
   std::vector<verify::FormComparison> forms;            // time_forms; run_all only
   // One message of tabulate per new table that drifts further than allowed.
   std::vector<std::string> missed;

@@ -16,6 +16,7 @@ void trace_laws(Run& run); // adds laws with effects to the calibration
 void tabulate_laws(Run& run);
 void export_sources(Run& run);
 void verify_tables(Run& run);
+void judge_process(Run& run);
 void write_report(Run& run);
 // Times each table against the law itself, for the summary only; writes no file.
 void time_forms(Run& run);

@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <nlohmann/json.hpp>
+
 #include "calibrate/experiment_errors.h"
 #include "io/file_streams.h"
+#include "io/json.h"
 #include "report/explore.h"
 #include "report/report.h"
 #include "run/law_accuracy.h"
@@ -38,6 +41,17 @@ std::vector<words::Recipe> recipes_of(const Run& run) {
   return found;
 }
 
+// States of the process judged in this command, or else earlier; empty without one.
+std::map<std::string, std::vector<double>> states_of_process(const Run& run) {
+  const std::vector<std::string> staged = run.workspace.files();
+  const bool is_new = std::find(staged.begin(), staged.end(), "process.json") != staged.end();
+  const fs::path file =
+      is_new ? run.workspace.staged("process.json") : fs::path(run.job.directory) / "process.json";
+  if (!fs::exists(file)) return {};
+  return io::parse_json(io::read_file(file), file.string())
+      .value("states", std::map<std::string, std::vector<double>>());
+}
+
 } // namespace
 
 void write_report(Run& run) {
@@ -67,7 +81,8 @@ void write_report(Run& run) {
       std::move(sizes),
       run.traces,
       calibrate::errors_by_experiment(*run.calibration, run.data->training, run.data->judged()),
-      recipes_of(run)};
+      recipes_of(run),
+      states_of_process(run)};
   run.workspace.write("report.html", report::report_html(input));
   run.workspace.write("explore.html", report::explore_html(input));
   run.workspace.write("report.md", report::report_md(input));

@@ -15,6 +15,7 @@
 #include "words/drift.h"
 #include "words/laws.h"
 #include "words/numbers.h"
+#include "words/process.h"
 #include "words/render.h"
 #include "words/tables.h"
 #include "words/trace.h"
@@ -48,6 +49,9 @@ std::string next_step(const Run& run) {
   };
   const std::string page = (std::filesystem::path(run.job.directory) / "report.html").string();
   if (wrote("report.html")) return "open " + shell_word(page);
+  if (wrote("process.html"))
+    return "open " +
+           shell_word((std::filesystem::path(run.job.directory) / "process.html").string());
   const std::string job = " " + run.job.arguments();
   if (wrote("verify.json"))
     return run.verification->passed() && run.missed.empty()
@@ -71,11 +75,13 @@ words::Answers answers_of(const Run& run) {
 }
 
 std::string summary_text(const Run& run, words::Detail detail) {
+  // The command `process` alone says nothing of a calibration that was there.
+  const bool is_of_process = run.process && run.made.count("calibrate") == 0;
   std::vector<words::Section> sections;
-  if (run.data)
+  if (run.data && !is_of_process)
     sections.push_back(words::data_read(
         {run.data->training, run.data->validation, run.data->judged_by}, words::Detail::brief));
-  if (run.calibration) {
+  if (run.calibration && !is_of_process) {
     sections.push_back(words::ranking(*run.calibration, detail));
     sections.push_back(words::conditional_use(*run.calibration));
   }
@@ -84,6 +90,13 @@ std::string summary_text(const Run& run, words::Detail detail) {
   if (!run.tables.empty()) sections.push_back(words::tables(run.tables));
   if (run.verification && !run.verification->records.empty())
     sections.push_back(words::drift(*run.verification, detail));
+  if (run.process) {
+    if (is_of_process)
+      for (auto* part : {words::process_coverage, words::process_laws, words::process_tests})
+        sections.push_back(part(*run.process));
+    if (detail == words::Detail::verbose) sections.push_back(words::process_reading(*run.process));
+    sections.push_back(words::process_in_short(*run.process));
+  }
   if (detail == words::Detail::brief) sections.push_back(words::in_short(answers_of(run)));
   std::string out;
   for (const words::Section& section : sections)

@@ -3,11 +3,13 @@
 
 #include "calibrate/calibration_file.h"
 #include "io/json.h"
+#include "process/process_json.h"
 #include "run/summary.h"
 #include "table/beyond_data.h"
 #include "trace/trace_file.h"
 #include "verify/verify.h"
 #include "words/judged.h"
+#include "words/process.h"
 #include "words/render.h"
 
 namespace frictab::run {
@@ -64,6 +66,11 @@ std::string summary_json(const Run& run) {
   if (!run.traces.empty())
     j["trace"] = io::parse_json(trace::trace_json(run.traces, j.value("synthetic_data", false)),
                                 "trace.json");
+  if (run.process)
+    j["process"] = io::parse_json(
+        process::process_json(*run.process,
+                              words::as_json(words::process_in_short(*run.process))["lines"]),
+        "process.json");
   for (const verify::FormComparison& form : run.forms)
     j["forms"].push_back(form_json(form));
   const words::Answers answers = answers_of(run);

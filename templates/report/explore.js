@@ -6,7 +6,7 @@ const data = JSON.parse(document.getElementById("data").textContent);
 const get = (id) => document.getElementById(id);
 const stateNamed = Object.fromEntries(data.states.map((state) => [state.name, state]));
 const sigma = "sigma_n_MPa";
-const points_of_a_curve = 161, map_columns = 64, map_rows = 48, far = 0.25;
+const points_of_a_curve = 161, map_columns = 64, map_rows = 48, far = 0.25, enough_tests = 0.499;
 
 // ---- laws ----
 
@@ -400,13 +400,13 @@ function ramp_colour(share) {
   return ramp[i].map((c, k) => Math.round(c + (x - i) * (ramp[i + 1][k] - c)));
 }
 
-// Cells within a quarter of the tested span of a row in every state of the law. The states off the
-// map decide which rows count; each then covers a rectangle of cells.
+// Cells with half a test's worth of rows within a quarter of the tested span in every state of the
+// law. The states off the map decide which rows count; each then covers a rectangle of cells.
 function near_cells(x, y) {
   const span = (state) => coordinate(state, state.high) - coordinate(state, state.low);
   const others = data.laws[view.law].inputs.map((name) => stateNamed[name]).filter((state) =>
     state && state !== x.state && state !== y.state && state.low < state.high && !state.levels);
-  const near = new Uint8Array(map_columns * map_rows);
+  const tests = new Float64Array(map_columns * map_rows); // tests' worth of rows near each cell
   const cells = (one, count, value) => {
     const reach = far * span(one.state), u = coordinate(one.state, value);
     const cell = (at) => (at - coordinate(one.state, one.low)) /
@@ -415,6 +415,7 @@ function near_cells(x, y) {
   };
   for (const test of data.tests) {
     if (!(x.state.name in test.states) || !(y.state.name in test.states)) continue;
+    const share = 1 / test.tau.length;
     test.tau.forEach((_, i) => {
       for (const state of others)
         if (state.name in test.states &&
@@ -423,10 +424,11 @@ function near_cells(x, y) {
       const [left, right] = cells(x, map_columns, test.states[x.state.name][i]);
       const [low, high] = cells(y, map_rows, test.states[y.state.name][i]);
       for (let row = low; row <= high; ++row)
-        near.fill(1, row * map_columns + left, row * map_columns + right + 1);
+        for (let column = left; column <= right; ++column)
+          tests[row * map_columns + column] += share;
     });
   }
-  return near;
+  return tests.map((near) => near >= enough_tests ? 1 : 0);
 }
 
 function map_values(x, y) {
@@ -529,13 +531,33 @@ function draw_map() {
   context.strokeStyle = "#000000a0";
   context.stroke();
   draw_tested(context, box, place_x, place_y);
+  draw_process(context, x, y, place_x, place_y);
   draw_frame(context, box, x, y, place_x, place_y);
   draw_scale(context, box, low, most, levels);
   const text = `${quantity_label()} of ${data.laws[view.law].name} over ${x.state.label} and ` +
     `${y.state.label}: ${digits(low, 3)} to ${digits(most, 3)}; ` +
-    `${Math.round(100 * (1 - mean(Array.from(near))))} % of it is far from every test`;
+    `${Math.round(100 * (1 - mean(Array.from(near))))} % of it is far from the tests`;
   canvas.setAttribute("aria-label", text);
-  get("map-text").textContent = text + ". Dots: tested states; ticks inside the frame: nodes of the table.";
+  get("map-text").textContent = text + ". Dots: tested states; ticks inside the frame: nodes of the table" +
+    (data.process[x.state.name] ? "; crosses: states of your process, by friction work." : ".");
+}
+
+// A cross for each state of the process that `frictab process` judged.
+function draw_process(context, x, y, place_x, place_y) {
+  const across = data.process[x.state.name], up = data.process[y.state.name];
+  if (!across || !up) return;
+  context.beginPath();
+  across.forEach((value, i) => {
+    if (value < x.low || value > x.high || up[i] < y.low || up[i] > y.high) return;
+    const left = place_x(value), top = place_y(up[i]), arm = 3.5;
+    context.moveTo(left - arm, top - arm);
+    context.lineTo(left + arm, top + arm);
+    context.moveTo(left - arm, top + arm);
+    context.lineTo(left + arm, top - arm);
+  });
+  context.strokeStyle = "#c2410c";
+  context.lineWidth = 1.4;
+  context.stroke();
 }
 
 function draw_tested(context, box, place_x, place_y) {

@@ -1,0 +1,80 @@
+// Stage process: judges the laws in a simulation of the user's own.
+#include <nlohmann/json.hpp>
+
+#include "core/text.h"
+#include "data/append.h"
+#include "data/load.h"
+#include "data/load_condensed.h"
+#include "process/process_json.h"
+#include "report/process_page.h"
+#include "run/stage_functions.h"
+#include "words/process.h"
+#include "words/render.h"
+
+namespace frictab::run {
+
+namespace {
+
+using data::Dataset;
+
+// All tests of a job's data, whichever part they are in.
+Dataset all_tests(const JobData& data) {
+  if (data.undivided) return *data.undivided;
+  if (data.together) return *data.together;
+  return &data.judged() == &data.training ? data.training
+                                          : data::together(data.training, data.validation);
+}
+
+// The job's data with further tests to calibrate on.
+JobData with_added(const JobData& data, const job::Job& job) {
+  const std::size_t blocks = data::blocks_to_condense(job.data);
+  data::ReadRequest request = job.data;
+  request.training = job.process.add;
+  const Dataset added = blocks > 0 ? data::load_condensed(job.process.add, request, blocks)
+                                   : data::load_dataset(job.process.add, request);
+  JobData more = data;
+  more.training = data::together(data.training, added);
+  if (data.undivided) more.undivided = data::together(*data.undivided, added);
+  if (data.together) more.together = data::together(*data.together, added);
+  return more;
+}
+
+std::vector<std::string> lines_of(const process::Process& found) {
+  return words::as_json(words::process_in_short(found))["lines"];
+}
+
+} // namespace
+
+void judge_process(Run& run) {
+  run.workspace.remove_earlier("process.json");
+  run.workspace.remove_earlier("process.html");
+  run.workspace.remove_earlier("process_plan.csv");
+  if (run.job.process.contact.empty()) return;
+  const JobData& data = *run.data;
+  with_rows_in_memory(data, [&] {
+    const Dataset all = all_tests(data);
+    const process::Tests tests{*run.calibration, data.training, data.judged(), all};
+    const models::Conventions conventions =
+        calibrate::conventions_of(run.job.models, data.training);
+    if (run.job.process.add.empty()) {
+      run.process = process::judge_process(tests, nullptr, run.job.process, conventions);
+      return;
+    }
+    const JobData more = with_added(data, run.job);
+    const calibrate::Calibration again = calibrate::calibrate(more.calibration_input(run.job));
+    const Dataset all_more = all_tests(more);
+    const process::Tests added{again, more.training, more.judged(), all_more};
+    run.process = process::judge_process(tests, &added, run.job.process, conventions);
+  });
+  const process::Process& found = *run.process;
+  run.workspace.write("process.json", process::process_json(found, lines_of(found)));
+  run.workspace.write("process.html",
+                      report::process_html(found, all_tests(data), *run.calibration, run.job.file));
+  if (!found.proposed.tests.empty())
+    run.workspace.write(
+        "process_plan.csv",
+        process::plan_csv(found.proposed, all_tests(data).experiments, run.job.calibration.seed));
+  run.finish("process");
+}
+
+} // namespace frictab::run
