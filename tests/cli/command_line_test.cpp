@@ -197,6 +197,15 @@ protected:
     directory.write("study.toml", "job = \"job.toml\"\n[[campaign]]\nname = \"a\"\n"
                                   "files = \"data/training.csv\"\n"
                                   "validation = \"data/validation.csv\"\n");
+    std::string contact = "time_s,facet,area_mm2,sigma_n_MPa,v_rel_mm_s,tau_R_MPa\n",
+                tool = "time_s,force_kN,speed_mm_s\n0,10,50\n";
+    for (int i = 1; i <= 10; ++i) {
+      contact += std::to_string(0.01 * i) + ",1,10,1000,20,80\n";
+      tool += std::to_string(0.01 * i) + ",10,50\n";
+    }
+    directory.write("contact.csv", contact);
+    directory.write("tool.csv", tool);
+    directory.write("new_tests.csv", directory.read("data/training.csv"));
   }
 };
 
@@ -223,10 +232,10 @@ TEST_F(JobOfTheFolder, ThatIsNotThereIsAskedFor) {
   EXPECT_THAT(frictab({"export"}).err, HasSubstr("nothing to export"));
 }
 
-using SlowJobOfTheFolder = JobOfTheFolder;
+using LongJobOfTheFolder = JobOfTheFolder;
 
 // In the order of the list some go on from what those before them wrote.
-TEST_F(SlowJobOfTheFolder, RunsEveryExampleOfTheHelp) {
+TEST_F(LongJobOfTheFolder, RunsEveryExampleOfTheHelp) {
   std::filesystem::create_directories(directory.path("home/.zfunc"));
   std::filesystem::create_directories(
       directory.path("home/.local/share/bash-completion/completions"));

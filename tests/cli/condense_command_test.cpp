@@ -16,7 +16,7 @@ using test::CommandResult;
 using testing::HasSubstr;
 
 // SYNTHETIC: 16 tests of 3,520 rows to train, 8 to validate.
-class SlowCondense : public testing::Test {
+class LongCondense : public testing::Test {
 protected:
   static void SetUpTestSuite() {
     directory = new test::TemporaryDirectory;
@@ -56,7 +56,7 @@ protected:
   static inline test::TemporaryDirectory* directory = nullptr;
 };
 
-TEST_F(SlowCondense, FindsTheParametersOfTheRows) {
+TEST_F(LongCondense, FindsTheParametersOfTheRows) {
   int compared = 0;
   const json all = laws();
   for (const json& law : all) {
@@ -83,7 +83,7 @@ TEST_F(SlowCondense, FindsTheParametersOfTheRows) {
   EXPECT_GT(compared, 60);
 }
 
-TEST_F(SlowCondense, TakesErrorsFromTheRows) {
+TEST_F(LongCondense, TakesErrorsFromTheRows) {
   const json all = laws();
   ASSERT_GT(all.size(), 12u);
   for (const json& law : all) {
@@ -98,7 +98,7 @@ TEST_F(SlowCondense, TakesErrorsFromTheRows) {
   }
 }
 
-TEST_F(SlowCondense, SaysWhatIsOfBlocks) {
+TEST_F(LongCondense, SaysWhatIsOfBlocks) {
   const json condensed = summary("blocks")["condensed"];
   EXPECT_EQ(condensed["rows"], 24 * 3520);
   EXPECT_GE(condensed["blocks"], 24 * 880);
@@ -108,7 +108,7 @@ TEST_F(SlowCondense, SaysWhatIsOfBlocks) {
               HasSubstr("means over blocks of rows (data.condense)"));
 }
 
-TEST_F(SlowCondense, GivesTheSameBytesWithAnyNumberOfThreads) {
+TEST_F(LongCondense, GivesTheSameBytesWithAnyNumberOfThreads) {
   const std::string before = directory->read("blocks/calibration.json");
   for (const char* threads : {"-j1", "-j4"}) {
     ASSERT_EQ(run({"calibrate", "blocks.toml", "-o", "again", "--force", threads}).exit_code, 0);
@@ -118,7 +118,7 @@ TEST_F(SlowCondense, GivesTheSameBytesWithAnyNumberOfThreads) {
   }
 }
 
-TEST_F(SlowCondense, TablesReachWhatTheRowsReach) {
+TEST_F(LongCondense, TablesReachWhatTheRowsReach) {
   const auto axes = [](const std::string& of) {
     const CommandResult result = run({"tabulate", of + ".toml", "--json"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -129,7 +129,7 @@ TEST_F(SlowCondense, TablesReachWhatTheRowsReach) {
     EXPECT_EQ(of_rows[a]["data"], of_blocks[a]["data"]) << of_rows[a]["name"];
 }
 
-TEST_F(SlowCondense, TracesBlocks) {
+TEST_F(LongCondense, TracesBlocks) {
   const CommandResult result = run({"trace", "blocks.toml"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("means over blocks of rows (data.condense)"));

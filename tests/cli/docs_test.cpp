@@ -239,7 +239,7 @@ void expect_printed(const std::string& shown, const std::string& printed) {
   }
 }
 
-TEST(SlowDocsExample, TheFirstStepsPrintWhatTheyShow) {
+TEST(LongDocsExample, TheFirstStepsPrintWhatTheyShow) {
   const test::TemporaryDirectory directory;
   const std::string program = fs::path(test::program()).parent_path().string();
   std::string printed;
@@ -259,7 +259,7 @@ TEST(SlowDocsExample, TheFirstStepsPrintWhatTheyShow) {
   EXPECT_GE(compared, 8u);
 }
 
-TEST(SlowDocsExample, TheSiteHasEveryPageWithSearchAndNoLinkIsDead) {
+TEST(LongDocsExample, TheSiteHasEveryPageWithSearchAndNoLinkIsDead) {
   if (test::run_command({"/bin/sh", "-c", "command -v sphinx-build"}).exit_code != 0)
     GTEST_SKIP() << "Debian's python3-sphinx is not installed";
   const test::TemporaryDirectory directory;
@@ -309,7 +309,7 @@ TEST(Docs, NoSiteIsWrittenWithoutSphinxAndTheMessageNamesThePackage) {
   EXPECT_FALSE(fs::exists(directory.path("site")));
 }
 
-TEST(SlowDocsExample, CommandsThatAreShownRun) {
+TEST(LongDocsExample, CommandsThatAreShownRun) {
   const test::TemporaryDirectory directory;
   write_tests(directory);
   std::size_t run = 0;

@@ -20,7 +20,7 @@ using testing::Not;
 
 const std::string erase = "\r\x1b[K";
 
-class SlowProgress : public test::SmallCampaign {
+class LongProgress : public test::SmallCampaign {
 protected:
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(SmallCampaign::SetUp());
@@ -64,7 +64,7 @@ std::vector<std::string> drawn(const std::string& output) {
   return lines;
 }
 
-TEST_F(SlowProgress, FitsTheTerminalMovesAndIsErasedBeforeTheResult) {
+TEST_F(LongProgress, FitsTheTerminalMovesAndIsErasedBeforeTheResult) {
   std::vector<std::pair<unsigned, std::future<CommandResult>>> runs;
   for (const unsigned columns : {40U, 80U, 200U})
     runs.emplace_back(columns, on_terminal(columns, "xterm"));
@@ -88,7 +88,7 @@ TEST_F(SlowProgress, FitsTheTerminalMovesAndIsErasedBeforeTheResult) {
   }
 }
 
-TEST_F(SlowProgress, IsErasedWhereTheRunIsInterrupted) {
+TEST_F(LongProgress, IsErasedWhereTheRunIsInterrupted) {
   const CommandResult stopped =
       test::run_on_terminal({test::program(), "verify", "job.toml"}, 80, directory.path(),
                             environment("xterm"), "routines of coulomb");
@@ -96,7 +96,7 @@ TEST_F(SlowProgress, IsErasedWhereTheRunIsInterrupted) {
   EXPECT_TRUE(stopped.out.ends_with(erase)) << stopped.out;
 }
 
-TEST_F(SlowProgress, OnADumbTerminalIsLinesAndOnlyWhenAskedFor) {
+TEST_F(LongProgress, OnADumbTerminalIsLinesAndOnlyWhenAskedFor) {
   auto silent = on_terminal(80, "dumb"), asked = on_terminal(80, "dumb", {"--progress"});
   const CommandResult without = silent.get(), with = asked.get();
   EXPECT_THAT(without.out, AllOf(Not(HasSubstr("routines of")), Not(HasSubstr("\x1b"))));
@@ -105,7 +105,7 @@ TEST_F(SlowProgress, OnADumbTerminalIsLinesAndOnlyWhenAskedFor) {
                               Not(HasSubstr("\x1b"))));
 }
 
-TEST_F(SlowProgress, IsSilentWhereItIsToBeAndOutsideTerminals) {
+TEST_F(LongProgress, IsSilentWhereItIsToBeAndOutsideTerminals) {
   auto off = on_terminal(80, "xterm", {"--no-progress"}), quiet = on_terminal(80, "xterm", {"-q"});
   EXPECT_THAT(off.get().out, AllOf(Not(HasSubstr("routines of")), Not(HasSubstr("\x1b"))));
   EXPECT_THAT(quiet.get().out, AllOf(Not(HasSubstr("routines of")), Not(HasSubstr("\x1b"))));
