@@ -26,7 +26,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
-constexpr std::size_t rows_of_a_test = 40;
+constexpr std::size_t rows_of_a_course = 40;
 constexpr std::size_t target_states = 600; // of a process, drawn by friction work
 constexpr std::array<std::size_t, 4> level_counts = {15, 6, 5, 6};
 constexpr std::array<const char*, 4> setting_names = {"sigma_n_MPa", "psi", "v_rel_mm_s",
@@ -153,7 +153,7 @@ public:
       span_[s] = coordinate(s, reach[s].second) - coordinate(s, reach[s].first);
     for (std::size_t e = 0; e < campaign.at.size(); ++e)
       rows_.push_back(
-          some_rows(campaign.data.first_row[e], campaign.data.first_row[e + 1], rows_of_a_test));
+          some_rows(campaign.data.first_row[e], campaign.data.first_row[e + 1], rows_of_a_course));
   }
 
   // Between settings, each divided by the rig's reach.

@@ -150,7 +150,7 @@ void check_work(Process& p, const ProcessOptions& options) {
 constexpr std::size_t near_rows = 40;    // of each test
 constexpr std::size_t near_states = 400; // of the process
 constexpr double near_width = 0.15;      // of the tests' span
-constexpr double least_MPa = 5;          // of a stress that errors are relative to
+constexpr double least_relative_MPa = 5; // of a stress that errors are relative to
 
 struct NearRows {
   std::vector<std::size_t> rows;
@@ -203,7 +203,8 @@ double near_error(const NearRows& near, std::span<const double> predicted,
   for (std::size_t i = 0; i < near.rows.size(); ++i) {
     const double tau = measured[near.rows[i]];
     if (!std::isfinite(tau)) continue;
-    sum += near.weight[i] * std::abs(predicted[near.rows[i]] - tau) / std::max(tau, least_MPa);
+    sum += near.weight[i] * std::abs(predicted[near.rows[i]] - tau) /
+           std::max(tau, least_relative_MPa);
     all += near.weight[i];
   }
   return all > 0 ? sum / all : 0;

@@ -30,22 +30,23 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr std::size_t rows_of_a_test = 40;
+constexpr std::size_t rows_of_a_fit = 40;
 
 // ---- rows ----
 
 // A few rows of each test, and how much each counts in a fit.
 struct SomeRows {
   const Dataset& data;
-  std::vector<std::size_t> rows, test; // number in the data, test of each
-  std::vector<double> measured, weight;
+  std::vector<std::size_t> rows, test;  // number in the data, test of each
+  std::vector<double> measured, weight; // in fits
+  std::vector<double> count;            // rows that each stands for, in errors
   data::Units units;
 
   explicit SomeRows(const Dataset& of) : data(of), units(data::units_of(of)) {
     const std::vector<double> weights = calibrate::fit_weights(data);
     const auto tau = data.values("tau_R_MPa");
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-      const auto some = some_rows(data.first_row[e], data.first_row[e + 1], rows_of_a_test);
+      const auto some = some_rows(data.first_row[e], data.first_row[e + 1], rows_of_a_fit);
       const double each = static_cast<double>(data.first_row[e + 1] - data.first_row[e]) /
                           static_cast<double>(some.size());
       for (const std::size_t row : some) {
@@ -53,6 +54,7 @@ struct SomeRows {
         test.push_back(e);
         measured.push_back(tau[row]);
         weight.push_back(each * (weights.empty() ? 1 : weights[row]));
+        count.push_back(each);
       }
     }
   }
@@ -69,8 +71,8 @@ struct SomeRows {
   std::vector<stats::ErrorSums> errors(std::span<const double> tau) const {
     std::vector<stats::ErrorSums> sums(data.experiments.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      sums[test[i]].absolute += weight[i] * std::abs(tau[i] - measured[i]);
-      sums[test[i]].rows += weight[i];
+      sums[test[i]].absolute += count[i] * std::abs(tau[i] - measured[i]);
+      sums[test[i]].rows += count[i];
     }
     return sums;
   }
@@ -126,7 +128,7 @@ public:
                load = tests.training.values("sigma_n_MPa");
     for (std::size_t e = 0; e < tests.training.experiments.size(); ++e) {
       const auto rows =
-          some_rows(tests.training.first_row[e], tests.training.first_row[e + 1], rows_of_a_test);
+          some_rows(tests.training.first_row[e], tests.training.first_row[e + 1], rows_of_a_fit);
       const MatrixXd g = smooth_.bins(smooth_.design(states_at(tests.training, names, rows)));
       const VectorXd y = ln_mu(tau, load, rows);
       information_.push_back(g.transpose() * smooth_.weight() * g);

@@ -14,7 +14,7 @@ namespace frictab::process {
 
 namespace {
 
-constexpr double least_MPa = 1e-9;
+constexpr double least_law_MPa = 1e-9;
 
 std::vector<std::string> known_laws(const calibrate::Calibration& calibration) {
   std::vector<std::string> names;
@@ -93,8 +93,8 @@ UsedLaw used_law(const ContactHistory& h, const std::string& used,
   }
   std::vector<double> ratio(h.rows());
   for (std::size_t row = 0; row < h.rows(); ++row) {
-    ratio[row] = h.tau_MPa[row] / std::max(law[row], least_MPa);
-    out.factor[row] = law[row] > least_MPa ? std::clamp(ratio[row], 0.0, 1.0) : 1;
+    ratio[row] = h.tau_MPa[row] / std::max(law[row], least_law_MPa);
+    out.factor[row] = law[row] > least_law_MPa ? std::clamp(ratio[row], 0.0, 1.0) : 1;
   }
   out.solver_over_law = weighted_quantile(ratio, h.work_J(h.tau_MPa), 0.5);
   check_not_above(h, out, law);
