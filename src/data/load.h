@@ -17,8 +17,8 @@ namespace frictab::data {
 Dataset load_dataset(const std::vector<std::string>& files, const ReadRequest& options);
 
 // Reads and joins files of a simulation: mapped, computed and checked like those of tests, but
-// without what is inferred about tests (signs, phases, eq. 1, the sliding distance). Their canonical
-// columns are options.quantities. Throws as load_dataset does.
+// without what is inferred about tests (signs, phases, eq. 1, the sliding distance). Their
+// canonical columns are options.quantities. Throws as load_dataset does.
 Dataset load_rows(const std::vector<std::string>& files, const ReadRequest& options);
 
 } // namespace frictab::data

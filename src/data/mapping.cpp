@@ -483,7 +483,8 @@ private:
         if (!by_name(name)) check_elsewhere(name);
     for (const CsvColumn& column : raw_.columns) {
       if (used_.count(&column) || column.name.empty()) continue;
-      if (options_.find_quantity(column.name)) continue; // its canonical name is mapped from elsewhere
+      if (options_.find_quantity(column.name))
+        continue; // its canonical name is mapped from elsewhere
       const bool is_wanted = !options_.bystanders || keep.count(column.name) ||
                              column.name == origin_column ||
                              !computed_from(options_, column.name).empty();

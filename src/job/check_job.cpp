@@ -269,8 +269,9 @@ void check_process_columns(JobReader& reader, const std::string& section,
       reader.fault(source.place, path + " has a formula and a column", "keep one of the two");
     if (!has_column) source.names = {name};
     check_formula(reader, source, path);
-    const auto quantity = std::find_if(quantities.begin(), quantities.end(),
-                                       [&](const auto& one) { return one.name == name; });
+    const auto quantity =
+        std::find_if(quantities.begin(), quantities.end(),
+                     [&, &wanted = name](const auto& one) { return one.name == wanted; });
     const std::string unit = quantity == quantities.end() ? "" : quantity->unit;
     if (!source.unit.empty() && !convert(source.unit, unit))
       reader.fault(reader.place_of(path + ".unit"),

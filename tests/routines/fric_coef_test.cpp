@@ -23,17 +23,17 @@ using namespace test;
 using Case = CoefficientCase<CoefCall>;
 
 // By the argument list: "2024" or "2020".
-class SlowFricCoef : public NeedsGfortran,
+class LongFricCoef : public NeedsGfortran,
                      public testing::WithParamInterface<std::string>,
                      protected Case {
 protected:
-  SlowFricCoef() : Case(GetParam()) {}
+  LongFricCoef() : Case(GetParam()) {}
   static double mu(double pressure, double speed, double temperature) {
     return tau(pressure, speed, temperature) / pressure;
   }
 };
 
-TEST_P(SlowFricCoef, LeavesTheSecondCoefficientOfIsotropicFrictionAlone) {
+TEST_P(LongFricCoef, LeavesTheSecondCoefficientOfIsotropicFrictionAlone) {
   auto c = call(3);
   run(c, four_axes());
   for (std::size_t k = 3; k < c.coefficient.size(); ++k)
@@ -45,7 +45,7 @@ TEST_P(SlowFricCoef, LeavesTheSecondCoefficientOfIsotropicFrictionAlone) {
       EXPECT_EQ(c.derivative[i], 777) << i;
 }
 
-TEST_P(SlowFricCoef, DerivativesAreThoseOfItsOwnDifferences) {
+TEST_P(LongFricCoef, DerivativesAreThoseOfItsOwnDifferences) {
   for (const double pressure : {300.0, 800.0, 2200.0, 9000.0})
     for (const double speed : {1.0, 30.0, 300.0})
       for (const double temperature : {10.0, 60.0, 150.0}) {
@@ -71,7 +71,7 @@ TEST_P(SlowFricCoef, DerivativesAreThoseOfItsOwnDifferences) {
       }
 }
 
-TEST_P(SlowFricCoef, GivesTheShearLimitAsACoefficientThatFallsWithPressure) {
+TEST_P(LongFricCoef, GivesTheShearLimitAsACoefficientThatFallsWithPressure) {
   auto c = call(1);
   set(c, 0, 9000, 50, 100);
   run(c, four_axes());
@@ -79,7 +79,7 @@ TEST_P(SlowFricCoef, GivesTheShearLimitAsACoefficientThatFallsWithPressure) {
   EXPECT_CLOSE(by(c, 2), -c.coefficient[0] / 9000, 1e-13);
 }
 
-TEST_P(SlowFricCoef, HoldsTheCoefficientBelowTheSmallestPressureAndWithoutAny) {
+TEST_P(LongFricCoef, HoldsTheCoefficientBelowTheSmallestPressureAndWithoutAny) {
   const table::Table table = one_axis_table(); // tau_R by psi alone: tau_R/p has no limit
   static const TableFunction function(table);
   const double state[] = {psi};
@@ -94,7 +94,7 @@ TEST_P(SlowFricCoef, HoldsTheCoefficientBelowTheSmallestPressureAndWithoutAny) {
   }
 }
 
-TEST_P(SlowFricCoef, HasNoDerivativesWhereTheCoefficientIsCut) {
+TEST_P(LongFricCoef, HasNoDerivativesWhereTheCoefficientIsCut) {
   const table::Table table = one_axis_table();
   auto c = call(1);
   c.properties = {psi};
@@ -109,7 +109,7 @@ TEST_P(SlowFricCoef, HasNoDerivativesWhereTheCoefficientIsCut) {
   EXPECT_LT(by(c, 2), 0);
 }
 
-TEST_P(SlowFricCoef, DoesNotStopForAPointThatDoesNotPress) {
+TEST_P(LongFricCoef, DoesNotStopForAPointThatDoesNotPress) {
   table::Table table = sides_table();
   table.axes[0].below = table::Outside::error; // pressure
   auto c = call(2);
@@ -125,18 +125,18 @@ TEST_P(SlowFricCoef, DoesNotStopForAPointThatDoesNotPress) {
   EXPECT_TRUE(std::isnan(c.coefficient[0])) << "where the solver's routine comes back";
 }
 
-TEST_P(SlowFricCoef, TakesAPullAsTheSmallestPressureHoweverStrongItIs) {
+TEST_P(LongFricCoef, TakesAPullAsTheSmallestPressureHoweverStrongItIs) {
   auto c = call(1);
   c.pressure[0] = -inf;
   run(c, four_axes());
   EXPECT_CLOSE(c.coefficient[0], mu(1, 50, 100), 1e-13);
 }
 
-TEST_P(SlowFricCoef, TakesStatesFromFieldsAndConstantsAsTheJobSays) {
+TEST_P(LongFricCoef, TakesStatesFromFieldsAndConstantsAsTheJobSays) {
   expect_states_from_fields_and_constants(static_cast<const Case&>(*this));
 }
 
-TEST_P(SlowFricCoef, ConvertsUnitsOfMetreKilogramSecondAndTheirDerivatives) {
+TEST_P(LongFricCoef, ConvertsUnitsOfMetreKilogramSecondAndTheirDerivatives) {
   auto c = call(1), metre = call(1);
   metre.properties = {psi, 60, flow * 1e6};
   set(metre, 0, 1000e6, 0.05, 100);
@@ -148,7 +148,7 @@ TEST_P(SlowFricCoef, ConvertsUnitsOfMetreKilogramSecondAndTheirDerivatives) {
   EXPECT_NEAR(by(metre, 3), by(c, 3), 1e-15);
 }
 
-TEST_P(SlowFricCoef, CompilesWithoutAWarningForEveryTable) {
+TEST_P(LongFricCoef, CompilesWithoutAWarningForEveryTable) {
   for (const NamedTable& sample : sample_tables()) {
     if (!is_newer() && !has_every_kind_of_argument(sample)) continue;
     SCOPED_TRACE(sample.name);
@@ -156,7 +156,7 @@ TEST_P(SlowFricCoef, CompilesWithoutAWarningForEveryTable) {
   }
 }
 
-TEST_P(SlowFricCoef, AgreesWithFrictabItselfBySlippingBlocks) {
+TEST_P(LongFricCoef, AgreesWithFrictabItselfBySlippingBlocks) {
   const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_fric_coef");
   for (const NamedTable& sample : sample_tables()) { // LongAgreement has all of them
     if (!has_every_kind_of_argument(sample)) continue;
@@ -172,7 +172,7 @@ TEST_P(SlowFricCoef, AgreesWithFrictabItselfBySlippingBlocks) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Releases, SlowFricCoef, testing::Values("2024", "2020"),
+INSTANTIATE_TEST_SUITE_P(Releases, LongFricCoef, testing::Values("2024", "2020"),
                          [](const auto& given) { return given.param; });
 
 TEST(FricCoefRecipe, SaysTheReleaseAndRefusesToKeepACoefficientWithoutStateVariables) {

@@ -202,9 +202,9 @@ struct Planted {
   ActsOn acts_on;
 };
 
-class SlowTracePlanted : public testing::TestWithParam<Planted> {};
+class LongTracePlanted : public testing::TestWithParam<Planted> {};
 
-TEST_P(SlowTracePlanted, EffectIsFoundPlacedAndRemoved) {
+TEST_P(LongTracePlanted, EffectIsFoundPlacedAndRemoved) {
   const Planted& p = GetParam();
   const Trace t = traced(campaign("log_coulomb", 4, p.effect));
   ASSERT_EQ(t.verdict, Verdict::effect_added) << trace_text(t);
@@ -230,7 +230,7 @@ std::string name_of(const testing::TestParamInfo<Planted>& test) {
 
 // Twice as large as an 81-test campaign needs them.
 INSTANTIATE_TEST_SUITE_P(
-    Effects, SlowTracePlanted,
+    Effects, LongTracePlanted,
     testing::Values(
         Planted{"form=saturation,column=s_mm,strength=0.6", "s_mm", ActsOn::mu},
         Planted{"form=power,column=humidity_pct,strength=0.6", "humidity_pct", ActsOn::mu},
