@@ -133,8 +133,7 @@ process::Process judged(const calibrate::Calibration& calibration, const Dataset
   return process::judge_process({calibration, training, validation, all}, nullptr, options, {});
 }
 
-Result result_of(const calibrate::Calibration& calibration, const process::Process& p,
-                 double truth_percent) {
+Result result_of(const process::Process& p, double truth_percent) {
   const process::Assessment& a = p.assessment;
   Result r;
   double least = HUGE_VAL, low = HUGE_VAL, high = -HUGE_VAL;
@@ -149,7 +148,6 @@ Result result_of(const calibrate::Calibration& calibration, const process::Proce
   r.range = high - low;
   r.leading = a.high_percent - a.low_percent;
   r.error = std::abs(a.law_to_take().late_percent - truth_percent);
-  static_cast<void>(calibration);
   return r;
 }
 
@@ -177,13 +175,12 @@ std::vector<Result> campaign(std::size_t number, const models::Model& truth,
       random_tests(random, added_tests, arguments.lowest_MPa, 2750),
       tests_at(before.proposed.centres),
       tests_at(before.proposed.tests)};
-  std::vector<Result> results{result_of(base, before, truth_percent)};
+  std::vector<Result> results{result_of(before, truth_percent)};
   for (std::size_t d = 1; d < added.size(); ++d) {
     Random own(9000 + number, 2); // the same scatter in each design
     const Dataset more = data::together(training, tests_of(added[d], "P", truth, own));
     const calibrate::Calibration calibration = calibrated(more, validation);
-    results.push_back(
-        result_of(calibration, judged(calibration, more, validation, options), truth_percent));
+    results.push_back(result_of(judged(calibration, more, validation, options), truth_percent));
   }
   return results;
 }

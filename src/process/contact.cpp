@@ -9,8 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "core/no_value.h"
-#include "core/order_statistics.h"
 #include "core/text.h"
 #include "data/derived.h"
 #include "data/load.h"
@@ -383,15 +381,8 @@ private:
                        "one row per strain, in ascending order");
     std::size_t beyond = 0;
     for (double& e : strain) {
-      const auto after =
-          static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), e) - x.begin());
       beyond += e > x.back();
-      if (after == 0 || after == x.size()) {
-        e = y[after == 0 ? 0 : after - 1];
-        continue;
-      }
-      const double share = (e - x[after - 1]) / (x[after] - x[after - 1]);
-      e = y[after - 1] + share * (y[after] - y[after - 1]);
+      e = interpolated(x, y, e);
     }
     notes_.push_back("sigma_f_MPa from " + options_.flow_curve +
                      (beyond == 0 ? ""

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/parallel.h"
+#include "data/condense.h"
 #include "data/quantity.h"
 #include "table/distance.h"
 
@@ -78,21 +79,11 @@ std::vector<double> distances(const ContactHistory& h, const std::vector<std::st
   return found;
 }
 
-std::pair<double, double> range_of(std::span<const double> values) {
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const double value : values)
-    if (std::isfinite(value)) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  return {low, high};
-}
-
 StateCoverage state_coverage(const ContactHistory& h, const Weights& w, const std::string& name,
                              const data::Dataset& tests) {
   StateCoverage c{name, data::find_quantity(name)->unit};
   const auto here = h.states.values(name);
-  std::tie(c.tested_low, c.tested_high) = range_of(tests.values(name));
+  std::tie(c.tested_low, c.tested_high) = data::source_range(tests, name, tests.values(name));
   c.low = weighted_quantile(here, w.work, 0.01);
   c.median = weighted_quantile(here, w.work, 0.5);
   c.high = weighted_quantile(here, w.work, 0.99);
@@ -162,7 +153,7 @@ Coverage coverage_of(const ContactHistory& h, std::span<const double> work_J,
   std::vector<std::string> joint;
   for (const char* name : joint_states) {
     if (!tests.has(name) || !h.states.has(name) || is_held(h, name)) continue;
-    const auto [low, high] = range_of(tests.values(name));
+    const auto [low, high] = data::source_range(tests, name, tests.values(name));
     if (low < high) joint.emplace_back(name);
   }
   std::vector<char> outside(h.rows()), thin(h.rows());

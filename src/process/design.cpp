@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/text.h"
+#include "data/middle.h"
 #include "data/quantity.h"
 #include "io/csv.h"
 #include "process/coverage.h"
@@ -65,11 +66,7 @@ private:
   }
   double median(const char* name, std::size_t e) const {
     const auto values = of(name, e);
-    if (values.empty()) return no_value;
-    std::vector<double> sorted(values.begin(), values.end());
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    return *middle;
+    return data::upper_median({values.begin(), values.end()});
   }
   double largest(const char* name, std::size_t e) const {
     const auto values = of(name, e);
@@ -239,7 +236,7 @@ private:
   std::vector<std::vector<std::size_t>> rows_; // of each test
 };
 
-// ---- the process ----
+// ---- the design ----
 
 // Covariance after a test with these bins.
 MatrixXd with_test(const MatrixXd& S, const MatrixXd& g, const MatrixXd& V) {
@@ -371,10 +368,7 @@ double heating_of(const Campaign& campaign) {
   std::vector<double> rise;
   for (std::size_t i = 0; i < contact.size(); ++i)
     if (std::isfinite(contact[i] - tool[i])) rise.push_back(contact[i] - tool[i]);
-  if (rise.empty()) return 0;
-  const auto middle = rise.begin() + static_cast<std::ptrdiff_t>(rise.size() / 2);
-  std::nth_element(rise.begin(), middle, rise.end());
-  return *middle;
+  return rise.empty() ? 0 : data::upper_median(std::move(rise));
 }
 
 std::vector<OutOfReach> out_of_reach(const ContactHistory& history, std::span<const double> work_J,

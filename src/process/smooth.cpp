@@ -11,6 +11,7 @@
 
 #include "calibrate/network.h"
 #include "calibrate/polynomial_fit.h"
+#include "data/condense.h"
 #include "data/quantity.h"
 #include "models/law.h"
 
@@ -152,15 +153,8 @@ std::vector<std::string> smooth_states(const data::Dataset& tests) {
 
 StateRanges ranges_of(const data::Dataset& data, std::span<const std::string> names) {
   StateRanges ranges;
-  for (const std::string& name : names) {
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (const double value : data.values(name))
-      if (std::isfinite(value)) {
-        low = std::min(low, value);
-        high = std::max(high, value);
-      }
-    ranges.emplace_back(low, high);
-  }
+  for (const std::string& name : names)
+    ranges.push_back(data::source_range(data, name, data.values(name)));
   return ranges;
 }
 

@@ -46,13 +46,12 @@ std::vector<std::string> lines_of(const process::Process& found) {
 } // namespace
 
 void judge_process(Run& run) {
-  run.workspace.remove_earlier("process.json");
-  run.workspace.remove_earlier("process.html");
-  run.workspace.remove_earlier("process_plan.csv");
+  // Without [process] in the job, results of `frictab process JOB CONTACT` stay.
   if (run.job.process.contact.empty()) return;
+  run.workspace.remove_earlier("process_plan.csv"); // not written where no tests can be proposed
   const JobData& data = *run.data;
+  const Dataset all = all_tests(data);
   with_rows_in_memory(data, [&] {
-    const Dataset all = all_tests(data);
     const process::Tests tests{*run.calibration, data.training, data.judged(), all};
     const models::Conventions conventions =
         calibrate::conventions_of(run.job.models, data.training);
@@ -69,11 +68,10 @@ void judge_process(Run& run) {
   const process::Process& found = *run.process;
   run.workspace.write("process.json", process::process_json(found, lines_of(found)));
   run.workspace.write("process.html",
-                      report::process_html(found, all_tests(data), *run.calibration, run.job.file));
+                      report::process_html(found, all, *run.calibration, run.job.file));
   if (!found.proposed.tests.empty())
-    run.workspace.write(
-        "process_plan.csv",
-        process::plan_csv(found.proposed, all_tests(data).experiments, run.job.calibration.seed));
+    run.workspace.write("process_plan.csv", process::plan_csv(found.proposed, all.experiments,
+                                                              run.job.calibration.seed));
   run.finish("process");
 }
 
