@@ -49,10 +49,9 @@ void check_signs(JobReader& reader) {
                  "it is what stands between groups of three digits");
 }
 
-void check_unit(JobReader& reader, const std::string& name, const data::ColumnSource& source,
+void check_unit(JobReader& reader, std::string target, const data::ColumnSource& source,
                 const std::string& path) {
   if (source.unit.empty() || source.slope_rows > 0) return; // the loader knows the path's unit
-  std::string target = data::find_quantity(name)->unit;
   if (source.area_mm2 > 0) target = "N";
   if (!source.times.empty()) target = "1";
   if (!convert(source.unit, target))
@@ -86,15 +85,18 @@ void check_pattern(JobReader& reader, const std::string& text, const Place& plac
   }
 }
 
+// `quantities`: those that columns of the section may be; another column is a label.
 void check_column(JobReader& reader, const std::string& section, const std::string& name,
-                  data::ColumnSource& source) {
+                  data::ColumnSource& source, std::span<const data::Quantity> quantities) {
   const std::string path = section + "." + name;
   const Place& place = source.place;
   const int ways = !source.times.empty() + (source.area_mm2 > 0) + (source.slope_rows > 0) +
                    !source.formula.empty();
   const bool has_column = !source.names.empty() || source.number > 0;
   if (!has_column) source.names = {name};
-  if (name == "experiment") {
+  const auto quantity = std::find_if(quantities.begin(), quantities.end(),
+                                     [&](const auto& one) { return one.name == name; });
+  if (quantity == quantities.end()) {
     if (ways > 0 || !source.unit.empty())
       reader.fault(place, path + " is a label: it has no unit and is not computed",
                    "leave only `column`");
@@ -109,7 +111,7 @@ void check_column(JobReader& reader, const std::string& section, const std::stri
     reader.fault(reader.place_of(path + ".times"), path + ".times names the column itself",
                  "a friction coefficient is multiplied with sigma_n_MPa");
   else
-    check_unit(reader, name, source, path);
+    check_unit(reader, quantity->unit, source, path);
   check_formula(reader, source, path);
 }
 
@@ -137,7 +139,7 @@ void check_circle(JobReader& reader, const std::string& section, const Rules& ru
 template <class Rules>
 void check_mapping(JobReader& reader, const std::string& section, Rules& rules) {
   for (auto& [name, source] : rules.columns)
-    check_column(reader, section + ".columns", name, source);
+    check_column(reader, section + ".columns", name, source, data::quantities());
   for (const auto& [name, source] : rules.columns)
     check_circle(reader, section, rules, name);
   for (const auto& [name, value] : rules.constants)
@@ -258,35 +260,12 @@ void check_models(JobReader& reader, const std::string& path,
   }
 }
 
-// Columns of [process.columns] or [process.tool_columns].
-void check_process_columns(JobReader& reader, const std::string& section,
-                           std::span<const data::Quantity> quantities,
-                           std::map<std::string, data::ColumnSource>& columns) {
-  for (auto& [name, source] : columns) {
-    const std::string path = section + "." + name;
-    const bool has_column = !source.names.empty() || source.number > 0;
-    if (!source.formula.empty() && has_column)
-      reader.fault(source.place, path + " has a formula and a column", "keep one of the two");
-    if (!has_column) source.names = {name};
-    check_formula(reader, source, path);
-    const auto quantity =
-        std::find_if(quantities.begin(), quantities.end(),
-                     [&, &wanted = name](const auto& one) { return one.name == wanted; });
-    const std::string unit = quantity == quantities.end() ? "" : quantity->unit;
-    if (!source.unit.empty() && !convert(source.unit, unit))
-      reader.fault(reader.place_of(path + ".unit"),
-                   unit.empty() ? path + " is a label: it has no unit"
-                                : fmt::format("{}.unit = {} does not convert to {}", path,
-                                              toml_quoted(source.unit), unit),
-                   unit.empty() ? "" : suggest(source.unit, units_like(unit)));
-  }
-}
-
 void check_process(JobReader& reader) {
   process::ProcessOptions& process = reader.job.process;
-  check_process_columns(reader, "process.columns", process::contact_quantities(), process.columns);
-  check_process_columns(reader, "process.tool_columns", process::tool_quantities(),
-                        process.tool_columns);
+  for (auto& [name, source] : process.columns)
+    check_column(reader, "process.columns", name, source, process::contact_quantities());
+  for (auto& [name, source] : process.tool_columns)
+    check_column(reader, "process.tool_columns", name, source, process::tool_quantities());
   for (const auto& [name, value] : process.constants) {
     if (process.columns.count(name))
       reader.fault(reader.place_of("process.constants." + name),

@@ -164,6 +164,48 @@ inline ValueBounds between(double lower, double upper) {
   return {lower, upper, true, true};
 }
 
+// Keys of a column's source, in the table `section` of columns by canonical name.
+using SourceOf = data::ColumnSource& (*)(Job&, const std::string&);
+
+template <SourceOf source> KeyRule column_key(const std::string& section) {
+  KeyRule rule;
+  rule.path = section + ".*.column";
+  rule.type = KeyType::column;
+  rule.meaning = "the file's own name of the column, a list of names (the first one that is there "
+                 "counts), or the column's number from 1";
+  rule.absent = "the canonical name";
+  rule.example = "\"Normal stress\"";
+  rule.bounds = at_least(1);
+  rule.store = [](Job& job, const std::string& name, KeyValue value) {
+    if (const auto* number = std::get_if<std::uint64_t>(&value))
+      source(job, name).number = *number;
+    else
+      source(job, name).names = std::get<std::vector<std::string>>(std::move(value));
+  };
+  return rule;
+}
+
+template <SourceOf source> KeyRule unit_key(const std::string& section) {
+  return named<std::string>(
+      section + ".*.unit",
+      [](Job & job, const std::string& name) -> auto& { return source(job, name).unit; },
+      "the file's unit; values are converted",
+      "what a units row says, or the header after the name: \"F_N [kN]\"; else the canonical "
+      "unit",
+      "\"Pa\"");
+}
+
+template <SourceOf source> KeyRule formula_key(const std::string& section) {
+  return named<std::string>(
+      section + ".*.formula",
+      [](Job & job, const std::string& name) -> auto& { return source(job, name).formula; },
+      "computed from other columns, by their names (_ for signs other than letters and "
+      "digits): "
+      "quantities in their canonical units, others as the file gives them; pi is known, "
+      "`unit` is that of the result",
+      "a column of the file", "\"rpm*radius_mm*2*pi/60\"");
+}
+
 // Names for Allowed and SectionRule.
 std::vector<std::string> quantity_names();
 std::vector<std::string> column_names(); // quantities and the experiment

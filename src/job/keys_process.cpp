@@ -32,33 +32,8 @@ data::ColumnSource& tool_column(Job& job, const std::string& name) {
   return job.process.tool_columns[name];
 }
 
-using SourceOf = data::ColumnSource& (*)(Job&, const std::string&);
-
 template <SourceOf source> std::vector<KeyRule> source_keys(const std::string& section) {
-  KeyRule column;
-  column.path = section + ".*.column";
-  column.type = KeyType::column;
-  column.meaning = "the file's own name of the column, a list of names, or its number from 1";
-  column.absent = "the name at the left";
-  column.example = "\"CPRESS\"";
-  column.bounds = at_least(1);
-  column.store = [](Job& job, const std::string& name, KeyValue value) {
-    if (const auto* number = std::get_if<std::uint64_t>(&value))
-      source(job, name).number = *number;
-    else
-      source(job, name).names = std::get<std::vector<std::string>>(std::move(value));
-  };
-  return {std::move(column),
-          named<std::string>(
-              section + ".*.unit",
-              [](Job & job, const std::string& name) -> auto& { return source(job, name).unit; },
-              "the file's unit; values are converted", "what the file says, else that of the name",
-              "\"Pa\""),
-          named<std::string>(
-              section + ".*.formula",
-              [](Job & job, const std::string& name) -> auto& { return source(job, name).formula; },
-              "computed from other columns, as data.columns.*.formula", "a column of the file",
-              "\"700*(0.01 + plastic_strain)**0.2\"")};
+  return {column_key<source>(section), unit_key<source>(section), formula_key<source>(section)};
 }
 
 std::vector<KeyRule> own_keys() {

@@ -312,13 +312,12 @@ public:
       : tests_(tests), history_(history), used_(used), effects_(effects), fitted_(tests.training),
         judged_(tests.judged) {
     bool trained = false;
-    for (const std::string& name : laws)
-      for (const ModelFit& fit : tests.calibration.fits)
-        if (fit.model.law->name == name) {
-          laws_.push_back(std::make_unique<LawAgain>(fit, fitted_, judged_, history));
-          numbers_.push_back(calibrate::numbers_of(fit, tests.calibration.fits));
-          trained = trained || laws_.back()->is_trained();
-        }
+    for (const std::string& name : laws) {
+      const ModelFit& fit = *find_fit(tests.calibration, name);
+      laws_.push_back(std::make_unique<LawAgain>(fit, fitted_, judged_, history));
+      numbers_.push_back(calibrate::numbers_of(fit, tests.calibration.fits));
+      trained = trained || laws_.back()->is_trained();
+    }
     if (trained) smooth_.emplace(tests, judged_, history, smooth_states(tests.training));
   }
 

@@ -10,6 +10,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calibrate/calibration.h"
@@ -18,6 +19,10 @@
 #include "stats/interval.h"
 
 namespace frictab::process {
+
+// Fit of the law with this name; nullptr if it was not calibrated.
+const calibrate::ModelFit* find_fit(const calibrate::Calibration& calibration,
+                                    std::string_view law);
 
 // Law that a simulation had, and its stress.
 struct UsedLaw {
@@ -46,7 +51,6 @@ public:
   // `of_force`: whether changes of the force are predicted.
   Effects(const ContactHistory& history, const UsedLaw& used, bool of_force);
 
-  bool of_force() const { return of_force_; }
   // Force with this stress over the increments, kN; empty without a tool.
   std::vector<double> force_kN(std::span<const double> tau_MPa) const;
   // Change over the late half, %.

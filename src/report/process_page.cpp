@@ -51,12 +51,6 @@ private:
   const std::vector<LawThere>& laws_;
 };
 
-const calibrate::ModelFit* fit_of(const calibrate::Calibration& calibration, const LawThere& law) {
-  for (const calibrate::ModelFit& fit : calibration.fits)
-    if (fit.model.law->name == law.law) return &fit;
-  return nullptr;
-}
-
 // ---- the laws over the contact normal stress ----
 
 // Rows at these pressures, each a test of its own, all else at the middle of the friction work.
@@ -115,7 +109,8 @@ words::Picture laws_picture(const Process& p, const Dataset& tests,
   std::vector<std::vector<double>> lines;
   double most = 0;
   for (const LawThere& law : a.laws) {
-    lines.push_back(calibrate::predict(fit_of(calibration, law)->delivered().model, rows));
+    lines.push_back(
+        calibrate::predict(process::find_fit(calibration, law.law)->delivered().model, rows));
     if (law.leads)
       most = std::max(most, *std::max_element(lines.back().begin(), lines.back().end()));
   }

@@ -1,4 +1,6 @@
 // Stage process: judges the laws in a simulation of the user's own.
+#include <optional>
+
 #include <nlohmann/json.hpp>
 
 #include "core/text.h"
@@ -51,24 +53,27 @@ void judge_process(Run& run) {
   run.workspace.remove_earlier("process_plan.csv"); // not written where no tests can be proposed
   const JobData& data = *run.data;
   const Dataset all = all_tests(data);
+  // With the tests of process.add.
+  std::optional<JobData> more;
+  std::optional<calibrate::Calibration> again;
+  std::optional<Dataset> all_more;
   with_rows_in_memory(data, [&] {
     const process::Tests tests{*run.calibration, data.training, data.judged(), all};
-    const models::Conventions conventions =
-        calibrate::conventions_of(run.job.models, data.training);
-    if (run.job.process.add.empty()) {
-      run.process = process::judge_process(tests, nullptr, run.job.process, conventions);
-      return;
+    std::optional<process::Tests> added;
+    if (!run.job.process.add.empty()) {
+      more = with_added(data, run.job);
+      again = calibrate::calibrate(more->calibration_input(run.job));
+      all_more = all_tests(*more);
+      added.emplace(process::Tests{*again, more->training, more->judged(), *all_more});
     }
-    const JobData more = with_added(data, run.job);
-    const calibrate::Calibration again = calibrate::calibrate(more.calibration_input(run.job));
-    const Dataset all_more = all_tests(more);
-    const process::Tests added{again, more.training, more.judged(), all_more};
-    run.process = process::judge_process(tests, &added, run.job.process, conventions);
+    run.process = process::judge_process(tests, added ? &*added : nullptr, run.job.process,
+                                         calibrate::conventions_of(run.job.models, data.training));
   });
   const process::Process& found = *run.process;
   run.workspace.write("process.json", process::process_json(found, lines_of(found)));
   run.workspace.write("process.html",
-                      report::process_html(found, all, *run.calibration, run.job.file));
+                      report::process_html(found, all_more ? *all_more : all,
+                                           again ? *again : *run.calibration, run.job.file));
   if (!found.proposed.tests.empty())
     run.workspace.write("process_plan.csv", process::plan_csv(found.proposed, all.experiments,
                                                               run.job.calibration.seed));
