@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include "core/text.h"
 #include "data/file_list.h"
 #include "io/atomic_file.h"
+#include "job/answers.h"
 #include "job/guessed_job.h"
 #include "job/schema.h"
 
@@ -27,6 +29,7 @@ struct Options {
   std::string directory;
   std::vector<std::string> from;
   std::vector<std::string> sheets;
+  bool interactive = false;
 };
 
 void write_job(const fs::path& directory, bool force, const std::string& text) {
@@ -44,6 +47,9 @@ void write_job(const fs::path& directory, bool force, const std::string& text) {
 }
 
 int init_empty(const Options& options, const CommonOptions& common) {
+  if (options.interactive)
+    throw InputError({}, "--interactive has no files to ask about",
+                     "frictab init DIR --interactive --from FILES");
   if (options.directory.empty())
     throw InputError({}, "where to? No directory is given",
                      "frictab init DIR, or frictab init --from FILES");
@@ -131,6 +137,15 @@ void keep_sheets(std::vector<data::GuessedFile>& guesses, const std::vector<std:
   });
 }
 
+// Shows a question and reads its answer from standard input.
+std::optional<std::string> next_answer(const std::string& lines) {
+  print_error("{}", lines);
+  std::string answer;
+  if (std::getline(std::cin, answer)) return answer;
+  print_error("\n");
+  return std::nullopt;
+}
+
 // Makes a job in DIR for the files; messages call them as the user does.
 job::GuessedJob guess_from(const Options& options, const std::vector<std::string>& files,
                            const std::string& directory, std::vector<std::string>& passed) {
@@ -138,6 +153,7 @@ job::GuessedJob guess_from(const Options& options, const std::vector<std::string
   keep_sheets(guesses, options.sheets);
   data::GuessedCampaign campaign = data::sort_guesses(std::move(guesses));
   if (!options.sheets.empty()) campaign.sheets = options.sheets;
+  if (options.interactive) campaign = job::with_answers(std::move(campaign), next_answer);
   std::vector<std::string> of_rows, names;
   for (data::GuessedFile& guess : campaign.files) {
     if (of_rows.empty() || of_rows.back() != guess.file) of_rows.push_back(guess.file);
@@ -177,6 +193,8 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   app.add_option("--sheet", options->sheets, "the sheet of a workbook with the rows, or several")
       ->type_name("NAME")
       ->expected(1, -1);
+  app.add_flag("--interactive", options->interactive,
+               "ask, line by line, for what the files leave open");
   return [options, &common] {
     return options->from.empty() ? init_empty(*options, common) : init_from(*options, common);
   };

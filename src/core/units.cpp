@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 #include <stdexcept>
+#include <utility>
 
 #include <udunits2.h>
 
@@ -14,8 +15,26 @@ namespace frictab {
 
 namespace {
 
-// The library's database and the spellings that rigs use in addition; one thread at a time may
-// query it.
+// As rigs write units that the library does not know, or takes for coulombs and farads.
+constexpr std::pair<const char*, const char*> spellings[] = {{"-", "1"},
+                                                             {"C", "degC"},
+                                                             {"deg C", "degC"},
+                                                             {"Grad C", "degC"},
+                                                             {"ºC", "degC"},
+                                                             {"F", "degF"},
+                                                             {"deg F", "degF"},
+                                                             {"kp", "kgf"},
+                                                             {"kp/mm2", "kgf/mm2"},
+                                                             {"kp/cm2", "kgf/cm2"},
+                                                             {"lbs", "lbf"},
+                                                             {"Mpa", "MPa"},
+                                                             {"MPA", "MPa"},
+                                                             {"Sek", "s"},
+                                                             {"sek", "s"},
+                                                             {"Sek.", "s"},
+                                                             {"sec.", "s"}};
+
+// The library's database; one thread at a time may query it.
 class Units {
 public:
   Units() {
@@ -36,9 +55,19 @@ public:
 private:
   ut_unit* parse(const std::string& name) {
     if (name.empty()) return nullptr;
-    if (name == "-") return ut_parse(system_, "1", UT_UTF8);
-    if (name == "C") return ut_parse(system_, "degC", UT_UTF8); // no rig measures coulombs
-    return ut_parse(system_, name.c_str(), UT_UTF8);
+    for (const auto& [of_rigs, of_library] : spellings)
+      if (name == of_rigs) return ut_parse(system_, of_library, UT_UTF8);
+    ut_unit* const unit = ut_parse(system_, name.c_str(), UT_UTF8);
+    return unit ? unit : parse_torque(name);
+  }
+
+  // "Nm", "kNm", "Ncm": the library wants a blank between the two.
+  ut_unit* parse_torque(const std::string& name) {
+    const std::size_t newton = name.find('N');
+    if (newton == name.npos || newton > 1 || newton + 1 == name.size()) return nullptr;
+    const std::string length = name.substr(newton + 1);
+    if (length != "m" && length != "cm" && length != "mm") return nullptr;
+    return ut_parse(system_, (name.substr(0, newton + 1) + " " + length).c_str(), UT_UTF8);
   }
 
   std::optional<Conversion> ask(const std::string& from, const std::string& to) {

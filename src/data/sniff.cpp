@@ -408,6 +408,14 @@ void name_clock(std::vector<GuessedColumn>& columns, const io::CsvTable& table) 
   if (std::is_sorted(values.begin(), values.end())) first.canonical = "time_s";
 }
 
+// Whether the numbers are as small as coefficients of friction, and not all the same.
+bool as_small_as_coefficients(const io::CsvColumn& raw) {
+  constexpr double least = 0.01, most = 1;
+  const auto [low, high] = std::minmax_element(raw.numbers.begin(), raw.numbers.end());
+  return raw.texts.empty() && !raw.numbers.empty() && *low < *high && *low >= least &&
+         *high <= most;
+}
+
 // Takes a friction column for a coefficient where it has no unit, no normal force goes with it, and
 // it is as small as coefficients are.
 void name_coefficient(std::vector<GuessedColumn>& columns, const io::CsvTable& table) {
@@ -431,8 +439,9 @@ std::vector<GuessedColumn> columns_of(const io::CsvTable& table) {
     ++alike[raw.name];
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const io::CsvColumn& raw = table.columns[i];
-    if (raw.name.empty() && raw.unit.empty()) continue;
     GuessedColumn column;
+    column.as_small = as_small_as_coefficients(raw);
+    if (raw.name.empty() && raw.unit.empty() && !column.as_small) continue;
     column.name = raw.name;
     if (alike[raw.name] > 1 || raw.name.empty()) column.number = i + 1;
     column.unit =
@@ -482,8 +491,8 @@ bool each_row_is_a_test(const GuessedFile& guess, const io::CsvTable& table) {
   std::vector<std::vector<double>> settings;
   for (const GuessedColumn& column : guess.columns)
     for (const io::CsvColumn& raw : table.columns)
-      if (raw.name == column.name && !column.coefficient && column.canonical != "tau_R_MPa" &&
-          column.canonical != "F_R_N")
+      if (raw.name == column.name && !raw.name.empty() && !column.coefficient &&
+          column.canonical != "tau_R_MPa" && column.canonical != "F_R_N")
         settings.push_back(levels_of(raw));
   return rows_look_like_tests(settings, table.rows());
 }

@@ -2,6 +2,7 @@
 // guess is shown to the user before it is used (job/guessed_job.h).
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,12 +10,14 @@
 namespace frictab::data {
 
 struct GuessedColumn {
-  std::string name;         // in the file
-  std::size_t number = 0;   // from 1, where the name does not find the column; else 0
-  std::string unit;         // as given in the file; else empty
-  std::string canonical;    // a quantity, or experiment; else empty
-  bool coefficient = false; // of friction: tau_R_MPa is this times sigma_n_MPa
+  std::string name;          // in the file
+  std::size_t number = 0;    // from 1, where the name does not find the column; else 0
+  std::string unit;          // as given in the file; else empty
+  std::string answered_unit; // as the user answered; else empty
+  std::string canonical;     // a quantity, or experiment; else empty
+  bool coefficient = false;  // of friction: tau_R_MPa is this times sigma_n_MPa
   bool text = false;
+  bool as_small = false;    // numbers between 0.01 and 1, as coefficients of friction are
   std::string first_values; // "812.3, 813.1, 815"
   // The cells of a column that may name tests, as texts, if all of them differ.
   std::vector<std::string> names;
@@ -38,6 +41,7 @@ struct GuessedFile {
   std::vector<GuessedColumn> columns;
   double area_mm2 = 0;  // of contact, given above the header; 0: none
   std::string pressure; // formula of the normal stress, from a force and the area of contact
+  std::string friction; // formula of the friction force, from a torque and its radius
 
   const GuessedColumn* find(const std::string& canonical) const; // nullptr if there is none
   // True if the keys that read the other file read this one as well.
@@ -66,7 +70,8 @@ struct GuessedCampaign {
   std::optional<GuessedFile> tests; // one row per test: its column experiment has their labels
   // Sheets of one workbook, or equal for all of them: names or "*"; empty: no choice is needed.
   std::vector<std::string> sheets;
-  std::vector<std::string> passed; // names of sheets that are not read
+  std::vector<std::string> passed;              // names of sheets that are not read
+  std::map<std::string, double> constants = {}; // by canonical name, as the user answered
 };
 
 // Sorts guesses: the table of tests is found by a column whose texts are the labels of at least

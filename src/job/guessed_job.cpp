@@ -6,11 +6,10 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
-#include "core/units.h"
-#include "data/computed.h"
 #include "data/quantity.h"
 #include "data/scale.h"
 #include "io/csv.h"
+#include "job/open_points.h"
 #include "job/toml_tree.h"
 
 namespace frictab::job {
@@ -76,31 +75,18 @@ std::string source_of(const GuessedColumn& column, const GuessedFile& file) {
   return toml_quoted(alike > 1 ? column.name : bare);
 }
 
-// Whether the quantity has a unit that neither the file nor the canonical name gives.
-bool lacks_unit(const GuessedColumn& column) {
-  const data::Quantity* quantity = data::find_quantity(column.canonical);
-  return quantity && quantity->unit != "1" && !column.coefficient && column.unit.empty() &&
-         column.name != column.canonical;
-}
-
-// Unit at the end of the column's name; empty if there is none.
-std::string unit_in_name(const GuessedColumn& column) {
-  return lacks_unit(column)
-             ? data::unit_in_name(column.name, data::find_quantity(column.canonical)->unit)
-             : "";
-}
-
 std::string column_line(const GuessedColumn& column, const GuessedFile& file) {
   const data::Quantity* quantity = data::find_quantity(column.canonical);
   const std::string source = source_of(column, file);
   std::string value = column.number > 0 ? fmt::format("{{ column = {} }}", source) : source;
   if (column.coefficient) value = fmt::format("{{ column = {}, times = \"sigma_n_MPa\" }}", source);
-  const std::string named_unit = unit_in_name(column);
-  if (!named_unit.empty() && named_unit != quantity->unit)
-    value = fmt::format("{{ column = {}, unit = {} }}", source, toml_quoted(named_unit));
+  const std::string other_unit = unit_besides(column);
+  if (!other_unit.empty() && other_unit != quantity->unit)
+    value = fmt::format("{{ column = {}, unit = {} }}", source, toml_quoted(other_unit));
   std::string comment = "first values: " + shown(column.first_values);
   if (quantity && !column.coefficient)
-    comment += !named_unit.empty() ? fmt::format("; in {}, by the end of its name", named_unit)
+    comment += !column.answered_unit.empty() ? fmt::format("; in {}, as answered", other_unit)
+               : !other_unit.empty() ? fmt::format("; in {}, by the end of its name", other_unit)
                : column.unit.empty()
                    ? fmt::format("; no unit is given: {} is assumed", quantity->unit)
                    : fmt::format("; in {}, as the file says", shown(column.unit));
@@ -119,7 +105,7 @@ std::string columns_lines(const GuessedFile& file) {
   std::vector<std::string> canonical, others;
   for (const GuessedColumn& column : file.columns)
     if (column.canonical.empty())
-      others.push_back(shown(column.name));
+      others.push_back(shown(shown_name(column)));
     else if (says_itself(column))
       canonical.push_back(column.name);
     else
@@ -127,6 +113,9 @@ std::string columns_lines(const GuessedFile& file) {
   if (!file.pressure.empty())
     out += line(fmt::format("sigma_n_MPa = {{ formula = {} }}", toml_quoted(file.pressure)),
                 "the force over the area of contact, where the model is in N and mm");
+  if (!file.friction.empty())
+    out += line(fmt::format("F_R_N = {{ formula = {} }}", toml_quoted(file.friction)),
+                "the torque over the radius, in m, as answered");
   if (!canonical.empty()) out += "# known by their names: " + join(canonical, ", ") + "\n";
   if (!others.empty())
     out +=
@@ -134,34 +123,23 @@ std::string columns_lines(const GuessedFile& file) {
   return out;
 }
 
-// The file whose settings most files share.
-const GuessedFile& most_common(const std::vector<GuessedFile>& files) {
-  const auto alike = [&](const GuessedFile& file) {
-    return std::count_if(files.begin(), files.end(),
-                         [&](const GuessedFile& other) { return other.is_read_as(file); });
-  };
-  return *std::max_element(
-      files.begin(), files.end(),
-      [&](const GuessedFile& a, const GuessedFile& b) { return alike(a) < alike(b); });
-}
-
 class Writer {
 public:
   Writer(const data::GuessedCampaign& campaign, const data::GuessedNames& names,
          const std::vector<std::string>& training)
-      : campaign_(campaign), files_(campaign.files), most_(most_common(files_)), names_(names),
-        training_(training) {}
+      : campaign_(campaign), files_(campaign.files), points_(campaign), most_(points_.file()),
+        names_(names), training_(training) {}
 
   GuessedJob write() {
     add_head();
     out_.text += "\n[data.columns]\n" + columns_lines(most_);
-    if (!most_.header) ask_for_names();
+    if (!has_names()) ask_for_names();
     if (campaign_.tests)
       out_.text += "# of " + campaign_.tests->label() + ":\n" + columns_lines(*campaign_.tests);
     add_pressure_by_area();
     ask_for_units();
-    if (most_.header) ask_for_pressure();
-    if (most_.header) ask_for_friction();
+    if (has_names()) ask_for_pressure();
+    if (has_names()) ask_for_friction();
     add_constants();
     add_rules();
     out_.text += "\n[output]\ndirectory = \"out\"\n";
@@ -169,8 +147,11 @@ public:
   }
 
 private:
-  bool has(const char* canonical) const {
-    return most_.find(canonical) || (campaign_.tests && campaign_.tests->find(canonical));
+  // Whether columns have names, in the file or as answered.
+  bool has_names() const {
+    return most_.header ||
+           std::any_of(most_.columns.begin(), most_.columns.end(),
+                       [](const auto& column) { return !column.canonical.empty(); });
   }
 
   void add_head() {
@@ -207,7 +188,7 @@ private:
 
   void add_experiment() {
     if (most_.find("experiment") || most_.intervals || most_.rows) return;
-    if (files_.size() > 1)
+    if (!points_.lacks_tests())
       out_.text += line("experiment = \"file\"",
                         most_.sheet.empty() ? "no column names the tests: each file is one"
                                             : "no column names the tests: each sheet is one");
@@ -224,8 +205,10 @@ private:
   void ask_for_names() {
     std::string lines;
     for (std::size_t i = 0; i < most_.columns.size(); ++i)
-      lines += line(fmt::format("# QUANTITY = {{ column = {} }}", i + 1),
-                    "first values: " + shown(most_.columns[i].first_values));
+      lines +=
+          line(fmt::format("# QUANTITY = {{ column = {} }}", i + 1),
+               "first values: " + shown(most_.columns[i].first_values) +
+                   (most_.columns[i].as_small ? "; as small as coefficients of friction" : ""));
     ask("Which columns are these? The files have no line of names; frictab list quantities has "
         "those that a column may be.",
         lines);
@@ -235,17 +218,17 @@ private:
     std::vector<std::string> names;
     std::string lines;
     for (const GuessedColumn& column : most_.columns) {
-      if (!lacks_unit(column) || !unit_in_name(column).empty()) continue;
+      if (!lacks_unit(column)) continue;
       const std::string& unit = data::find_quantity(column.canonical)->unit;
       const auto others = data::other_units(unit);
-      names.push_back(fmt::format("{} ({})", shown(column.name), unit));
+      names.push_back(fmt::format("{} ({})", shown(shown_name(column)), unit));
       lines +=
           line(fmt::format("# {} = {{ column = {}, unit = {} }}", column.canonical,
                            source_of(column, most_), toml_quoted(others.front())),
                fmt::format("or {}, {}", unit, fmt::join(others.begin() + 1, others.end(), ", ")));
-      if (column.canonical == "F_N_N" && common_area() > 0 && !has("sigma_n_MPa"))
+      if (column.canonical == "F_N_N" && is_pressure_by_area())
         lines += fmt::format("# sigma_n_MPa = {{ column = {}, area_mm2 = {}, unit = {} }}\n",
-                             source_of(column, most_), shortest(common_area()),
+                             source_of(column, most_), shortest(points_.common_area()),
                              toml_quoted(others.front()));
     }
     if (names.empty()) return;
@@ -256,29 +239,23 @@ private:
         lines);
   }
 
-  // The area of contact that all files give above their rows; 0: none.
-  double common_area() const {
-    const bool same = std::all_of(files_.begin(), files_.end(), [&](const GuessedFile& file) {
-      return file.area_mm2 == files_.front().area_mm2;
-    });
-    return same ? files_.front().area_mm2 : 0;
-  }
-
-  // Whether the normal stress is a column, or the force over an area that the files give.
-  bool has_pressure() const {
-    return has("sigma_n_MPa") || !most_.pressure.empty() ||
-           (common_area() > 0 && most_.find("F_N_N"));
+  bool is_pressure_by_area() const {
+    return !points_.lacks_pressure() && !points_.has("sigma_n_MPa");
   }
 
   void add_pressure_by_area() {
-    if (!has_pressure() || has("sigma_n_MPa") || !most_.pressure.empty()) return;
-    out_.text += line(fmt::format("sigma_n_MPa = {{ column = {}, area_mm2 = {} }}",
-                                  source_of(*most_.find("F_N_N"), most_), shortest(common_area())),
-                      "the force over the area that the lines above the names give");
+    if (!is_pressure_by_area()) return;
+    const GuessedColumn& force = *most_.find("F_N_N");
+    const std::string unit = unit_besides(force);
+    out_.text +=
+        line(fmt::format("sigma_n_MPa = {{ column = {}, area_mm2 = {}{} }}",
+                         source_of(force, most_), shortest(points_.common_area()),
+                         unit.empty() || unit == "N" ? "" : ", unit = " + toml_quoted(unit)),
+             "the force over the area of contact, as the file or an answer gives it");
   }
 
   void ask_for_pressure() {
-    if (has_pressure()) return;
+    if (!points_.lacks_pressure()) return;
     const GuessedColumn* force = most_.find("F_N_N");
     ask("Where does the contact normal stress come from? None was found.",
         fmt::format("# sigma_n_MPa = \"COLUMN\"\n{}"
@@ -288,43 +265,38 @@ private:
                          "a force over the nominal contact area")));
   }
 
-  // Asks for the radius of a torque; false if there is none.
-  bool ask_for_radius() {
-    for (const GuessedColumn& column : most_.columns) {
-      const bool is_torque = convert(column.unit, "N m") && column.canonical.empty();
-      if (has("F_R_N") || !is_torque) continue;
-      const double newton_metres = convert(column.unit, "N m")->factor;
-      ask(fmt::format("At which radius does friction act? {} is a torque ({}).", shown(column.name),
-                      shown(column.unit)),
-          line(fmt::format("# F_R_N = {{ formula = \"{}{}/RADIUS_M\" }}",
-                           newton_metres == 1 ? "" : shortest(newton_metres) + "*",
-                           data::name_in_formulas(column.name)),
-               "RADIUS_M: a number, in m"));
-      return true;
-    }
-    return false;
-  }
-
   void ask_for_friction() {
-    const bool friction = has("F_R_N"), normal = has("F_N_N");
-    if (has("tau_R_MPa") || (friction && normal)) return;
-    if (ask_for_radius()) return;
-    if (friction)
-      ask("Which normal force belongs to the friction force? None was found.",
-          "# F_N_N = \"COLUMN\"\n# or one value for all rows, in [data.constants] below\n");
-    else
+    if (!points_.lacks_friction()) {
+      if (points_.lacks_normal_force())
+        ask("Which normal force belongs to the friction force? None was found.",
+            "# F_N_N = \"COLUMN\"\n# or one value for all rows, in [data.constants] below\n");
+    } else if (const GuessedColumn* torque = points_.torque()) {
+      ask(torque_question(*torque),
+          line(fmt::format("# F_R_N = {{ formula = {} }}",
+                           toml_quoted(force_of_torque(*torque, "RADIUS_M"))),
+               "RADIUS_M: a number, in m"));
+    } else if (const GuessedColumn* likely = points_.likely_coefficient()) {
+      ask(fmt::format("Is {} a coefficient of friction? Its numbers are as small, and nothing else "
+                      "is friction.",
+                      shown(shown_name(*likely))),
+          fmt::format("# tau_R_MPa = {{ column = {}, times = \"sigma_n_MPa\" }}\n",
+                      source_of(*likely, most_)));
+    } else {
       ask("Where is friction? Neither a shear stress, nor a coefficient, nor a friction force was "
           "found.",
           "# F_R_N = \"COLUMN\"\n# tau_R_MPa = \"COLUMN\"\n"
           "# tau_R_MPa = { column = \"COLUMN\", times = \"sigma_n_MPa\" }\n");
+    }
   }
 
   // Writes a single section, so that any of its lines can be uncommented.
   void add_constants() {
     std::string lines;
-    if (!has_pressure()) lines += "# sigma_n_MPa = 500.0\n";
-    if (has("F_R_N") && !has("F_N_N") && !has("tau_R_MPa")) lines += "# F_N_N = 50.0\n";
-    if (!has("sigma_f_MPa"))
+    for (const auto& [name, value] : campaign_.constants)
+      lines += line(name + " = " + shortest(value), "for all rows, as answered");
+    if (points_.lacks_pressure()) lines += "# sigma_n_MPa = 500.0\n";
+    if (points_.lacks_normal_force()) lines += "# F_N_N = 50.0\n";
+    if (!points_.has("sigma_f_MPa"))
       lines +=
           line("# sigma_f_MPa = 480.0", "flow stress of the workpiece: laws with a shear limit "
                                         "need it");
@@ -369,6 +341,7 @@ private:
 
   const data::GuessedCampaign& campaign_;
   const std::vector<GuessedFile>& files_;
+  const OpenPoints points_;
   const GuessedFile& most_;
   const data::GuessedNames& names_;
   const std::vector<std::string>& training_;

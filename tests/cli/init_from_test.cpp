@@ -536,7 +536,7 @@ TEST_F(InitFrom, AsksForTheRadiusOfATorque) {
   EXPECT_THAT(
       directory.read("job.toml"),
       testing::AllOf(HasSubstr("\n# ? At which radius does friction act? Torque [N mm] is a "
-                               "torque (N mm)."),
+                               "torque, in N mm.\n"),
                      HasSubstr("\n# F_R_N = { formula = \"0.001*Torque/RADIUS_M\" }")));
 }
 

@@ -27,6 +27,24 @@ TEST(Units, ConvertsToCanonicalUnits) {
   EXPECT_DOUBLE_EQ(value(20, "degC", "K"), 293.15);
 }
 
+TEST(Units, ReadsThemAsRigsWriteThem) {
+  const auto factor = [](const char* from, const char* to) { return (*convert(from, to)).factor; };
+  EXPECT_DOUBLE_EQ(factor("Nm", "N m"), 1);
+  EXPECT_DOUBLE_EQ(factor("kNm", "N m"), 1000);
+  EXPECT_DOUBLE_EQ(factor("Ncm", "N m"), 0.01);
+  EXPECT_DOUBLE_EQ(factor("mNm", "N m"), 1e-3);
+  EXPECT_DOUBLE_EQ(factor("Nmm", "N m"), 1e-3);
+  EXPECT_DOUBLE_EQ(factor("kp", "N"), 9.80665);
+  EXPECT_DOUBLE_EQ(factor("lbs", "lbf"), 1);
+  EXPECT_DOUBLE_EQ(factor("Mpa", "Pa"), 1e6);
+  EXPECT_DOUBLE_EQ(factor("Sek", "s"), 1);
+  for (const char* const celsius : {"C", "deg C", "ºC", "°C"})
+    EXPECT_DOUBLE_EQ((*convert(celsius, "K"))(20), 293.15) << celsius;
+  EXPECT_DOUBLE_EQ((*convert("F", "degC"))(212), 100);
+  EXPECT_FALSE(convert("N", "N m"));
+  EXPECT_FALSE(convert("Nkm", "N m"));
+}
+
 TEST(Units, RefusesUnknownUnitsAndOtherDimensions) {
   EXPECT_FALSE(convert("kN", "MPa"));
   EXPECT_FALSE(convert("mpa", "MPa"));

@@ -1,0 +1,128 @@
+#include "job/open_points.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "core/units.h"
+#include "data/computed.h"
+#include "data/quantity.h"
+#include "data/scale.h"
+
+namespace frictab::job {
+
+using data::GuessedColumn;
+using data::GuessedFile;
+
+namespace {
+
+bool is_named_torque(const GuessedColumn& column) {
+  const std::string name = lower_case(column.name);
+  return name.find("torque") != name.npos || name.find("drehmoment") != name.npos ||
+         name.find("reibmoment") != name.npos || name == "moment" || name == "couple";
+}
+
+// Unit of a torque: the file's, the one at the end of the name, or N m; empty for other columns.
+std::string unit_of_torque(const GuessedColumn& column) {
+  if (!column.canonical.empty() || column.text) return "";
+  if (!column.unit.empty()) return convert(column.unit, "N m") ? column.unit : "";
+  const std::string unit = data::unit_in_name(column.name, "N m");
+  return unit.empty() && is_named_torque(column) ? "N m" : unit;
+}
+
+bool has_unit_to_name(const GuessedColumn& column) {
+  const data::Quantity* quantity = data::find_quantity(column.canonical);
+  return quantity && quantity->unit != "1" && !column.coefficient && column.unit.empty() &&
+         column.name != column.canonical;
+}
+
+} // namespace
+
+std::size_t most_common(const std::vector<GuessedFile>& files) {
+  const auto alike = [&](const GuessedFile& file) {
+    return std::count_if(files.begin(), files.end(),
+                         [&](const GuessedFile& other) { return other.is_read_as(file); });
+  };
+  const auto most =
+      std::max_element(files.begin(), files.end(), [&](const GuessedFile& a, const GuessedFile& b) {
+        return alike(a) < alike(b);
+      });
+  return static_cast<std::size_t>(most - files.begin());
+}
+
+std::string shown_name(const GuessedColumn& column) {
+  return column.name.empty() ? fmt::format("column {}", column.number) : column.name;
+}
+
+std::string unit_besides(const GuessedColumn& column) {
+  if (!has_unit_to_name(column)) return "";
+  if (!column.answered_unit.empty()) return column.answered_unit;
+  return data::unit_in_name(column.name, data::find_quantity(column.canonical)->unit);
+}
+
+bool lacks_unit(const GuessedColumn& column) {
+  return has_unit_to_name(column) && unit_besides(column).empty();
+}
+
+bool OpenPoints::has(const std::string& canonical) const {
+  return file_.find(canonical) || campaign_.constants.count(canonical) > 0 ||
+         (campaign_.tests && campaign_.tests->find(canonical)) ||
+         (canonical == "sigma_n_MPa" && !file_.pressure.empty()) ||
+         (canonical == "F_R_N" && !file_.friction.empty());
+}
+
+double OpenPoints::common_area() const {
+  const double area = campaign_.files.front().area_mm2;
+  const bool same = std::all_of(campaign_.files.begin(), campaign_.files.end(),
+                                [&](const GuessedFile& file) { return file.area_mm2 == area; });
+  return same ? area : 0;
+}
+
+bool OpenPoints::lacks_tests() const {
+  return campaign_.files.size() == 1 && !file_.find("experiment") && !file_.intervals &&
+         !file_.rows;
+}
+
+bool OpenPoints::lacks_pressure() const {
+  return !has("sigma_n_MPa") && !(common_area() > 0 && file_.find("F_N_N"));
+}
+
+bool OpenPoints::lacks_friction() const {
+  return !has("tau_R_MPa") && !has("F_R_N");
+}
+
+bool OpenPoints::lacks_normal_force() const {
+  return has("F_R_N") && !has("F_N_N") && !has("tau_R_MPa");
+}
+
+const GuessedColumn* OpenPoints::torque() const {
+  for (const GuessedColumn& column : file_.columns)
+    if (!unit_of_torque(column).empty()) return &column;
+  return nullptr;
+}
+
+const GuessedColumn* OpenPoints::likely_coefficient() const {
+  const GuessedColumn* found = nullptr;
+  for (const GuessedColumn& column : file_.columns) {
+    const bool has_unit = !column.unit.empty() && !convert(column.unit, "1");
+    if (!column.canonical.empty() || !column.as_small || has_unit) continue;
+    if (found) return nullptr;
+    found = &column;
+  }
+  return found;
+}
+
+std::string torque_question(const GuessedColumn& torque) {
+  return fmt::format("At which radius does friction act? {} is a torque, in {}{}.",
+                     printable(shown_name(torque)), printable(unit_of_torque(torque)),
+                     torque.unit.empty() ? " as is assumed" : "");
+}
+
+std::string force_of_torque(const GuessedColumn& torque, const std::string& radius_m) {
+  const double newton_metres = convert(unit_of_torque(torque), "N m")->factor;
+  return fmt::format("{}{}/{}", newton_metres == 1 ? "" : shortest(newton_metres) + "*",
+                     data::name_in_formulas(torque.name), radius_m);
+}
+
+} // namespace frictab::job

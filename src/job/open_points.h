@@ -1,0 +1,55 @@
+// Points that the guesses of a campaign leave open: the questions of a guessed job.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "data/sniff.h"
+
+namespace frictab::job {
+
+// Index of the file that most files are read like.
+std::size_t most_common(const std::vector<data::GuessedFile>& files);
+
+// Name of the column, or "column 3".
+std::string shown_name(const data::GuessedColumn& column);
+
+// Unit of its quantity that the user answered, or else that the end of its name gives; empty where
+// the file gives it or nothing does.
+std::string unit_besides(const data::GuessedColumn& column);
+
+// Whether the quantity has a unit that nothing gives.
+bool lacks_unit(const data::GuessedColumn& column);
+
+class OpenPoints {
+public:
+  explicit OpenPoints(const data::GuessedCampaign& campaign)
+      : campaign_(campaign), file_(campaign.files[most_common(campaign.files)]) {}
+
+  const data::GuessedFile& file() const { return file_; } // that most are read like
+  // Whether the rows, the table of tests or an answer have the quantity.
+  bool has(const std::string& canonical) const;
+  // Area of contact that all files give above their rows, mm2; 0: none.
+  double common_area() const;
+
+  bool lacks_tests() const;        // a single file, without a column of tests
+  bool lacks_pressure() const;     // nor is it a force over an area that is given
+  bool lacks_friction() const;     // in any form
+  bool lacks_normal_force() const; // for the friction force that there is
+  // Torque that friction may come from; nullptr: none.
+  const data::GuessedColumn* torque() const;
+  // The only column without a meaning that is as small as coefficients of friction; nullptr: none,
+  // or several.
+  const data::GuessedColumn* likely_coefficient() const;
+
+private:
+  const data::GuessedCampaign& campaign_;
+  const data::GuessedFile& file_;
+};
+
+// Asks for the radius of a torque.
+std::string torque_question(const data::GuessedColumn& torque);
+// Formula of the friction force from a torque at `radius_m`, a number or its name.
+std::string force_of_torque(const data::GuessedColumn& torque, const std::string& radius_m);
+
+} // namespace frictab::job
