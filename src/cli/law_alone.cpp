@@ -190,11 +190,12 @@ int export_system(const SystemOptions& options, const CommonOptions& common) {
                  options.temperature};
   for (const job::System::Constant& one : system.parameters)
     law.parameters.push_back(one.name + "=" + shortest(one.value));
-  for (const auto& [state, range] : system.range)
+  for (const auto& [state, range] : system.range) {
+    const std::string start = state + "=";
     if (std::none_of(options.ranges.begin(), options.ranges.end(),
-                     [&](const std::string& given) { return given.starts_with(state + "="); }))
-      law.ranges.push_back(
-          fmt::format("{}={}..{}", state, shortest(range.first), shortest(range.second)));
+                     [&](const std::string& given) { return given.starts_with(start); }))
+      law.ranges.push_back(start + shortest(range.first) + ".." + shortest(range.second));
+  }
   law.origin =
       fmt::format("{}: {} tests; {}; {}", system.name, system.tests, system.source, system.licence);
   if (!system.caution.empty()) note(common, "caution: " + system.caution);
