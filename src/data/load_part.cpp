@@ -40,8 +40,8 @@ void map_part(Part& part, const FilePlan& plan) {
 void read_part(Part& part, const FilePlan& plan) {
   const Reading& options = plan.options;
   large_work(reading_words(plan), 0, fewer_rows, [&] {
-    part.raw = read_raw(path_of(plan).string(), plan.name, options, part.faults);
-    if (!options.wide.empty()) part.raw = from_wide(part.raw, options.wide, options.wide_place);
+    part.raw =
+        end_to_end(read_raw(path_of(plan).string(), plan.name, options, part.faults), options);
     map_part(part, plan);
   });
 }

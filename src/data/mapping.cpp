@@ -13,6 +13,7 @@
 #include "core/no_value.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "data/above.h"
 #include "data/computed.h"
 #include "data/quantity.h"
 #include "data/scale.h"
@@ -450,7 +451,7 @@ private:
     if (!column) return;
     used_.insert(column);
     read_experiments(column);
-    if (options_.experiment.starts_with(file_and_column))
+    if (options_.experiment.starts_with(file_and_column) || options_.experiment == by_columns)
       for (std::string& name : out_.experiment)
         name = label_ + " " + name;
   }
@@ -679,11 +680,13 @@ std::string MappedFile::CountedNote::text() const {
 
 MappedFile map_columns(io::CsvTable& raw, const Reading& options, const std::string& label,
                        FaultList& faults) {
+  add_values_above(raw, options, faults);
   return Mapper(raw, options, label, faults).map();
 }
 
 std::vector<ExperimentRun> experiment_runs(io::CsvTable& raw, const Reading& options,
                                            FaultList& faults) {
+  add_values_above(raw, options, faults);
   return Mapper(raw, options, "", faults).runs();
 }
 

@@ -114,8 +114,9 @@ struct DataOptions {
   // By canonical name; for one file also other columns.
   std::map<std::string, double> constants;
   std::map<std::string, std::string> labels; // text columns for one file
-  // Definition of an experiment: "file", "interval" (from one header line to the next), "row", a
-  // column, or "file+COLUMN"; empty: the column `experiment` if there is one, else the file.
+  // Definition of an experiment: "file", "interval" (from one header line to the next), "row",
+  // "columns" (those of equal names side by side are a test each), a column, or "file+COLUMN";
+  // empty: the column `experiment` if there is one, else the file.
   std::string experiment;
   // Experiments that are intervals of one recording: "none", those of a "file", those whose "name"
   // differs in its last number, or those of one value of a column; empty: inferred
@@ -131,6 +132,7 @@ struct DataOptions {
   std::string tests_sheet; // if that file is a workbook
   Place tests_place;
   JoinOptions join;
+  std::vector<std::string> above; // conditions above the rows to keep (data/above.h)
   // A regular expression for columns that are one test each (data/wide.h).
   std::string wide;
   Place wide_place;
@@ -176,6 +178,9 @@ inline constexpr const char* origin_column = "origin";
 // Prefix of the column in DataOptions::experiment if file and column together name a test.
 inline constexpr std::string_view file_and_column = "file+";
 
+// DataOptions::experiment of files whose columns come again, side by side, for each test.
+inline constexpr std::string_view by_columns = "columns";
+
 // True if experiments are counted within the file, which is then read as a whole.
 inline bool is_cut_whole(const DataOptions& options) {
   return options.experiment == "interval" || options.experiment == "row";
@@ -185,6 +190,7 @@ inline bool is_cut_whole(const DataOptions& options) {
 inline std::string experiment_column_of(const DataOptions& options) {
   const std::string& said = options.experiment;
   if (said == "file" || said == "interval" || said == "row") return "";
+  if (said == by_columns) return "experiment"; // data/wide.h makes it
   return said.starts_with(file_and_column) ? said.substr(file_and_column.size()) : said;
 }
 

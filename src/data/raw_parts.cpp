@@ -94,9 +94,9 @@ private:
 void read_whole(const std::string& path, const std::string& named, const Reading& options,
                 FaultList& faults, const TakeParts& take) {
   io::CsvTable raw = read_raw(path, named, options, faults);
-  if (!options.wide.empty()) {
+  if (are_side_by_side(options)) {
     std::vector<io::CsvTable> one;
-    one.push_back(from_wide(raw, options.wide, options.wide_place));
+    one.push_back(end_to_end(std::move(raw), options));
     return take(std::move(one));
   }
   Cutter cutter(options);
@@ -123,8 +123,9 @@ void cut_pieces(const std::function<std::vector<io::CsvTable>()>& next, const Re
 
 void read_raw_parts(const std::string& path, const std::string& named, const Reading& options,
                     FaultList& faults, const TakeParts& take) {
-  const bool held = io::looks_like_workbook(path) || is_rig_file(path) || !options.wide.empty() ||
-                    !options.join.files.empty() || is_cut_whole(options);
+  const bool held = io::looks_like_workbook(path) || is_rig_file(path) ||
+                    are_side_by_side(options) || !options.join.files.empty() ||
+                    is_cut_whole(options);
   if (held) return read_whole(path, named, options, faults, take);
   if (io::looks_like_hdf5(path)) {
     GroupColumns columns(path, named, options, faults);

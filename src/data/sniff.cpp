@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "data/above.h"
 #include "data/checks.h"
 #include "data/computed.h"
 #include "data/quantity.h"
@@ -59,9 +60,12 @@ const std::vector<Names>& known_names() {
        false,
        {"f n", "fn", "fz", "load", "last", "fnormal", "carico", "carga", "Нагрузка", "载荷", "荷重",
         "하중"},
-       {"normal force", "normalkraft", "normal load", "prüfkraft", "ball load", "axial load",
-        "vertical force", "clamping force", "effort normal", "force normale", "forza normale",
-        "fuerza normal", "siła normalna", "síla", "normaalkracht", "normal kuvvet"},
+       {"normal force",  "normalkraft",       "normal load",       "prüfkraft",
+        "ball load",     "axial load",        "vertical force",    "clamping force",
+        "axial force",   "axialkraft",        "vertikalkraft",     "anpresskraft",
+        "normallast",    "niederhalterkraft", "blankholder force", "effort normal",
+        "force normale", "forza normale",     "fuerza normal",     "siła normalna",
+        "síla",          "normaalkracht",     "normal kuvvet"},
        {}},
       {"F_R_N",
        false,
@@ -112,7 +116,7 @@ const std::vector<Names>& known_names() {
       {"v_rel_mm_s",
        false,
        {"v", "v rel", "vrel", "speed", "velocity"},
-       {"speed", "velocity", "geschwindigkeit", "vitesse", "velocit", "velocidad", "速度"},
+       {"speed", "velocity", "geschw", "vitesse", "velocit", "velocidad", "速度"},
        {}},
       {"s_mm",
        false,
@@ -467,7 +471,7 @@ bool is_found_by_names(std::string_view text, const GuessedFile& guess, const io
   for (const Quantity& quantity : quantities())
     format.wanted.emplace_back(quantity.name);
   for (const GuessedColumn& column : guess.columns)
-    if (!column.canonical.empty() && !column.name.empty())
+    if (!column.canonical.empty() && column.number == 0)
       format.wanted.push_back(io::read_header_name(column.name).name);
   try {
     FaultList faults;
@@ -527,8 +531,8 @@ bool GuessedFile::is_read_as(const GuessedFile& other) const {
   return (any_decimal || decimal == other.decimal) &&
          (thousands == 0 || thousands == other.thousands) && units_row == other.units_row &&
          header == other.header && header_rows == other.header_rows &&
-         intervals == other.intervals && rows == other.rows && skip_rows == other.skip_rows &&
-         named(*this) == named(other);
+         intervals == other.intervals && rows == other.rows && side_by_side == other.side_by_side &&
+         skip_rows == other.skip_rows && named(*this) == named(other);
 }
 
 std::string GuessedFile::label() const {
@@ -547,10 +551,63 @@ std::string pressure_of_abaqus(const GuessedFile& guess) {
   return "";
 }
 
+// Whether all columns come again, under equal names, for another test.
+bool are_side_by_side(const io::CsvTable& table) {
+  std::vector<std::string> names;
+  for (const io::CsvColumn& column : table.columns)
+    if (!column.name.empty()) names.push_back(column.name);
+  if (names.empty()) return false;
+  const auto again = std::find(names.begin() + 1, names.end(), names.front());
+  const auto period = static_cast<std::size_t>(again - names.begin());
+  if (again == names.end() || period < 2 || names.size() % period != 0) return false;
+  for (std::size_t i = period; i < names.size(); ++i)
+    if (names[i] != names[i - period]) return false;
+  return true;
+}
+
+// Leaves the columns of the first test, which stand for those of all.
+void take_first_test(GuessedFile& guess) {
+  std::vector<GuessedColumn> first;
+  for (GuessedColumn& column : guess.columns) {
+    if (!first.empty() && column.name == first.front().name) break;
+    column.number = 0;
+    first.push_back(std::move(column));
+  }
+  guess.columns = std::move(first);
+  guess.side_by_side = true;
+}
+
+// Quantities that rigs hold, and write above the rows.
+void add_conditions(GuessedFile& guess, const io::CsvTable& table) {
+  std::vector<GuessedColumn> conditions;
+  for (const io::CsvAbove& line : table.above) {
+    const ValueAbove value = read_value_above(line.value, guess.decimal);
+    GuessedColumn column;
+    column.name = line.name;
+    column.unit = value.unit.empty() ? io::read_header_name(line.name).unit : value.unit;
+    column.above = true;
+    column.text = !value.is_number;
+    column.first_values = line.value;
+    conditions.push_back(std::move(column));
+  }
+  std::vector<GuessedColumn> named = conditions;
+  name_columns(named);
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    const std::string& canonical = named[i].canonical;
+    const bool is_held = canonical == "F_N_N" || canonical == "sigma_n_MPa" ||
+                         canonical == "v_rel_mm_s" || canonical == "T_tool_C" ||
+                         canonical == "T_contact_C" || canonical == "sigma_f_MPa";
+    if (is_held && !named[i].text && !guess.find(canonical)) conditions[i].canonical = canonical;
+    guess.columns.push_back(std::move(conditions[i]));
+  }
+}
+
 void finish(GuessedFile& guess, const io::CsvTable& table) {
+  if (are_side_by_side(table)) take_first_test(guess);
   guess.pressure = pressure_of_abaqus(guess);
   check_experiment(guess, table);
-  guess.rows = each_row_is_a_test(guess, table);
+  guess.rows = !guess.side_by_side && each_row_is_a_test(guess, table);
+  add_conditions(guess, table);
 }
 
 // The lines before the `line`th, from 1.

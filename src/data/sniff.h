@@ -17,6 +17,7 @@ struct GuessedColumn {
   std::string canonical;     // a quantity, or experiment; else empty
   bool coefficient = false;  // of friction: tau_R_MPa is this times sigma_n_MPa
   bool text = false;
+  bool above = false;       // a condition above the rows (data/above.h)
   bool as_small = false;    // numbers between 0.01 and 1, as coefficients of friction are
   std::string first_values; // "812.3, 813.1, 815"
   // The cells of a column that may name tests, as texts, if all of them differ.
@@ -38,6 +39,7 @@ struct GuessedFile {
   std::size_t header_rows = 1; // lines of names
   bool intervals = false;      // the header line is repeated
   bool rows = false;           // each looks like a test (data/checks.h)
+  bool side_by_side = false;   // the same columns come again for each test
   std::vector<GuessedColumn> columns;
   double area_mm2 = 0;  // of contact, given above the header; 0: none
   std::string pressure; // formula of the normal stress, from a force and the area of contact

@@ -27,6 +27,7 @@ DataOptions take_over(DataOptions& options, const io::CsvTable& raw) {
   own.constants.clear();
   own.bystanders.reset();
   own.experiment.clear();
+  own.above.clear();
   for (const auto& [canonical, from] : options.columns)
     if (from.number > 0 || std::none_of(from.names.begin(), from.names.end(), is_here))
       own.columns.erase(canonical);

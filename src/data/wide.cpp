@@ -27,6 +27,26 @@ struct Test {
 
 class Wide {
 public:
+  // Tests whose columns have the same names in the same order.
+  explicit Wide(const io::CsvTable& table) : table_(table) {
+    const std::vector<std::size_t> named = named_columns();
+    const std::string& first = table.columns[named.front()].name;
+    for (const std::size_t i : named) {
+      const std::string& name = table.columns[i].name;
+      if (name == first) tests_.push_back(Test{name_over(i), {}, {}, 0});
+      Test& test = tests_.back();
+      if (!test.columns.emplace(name, i).second)
+        refuse(fmt::format("column '{}' comes twice before '{}' comes again", name, first));
+      test.rows = std::max(test.rows, filled_rows(table.columns[i]));
+    }
+    if (tests_.size() < 2) refuse(fmt::format("no column '{}' comes again", first));
+    for (const Test& test : tests_)
+      if (names_of(test) != names_of(tests_.front()))
+        refuse(fmt::format("test '{}' has the columns {}, test '{}' {}", tests_.front().name,
+                           join(names_of(tests_.front()), ", "), test.name,
+                           join(names_of(test), ", ")));
+  }
+
   Wide(const io::CsvTable& table, const std::string& columns, const Place& place)
       : table_(table), place_(place) {
     const Pattern pattern = test_columns(columns, place);
@@ -45,18 +65,44 @@ public:
     out.file = table_.file;
     out.header_line = table_.header_line;
     out.notes = table_.notes;
+    out.above = table_.above;
     for (const std::size_t i : common_)
       out.columns.push_back({table_.columns[i].name, table_.columns[i].unit, {}, {}});
     for (const std::string& name : column_names())
       out.columns.push_back({name, unit_of(name), {}, {}});
     for (const Test& test : tests_)
       append(out, test);
-    out.notes.push_back(fmt::format("one column per test: {} tests, {} rows", tests_.size(),
-                                    thousands(out.rows())));
+    out.notes.push_back(
+        fmt::format("tests side by side: {} tests, {} rows", tests_.size(), thousands(out.rows())));
     return out;
   }
 
 private:
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw InputError({table_.file, table_.header_line, 0}, what,
+                     "data.experiment = \"columns\" needs the same columns again for each test");
+  }
+
+  std::vector<std::size_t> named_columns() const {
+    std::vector<std::size_t> named;
+    for (std::size_t i = 0; i < table_.columns.size(); ++i)
+      if (!table_.columns[i].name.empty()) named.push_back(i);
+    if (named.empty()) refuse("no column has a name");
+    return named;
+  }
+
+  std::string name_over(std::size_t column) const {
+    const bool has_text = column < table_.over.size() && !table_.over[column].empty();
+    return has_text ? to_utf8(table_.over[column]) : std::to_string(tests_.size() + 1);
+  }
+
+  static std::vector<std::string> names_of(const Test& test) {
+    std::vector<std::string> out;
+    for (const auto& [name, column] : test.columns)
+      out.push_back(name);
+    return out;
+  }
+
   std::string names() const {
     std::vector<std::string> all;
     for (const io::CsvColumn& column : table_.columns)
@@ -167,7 +213,7 @@ private:
   }
 
   const io::CsvTable& table_;
-  const Place& place_;
+  const Place place_ = {};
   std::vector<std::size_t> common_;
   std::vector<Test> tests_;
 };
@@ -176,6 +222,20 @@ private:
 
 Pattern test_columns(const std::string& columns, const Place& place) {
   return Pattern("^(?:" + columns + ")$", place);
+}
+
+io::CsvTable from_side_by_side(const io::CsvTable& table) {
+  return Wide(table).unfolded();
+}
+
+bool are_side_by_side(const DataOptions& options) {
+  return !options.wide.empty() || options.experiment == by_columns;
+}
+
+io::CsvTable end_to_end(io::CsvTable&& table, const DataOptions& options) {
+  if (!options.wide.empty()) return from_wide(table, options.wide, options.wide_place);
+  if (options.experiment == by_columns) return from_side_by_side(table);
+  return std::move(table);
 }
 
 io::CsvTable from_wide(const io::CsvTable& table, const std::string& columns, const Place& place) {

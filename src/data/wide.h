@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/pattern.h"
+#include "data/options.h"
 #include "io/csv.h"
 
 namespace frictab::data {
@@ -20,5 +21,15 @@ Pattern test_columns(const std::string& columns, const Place& place);
 // last non-empty cell. Throws InputError if no column matches, or if two columns of a test are the
 // same.
 io::CsvTable from_wide(const io::CsvTable& table, const std::string& columns, const Place& place);
+
+// Treats each run of columns that begins with the name of the first one, and has the same names, as
+// one test. Its name is the text over its first column, or else its number. Throws InputError if
+// the first name does not come again, or if the runs differ in their names.
+io::CsvTable from_side_by_side(const io::CsvTable& table);
+
+// Whether the job has files with tests side by side.
+bool are_side_by_side(const DataOptions& options);
+// One row per value where the job has files with tests side by side; else the table itself.
+io::CsvTable end_to_end(io::CsvTable&& table, const DataOptions& options);
 
 } // namespace frictab::data

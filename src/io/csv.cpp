@@ -460,7 +460,12 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
   report_ragged_lines(ragged, table, header_text.empty() ? "first row" : "header", faults);
   settle_nameless(table, named);
   segments.add_columns(table, format);
-  table.passed_over = {again, in_front, delimiters_alone, segments.count(), segments.outside()};
+  table.passed_over = {again,
+                       in_front,
+                       delimiters_alone,
+                       table.passed_over.below_units,
+                       segments.count(),
+                       segments.outside()};
   if (scanner.unclosed_line() > 0)
     faults.add({table.file, scanner.unclosed_line(), 0},
                "a quotation mark opens here and is never closed");
@@ -475,6 +480,10 @@ std::vector<std::string> notes_of(const CsvPassedOver& lines) {
   if (lines.delimiters_alone > 0)
     notes.push_back(
         fmt::format("{} lines hold delimiters alone: they are not rows", lines.delimiters_alone));
+  if (lines.below_units > 0)
+    notes.push_back(fmt::format("{} below the units {} not a row: texts alone",
+                                lines.below_units == 1 ? "a line" : "lines",
+                                lines.below_units == 1 ? "is" : "are"));
   if (lines.segments > 0)
     notes.push_back(fmt::format("{} segments of rows; {} lines outside them are not read",
                                 lines.segments, lines.outside_segments));
@@ -535,6 +544,30 @@ void read_units(CsvTable& table, Scanner& scanner, std::string_view text, FaultL
     table.columns[i].unit = to_utf8(units[i]);
 }
 
+// Skips lines between the units and the first row that hold neither numbers nor units, as the name
+// of each channel's amplifier.
+void skip_texts_below_units(CsvTable& table, Scanner& scanner, const CsvFormat& format) {
+  constexpr std::size_t most = 4;
+  Scanner ahead = scanner;
+  for (std::size_t lines = 0; lines <= most && !ahead.at_end(); ++lines) {
+    const Scanner here = ahead;
+    const std::vector<std::string> cells = read_names(ahead);
+    double ignored = 0;
+    const bool has_number = std::any_of(cells.begin(), cells.end(), [&](const std::string& cell) {
+      return parse_number(cell, format, ignored);
+    });
+    if (has_number) {
+      table.passed_over.below_units = lines;
+      scanner = here;
+      return;
+    }
+    if (std::any_of(cells.begin(), cells.end(), [](const std::string& cell) {
+          return cell.empty() || convert(without_brackets(cell), without_brackets(cell));
+        }))
+      return;
+  }
+}
+
 // Number of wanted names in a line, for the delimiter that gives the most.
 std::size_t count_names(std::string_view line, const CsvFormat& format) {
   std::size_t most = 0;
@@ -547,6 +580,45 @@ std::size_t count_names(std::string_view line, const CsvFormat& format) {
     most = std::max(most, count);
   }
   return most;
+}
+
+// The condition that a line gives: a name, one of \t ; : = or two blanks, or else a comma, and a
+// value.
+std::optional<CsvAbove> condition_in(std::string_view line) {
+  const auto bare = [](std::string_view part) {
+    constexpr std::string_view around = " \t\r\"';:=,";
+    const std::size_t begin = part.find_first_not_of(around);
+    if (begin == part.npos) return std::string_view();
+    return part.substr(begin, part.find_last_not_of(around) + 1 - begin);
+  };
+  std::size_t cut = std::min(line.find_first_of("\t;:="), line.find("  "));
+  if (cut == line.npos) cut = line.find(',');
+  if (cut == line.npos) return std::nullopt;
+  const std::string_view name = bare(line.substr(0, cut)), value = bare(line.substr(cut));
+  if (name.empty() || value.empty()) return std::nullopt;
+  return CsvAbove{to_utf8(name), to_utf8(value)};
+}
+
+std::vector<CsvAbove> conditions_in(std::string_view preamble) {
+  std::vector<CsvAbove> out;
+  for (Scanner lines(preamble, '\n'); !lines.at_end();)
+    if (auto one = condition_in(lines.take_line());
+        one && std::none_of(out.begin(), out.end(),
+                            [&](const CsvAbove& other) { return other.name == one->name; }))
+      out.push_back(std::move(*one));
+  return out;
+}
+
+// Twice the number of wanted names in a line, less one if it seems to give the value of the only
+// one.
+std::size_t worth_as_header(std::string_view line, const CsvFormat& format) {
+  const std::size_t names = count_names(line, format);
+  if (names != 1) return 2 * names;
+  const auto condition = condition_in(line);
+  const bool gives_value = condition && is_wanted(condition->name, format) &&
+                           (std::isdigit(static_cast<unsigned char>(condition->value[0])) ||
+                            condition->value.find_first_of("\t;,|") == std::string::npos);
+  return gives_value ? 1 : 2;
 }
 
 // Skips the preamble up to the header line. Throws if there is none.
@@ -564,15 +636,15 @@ void find_header(Scanner& lines, std::string_view text, const std::string& file,
                      format.skip_footer > 0 ? "check data.skip_rows and data.skip_footer"
                                             : "check data.skip_rows");
   if (!format.header || format.wanted.empty() ||
-      count_names(line_at(text, lines.position()), format) > 0)
+      worth_as_header(line_at(text, lines.position()), format) > 1)
     return;
   constexpr int longest_preamble = 200;
   Scanner ahead = lines, best = lines;
   std::size_t most = 0;
   for (int i = 0; i < longest_preamble && !ahead.at_end(); ++i) {
-    const std::size_t count = count_names(line_at(text, ahead.position()), format);
-    if (count > most) best = ahead;
-    most = std::max(most, count);
+    const std::size_t worth = worth_as_header(line_at(text, ahead.position()), format);
+    if (worth > most) best = ahead;
+    most = std::max(most, worth);
     ahead.take_line();
   }
   lines = best;
@@ -618,9 +690,16 @@ Head read_head(CsvTable& table, std::string_view text, const CsvFormat& format, 
   head.delimiter = format.delimiter ? format.delimiter
                                     : find_delimiter(head.header, line_at(text, lines.position()),
                                                      format.decimal);
+  table.above = conditions_in(text.substr(0, header));
   Scanner scanner(text, head.delimiter);
-  while (scanner.position() < header)
+  while (scanner.position() < header) {
+    const std::string_view line = line_at(text, scanner.position());
+    if (!is_blank(line, 0)) {
+      Scanner cells(line, head.delimiter);
+      table.over = read_names(cells);
+    }
     scanner.take_line();
+  }
   head.begin = header;
   table.form =
       fmt::format("text, cells by {}", head.delimiter == '\t'  ? "tabs"
@@ -632,7 +711,10 @@ Head read_head(CsvTable& table, std::string_view text, const CsvFormat& format, 
     head.end_line = table.header_line;
     return head;
   }
-  if (format.units_row && !scanner.at_end()) read_units(table, scanner, text, faults);
+  if (format.units_row && !scanner.at_end()) {
+    read_units(table, scanner, text, faults);
+    skip_texts_below_units(table, scanner, format);
+  }
   head.end = scanner.position();
   head.end_line = scanner.line();
   return head;
@@ -889,6 +971,7 @@ CsvTable rows_of(const CsvTable& table, std::size_t first, std::size_t end) {
   part.header_line = table.header_line;
   part.units_line = table.units_line;
   part.notes = table.notes;
+  part.above = table.above;
   const auto cut = [&](const auto& from, auto& to) {
     if (!from.empty())
       to.assign(from.begin() + static_cast<std::ptrdiff_t>(first),

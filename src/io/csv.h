@@ -105,14 +105,22 @@ struct CsvPassedOver {
   std::size_t headers = 0;  // repeated header lines
   std::size_t in_front = 0; // lines just before a repeated header
   std::size_t delimiters_alone = 0;
+  std::size_t below_units = 0; // lines of texts between the units and the first row
   std::size_t segments = 0, outside_segments = 0; // runs, and lines outside them
 };
 
+// A line above the header that gives a condition: "Normal load: 5 N", "Probe;C45".
+struct CsvAbove {
+  std::string name, value;
+};
+
 struct CsvTable {
-  std::string file;            // name in messages
-  std::string form;            // "text, cells by ;"
-  std::size_t header_line = 0; // of a file without a header the first row; 0 for other formats
-  std::size_t units_line = 0;  // 0: none
+  std::string file;              // name in messages
+  std::string form;              // "text, cells by ;"
+  std::size_t header_line = 0;   // of a file without a header the first row; 0 for other formats
+  std::size_t units_line = 0;    // 0: none
+  std::vector<CsvAbove> above;   // in the order of the lines, each name once
+  std::vector<std::string> over; // cells of the line just above the header
   std::vector<CsvColumn> columns;
   std::vector<std::size_t> line;     // physical line of each row
   std::vector<std::size_t> interval; // number of repeated header lines, or of runs, before each row

@@ -58,6 +58,8 @@ std::string dialect_lines(const GuessedFile& file) {
   if (file.units_row) out += line("units_row = true", "the line below the names holds units");
   if (file.intervals)
     out += line("experiment = \"interval\"", "the header line comes again: a test each time");
+  if (file.side_by_side)
+    out += line("experiment = \"columns\"", "the same columns come again for each test");
   if (file.rows)
     out += line("experiment = \"row\"", "settings change from row to row: each row is a test");
   return out;
@@ -83,7 +85,8 @@ std::string column_line(const GuessedColumn& column, const GuessedFile& file) {
   const std::string other_unit = unit_besides(column);
   if (!other_unit.empty() && other_unit != quantity->unit)
     value = fmt::format("{{ column = {}, unit = {} }}", source, toml_quoted(other_unit));
-  std::string comment = "first values: " + shown(column.first_values);
+  std::string comment =
+      (column.above ? "above the rows: " : "first values: ") + shown(column.first_values);
   if (quantity && !column.coefficient)
     comment += !column.answered_unit.empty() ? fmt::format("; in {}, as answered", other_unit)
                : !other_unit.empty() ? fmt::format("; in {}, by the end of its name", other_unit)
@@ -102,9 +105,11 @@ bool says_itself(const GuessedColumn& column) {
 
 std::string columns_lines(const GuessedFile& file) {
   std::string out;
-  std::vector<std::string> canonical, others;
+  std::vector<std::string> canonical, others, above;
   for (const GuessedColumn& column : file.columns)
-    if (column.canonical.empty())
+    if (column.canonical.empty() && column.above)
+      above.push_back(shown(column.name));
+    else if (column.canonical.empty())
       others.push_back(shown(shown_name(column)));
     else if (says_itself(column))
       canonical.push_back(column.name);
@@ -120,6 +125,8 @@ std::string columns_lines(const GuessedFile& file) {
   if (!others.empty())
     out +=
         "# kept as recorded; what changes friction may be among them: " + join(others, ", ") + "\n";
+  if (!above.empty())
+    out += "# above the rows, kept where data.above names them: " + join(above, ", ") + "\n";
   return out;
 }
 
@@ -187,7 +194,7 @@ private:
   }
 
   void add_experiment() {
-    if (most_.find("experiment") || most_.intervals || most_.rows) return;
+    if (most_.find("experiment") || most_.intervals || most_.rows || most_.side_by_side) return;
     if (!points_.lacks_tests())
       out_.text += line("experiment = \"file\"",
                         most_.sheet.empty() ? "no column names the tests: each file is one"
@@ -334,7 +341,8 @@ private:
     if (file.decimal == '.' && most_.decimal != '.') out += "decimal = \".\"\n";
     if (file.skip_rows == 0 && most_.skip_rows > 0) out += "skip_rows = 0\n";
     if (!file.units_row && most_.units_row) out += "units_row = false\n";
-    if (!file.intervals && !file.rows && (most_.intervals || most_.rows))
+    if (!file.intervals && !file.rows && !file.side_by_side &&
+        (most_.intervals || most_.rows || most_.side_by_side))
       out += "experiment = \"file\"\n";
     return out;
   }

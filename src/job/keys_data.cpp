@@ -207,7 +207,8 @@ std::vector<KeyRule> file_keys() {
       key<std::string>(
           "data.experiment", [](Job & job) -> auto& { return job.data.experiment; },
           "what an experiment is: \"file\", \"interval\" (from one header line of a file to the "
-          "next), \"row\" (each row is a test), a column of the file, or both: \"file+COLUMN\"",
+          "next), \"row\" (each row is a test), \"columns\" (those of the same names side by side "
+          "are a test each), a column of the file, or both: \"file+COLUMN\"",
           "the column experiment where there is one, else the file", "\"file\""),
       key<std::string>(
           "data.recording", [](Job & job) -> auto& { return job.data.recording; },
@@ -223,6 +224,11 @@ std::vector<KeyRule> file_keys() {
           "\"auto\": above ten million rows up to "
           "3520, fewer where there are many experiments") |
           at_least(0) | blocks_problem,
+      key<std::vector<std::string>>(
+          "data.above", [](Job & job) -> auto& { return job.data.above; },
+          "conditions that files give above their rows (\"Oil: A\", \"Radius;3 mm\"), to keep as "
+          "columns; those that data.columns or a formula names are read without it",
+          "not kept", "[\"Oil\", \"Radius\"]"),
       key<std::optional<std::vector<std::string>>>(
           "data.bystanders", [](Job & job) -> auto& { return job.data.bystanders; },
           "columns of the files to keep that no law uses; those of tests, join, labels and "

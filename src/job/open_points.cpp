@@ -25,7 +25,7 @@ bool is_named_torque(const GuessedColumn& column) {
 
 // Unit of a torque: the file's, the one at the end of the name, or N m; empty for other columns.
 std::string unit_of_torque(const GuessedColumn& column) {
-  if (!column.canonical.empty() || column.text) return "";
+  if (!column.canonical.empty() || column.text || column.above) return "";
   if (!column.unit.empty()) return convert(column.unit, "N m") ? column.unit : "";
   const std::string unit = data::unit_in_name(column.name, "N m");
   return unit.empty() && is_named_torque(column) ? "N m" : unit;
@@ -81,7 +81,7 @@ double OpenPoints::common_area() const {
 
 bool OpenPoints::lacks_tests() const {
   return campaign_.files.size() == 1 && !file_.find("experiment") && !file_.intervals &&
-         !file_.rows;
+         !file_.rows && !file_.side_by_side;
 }
 
 bool OpenPoints::lacks_pressure() const {

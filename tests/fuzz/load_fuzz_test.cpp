@@ -166,7 +166,8 @@ TEST_F(LoadFuzz, DamagedHdf5GivesADatasetOrAnInputError) {
   EXPECT_GT(outcomes[refused], 50U);
 }
 
-// Two files in one campaign: what stands beside the rows, or one column per test.
+// Two files in one campaign: what stands beside the rows, one column per test, or tests side by
+// side under their conditions.
 TEST_F(LoadFuzz, DamagedFilesBesideTheRowsGiveADatasetOrAnInputError) {
   const std::string rows = "experiment,time_s,sigma_n_MPa,F_N_N,F_R_N\n"
                            "a,0,1000,10,1\na,1,1000,20,2\na,2,1000,15,1\na,3,1000,30,3\n"
@@ -176,13 +177,16 @@ TEST_F(LoadFuzz, DamagedFilesBesideTheRowsGiveADatasetOrAnInputError) {
       "experiment,time_s,F_N_N,psi\na,0.5,15,1\na,1.5,17,1.5\na,2.5,22,2\n"
       "b,0.5,20,1\nb,1.5,22,1.2\nb,2.5,17,1.4\n";
   const std::string wide = "time_s,OA1_v5_a,OA2_v5_b,OA3_v50_c\n0,0.1,0.2,0.3\n1,0.11,,0.31\n";
+  const std::string side = "Load: 5 N\nOil;A\n\nT1;;;T2;;\ntime_s;mu;;time_s;mu;\ns;-;;s;-;\n"
+                           "0;0.1;;0;0.2;\n1;0.11;;1;0.21;\n2;0.12;;;;\n";
   const std::string beside = file_.string() + "_beside";
   Random random(17);
   std::size_t outcomes[4] = {};
   for (int i = 0; i < 6000; ++i) {
     data::DataOptions options;
-    const std::size_t form = random.below(3);
-    std::string bytes = mutated(form == 0 ? tests : form == 1 ? simulation : wide, random, 3);
+    const std::size_t form = random.below(4);
+    const std::string& valid = form == 0 ? tests : form == 1 ? simulation : form == 2 ? wide : side;
+    std::string bytes = mutated(valid, random, 3);
     if (form == 0) options.tests = beside;
     if (form == 1) {
       options.join.files = {beside};
@@ -192,6 +196,16 @@ TEST_F(LoadFuzz, DamagedFilesBesideTheRowsGiveADatasetOrAnInputError) {
       options.wide = R"(OA(?<oa_pct>\d+)_v(?<v_rel_mm_s>\d+)_(?<experiment>.*))";
       options.columns["tau_R_MPa"].names = {"value"};
       options.constants["sigma_n_MPa"] = 1;
+      write(bytes);
+    } else if (form == 3) {
+      options.experiment = "columns";
+      options.units_row = true;
+      options.columns["F_N_N"].names = {"Load"};
+      options.columns["sigma_n_MPa"].names = {"Load"};
+      options.columns["sigma_n_MPa"].area_mm2 = 2;
+      options.columns["tau_R_MPa"].names = {"mu"};
+      options.columns["tau_R_MPa"].times = "sigma_n_MPa";
+      options.above = {"Oil"};
       write(bytes);
     } else {
       write(rows);

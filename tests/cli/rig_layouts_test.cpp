@@ -1,0 +1,193 @@
+// Layouts of rigs' files beyond a line of names over rows: conditions above the rows, tests side by
+// side, lines between the units and the rows. SYNTHETIC numbers.
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/text.h"
+#include "support/run_command.h"
+#include "support/workbook.h"
+
+namespace frictab::rig_layouts_test {
+namespace {
+
+using test::CommandResult;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class RigLayouts : public testing::Test {
+protected:
+  // Rows of one test at 0.1 s: time and coefficient.
+  static std::string rows(int test, int count = 25) {
+    std::string text;
+    for (int i = 0; i < count; ++i)
+      text += fmt::format("{:.1f}\t{:.4f}\n", 0.1 * i, 0.1 + 0.003 * std::sin(1.3 * i + test));
+    return text;
+  }
+
+  void write_job(const std::string& data) const {
+    directory.write("job.toml", data + "\n[output]\ndirectory = \"out\"\n");
+  }
+  CommandResult data(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {"data", "job.toml"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test::run_frictab(arguments, directory.path());
+  }
+  std::string guessed(const std::string& files) const {
+    const CommandResult init =
+        test::run_frictab({"init", "job", "--force", "--from", files}, directory.path());
+    EXPECT_EQ(init.exit_code, 0) << init.err;
+    return directory.read("job/job.toml");
+  }
+
+  test::TemporaryDirectory directory;
+};
+
+TEST_F(RigLayouts, ConditionsAboveTheRowsAreColumnsWhereTheJobNamesThem) {
+  for (int test = 1; test <= 4; ++test)
+    directory.write(fmt::format("t{}.txt", test),
+                    fmt::format("Normal load\t{} [N]\nTribometer 3\nOil:\tA{}\nDisc speed = {} "
+                                "cm/s\nRadius [mm]: 10\n\nTime [s]\tmu\n",
+                                5 * test, test % 2, test) +
+                        rows(test));
+  write_job(R"([data]
+training = "t*.txt"
+above = ["Oil"]
+[data.columns]
+time_s = "Time"
+F_N_N = "Normal load"
+sigma_n_MPa = { column = "Normal load", area_mm2 = 0.05 }
+tau_R_MPa = { column = "mu", times = "sigma_n_MPa" }
+v_rel_mm_s = "Disc speed"
+s_mm = { formula = "Radius*time_s", unit = "mm" })");
+  const CommandResult read = data();
+  ASSERT_EQ(read.exit_code, 0) << read.err;
+  EXPECT_THAT(
+      read.out,
+      AllOf(HasSubstr("  t1    train    25    0.100             -  0 to 2.4          100          "
+                      "10  0 to 24"),
+            HasSubstr("  t4    train    25   0.0999             -  0 to 2.4          400          "
+                      "40  0 to 24"),
+            HasSubstr("  Oil          label  2 levels\n"),
+            HasSubstr("read: from lines above the rows: Normal load, Oil, Disc speed, Radius "
+                      "[mm]\n")));
+}
+
+TEST_F(RigLayouts, AConditionThatNoLineGivesIsAnErrorWithTheNearestName) {
+  directory.write("t1.txt", "Oil: A\nLoad: 5 N\ntime_s\tmu\n" + rows(1));
+  const std::string job = "[data]\ntraining = \"t1.txt\"\nabove = [\"Oill\"]\n[data.columns]\n"
+                          "sigma_n_MPa = { column = \"Load\", area_mm2 = 1 }\n"
+                          "tau_R_MPa = { column = \"mu\", times = \"sigma_n_MPa\" }\n";
+  write_job(job);
+  EXPECT_THAT(data().err, HasSubstr("t1.txt:3: error: no line above the rows gives 'Oill' "
+                                    "(data.above)\n  hint: did you mean 'Oil'?\n"));
+  write_job(replace_all(job, "Oill", "Oil"));
+  EXPECT_EQ(data().exit_code, 0);
+  // A unit of another dimension is a fault as in a column.
+  directory.write("t1.txt", "Oil: A\nLoad: 5 mm\ntime_s\tmu\n" + rows(1));
+  EXPECT_THAT(data().err, HasSubstr("'mm'"));
+  EXPECT_EQ(data().exit_code, 2);
+}
+
+TEST_F(RigLayouts, AColumnOfTheFileGoesBeforeALineAboveIt) {
+  directory.write("t1.txt",
+                  "sigma_n_MPa: 7\ntime_s\tmu\tsigma_n_MPa\n0\t0.1\t3\n1\t0.2\t3\n2\t0.1\t"
+                  "3\n");
+  write_job("[data]\ntraining = \"t1.txt\"\n[data.columns]\n"
+            "tau_R_MPa = { column = \"mu\", times = \"sigma_n_MPa\" }\n");
+  EXPECT_THAT(data().out, HasSubstr("            3  0.3 to 0.6"));
+}
+
+TEST_F(RigLayouts, TestsSideBySideAreATestEach) {
+  std::string text = "Block 1;;;Block 2;;\np [MPa];COF;;p [MPa];COF;\n";
+  for (int i = 0; i < 30; ++i)
+    text +=
+        fmt::format("{};{:.4f};;", 100 + i, 0.1 + 0.003 * std::sin(1.3 * i)) +
+        (i < 20 ? fmt::format("{};{:.4f};\n", 200 + i, 0.12 + 0.003 * std::sin(1.7 * i)) : ";;\n");
+  directory.write("side.csv", text);
+  const std::string job = guessed("side.csv");
+  EXPECT_THAT(job,
+              AllOf(HasSubstr("\nexperiment = \"columns\" "), HasSubstr("\nsigma_n_MPa = \"p\" "),
+                    HasSubstr("\ntau_R_MPa = { column = \"COF\", times = \"sigma_n_MPa\" }")));
+  const CommandResult read = test::run_frictab({"data", "job/job.toml"}, directory.path());
+  ASSERT_EQ(read.exit_code, 0) << read.err;
+  EXPECT_THAT(read.out, AllOf(HasSubstr("  side Block 1  train    30    0.100 "),
+                              HasSubstr("  side Block 2  train    20    0.120 "),
+                              HasSubstr("read: tests side by side: 2 tests, 50 rows\n")));
+}
+
+TEST_F(RigLayouts, TestsSideBySideInAWorkbookHaveTheNamesOfTheMergedCells) {
+  std::string cells = "V1;;V2;\np [MPa];mu;p [MPa];mu\n";
+  for (int i = 0; i < 12; ++i)
+    cells += fmt::format("{};{:.3f};{};{:.3f}\n", 100 + i, 0.1 + 0.001 * (i % 3), 300 + i,
+                         0.11 + 0.001 * (i % 4));
+  test::write_workbook(
+      directory.path("book.xlsx"),
+      {{{"Sheet1", test::xml_rows(cells),
+         "<mergeCells><mergeCell ref=\"A1:B1\"/><mergeCell ref=\"C1:D1\"/></mergeCells>"}}});
+  write_job("[data]\ntraining = \"book.xlsx\"\nexperiment = \"columns\"\n[data.columns]\n"
+            "sigma_n_MPa = \"p\"\ntau_R_MPa = { column = \"mu\", times = \"sigma_n_MPa\" }\n");
+  EXPECT_THAT(data().out, AllOf(HasSubstr("\n  book V1  train    12 "),
+                                HasSubstr("\n  book V2  train    12 ")));
+}
+
+TEST_F(RigLayouts, UnequalRunsOfColumnsAreNotTakenForTests) {
+  const std::string job = "[data]\ntraining = \"a.csv\"\nexperiment = \"columns\"\n[data.columns]\n"
+                          "tau_R_MPa = \"mu\"\nsigma_n_MPa = \"p\"\n";
+  write_job(job);
+  const std::pair<const char*, const char*> cases[] = {
+      {"p;mu;p;tau\n1;2;3;4\n", "test '1' has the columns mu, p, test '2' p, tau"},
+      {"p;mu\n1;2\n", "no column 'p' comes again"},
+      {"p;mu;mu\n1;2;3\n", "column 'mu' comes twice before 'p' comes again"}};
+  for (const auto& [text, message] : cases) {
+    directory.write("a.csv", text);
+    const CommandResult refused = data();
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, HasSubstr(std::string("a.csv:1: error: ") + message)) << refused.err;
+  }
+}
+
+TEST_F(RigLayouts, LinesOfTextsBelowTheUnitsArePassedAndCounted) {
+  const std::string head = "CATMAN\nDatum:\t12.03.2021\n\nZeit\tp\tmu\nSekunde\tMPa\t-\n";
+  const auto text = [&](const std::string& between) {
+    std::string out = head + between;
+    for (int i = 0; i < 12; ++i)
+      out += fmt::format("{:.1f}\t{}\t{:.3f}\n", 0.1 * i, 100 + i, 0.1 + 0.001 * (i % 3));
+    return out;
+  };
+  directory.write("a.asc", text("MX840B 0\tMX840B 1\tMX840B 2\n"));
+  const std::string job = guessed("a.asc");
+  EXPECT_THAT(job, AllOf(HasSubstr("\nunits_row = true "), HasSubstr("\ntime_s = \"Zeit\" "),
+                         HasSubstr("\nsigma_n_MPa = \"p\" ")));
+  const CommandResult read = test::run_frictab({"data", "job/job.toml"}, directory.path());
+  EXPECT_EQ(read.exit_code, 0) << read.err;
+  EXPECT_THAT(read.out, AllOf(HasSubstr("read: a line below the units is not a row: texts alone\n"),
+                              HasSubstr("  12  ")));
+  // Units twice, or a cell without text, may mean something else.
+  for (const char* const between : {"s\tMPa\t1\n", "A\t\tB\n"}) {
+    directory.write("a.asc", text(between));
+    EXPECT_EQ(test::run_frictab({"data", "job/job.toml"}, directory.path()).exit_code, 2);
+  }
+}
+
+TEST_F(RigLayouts, InitFindsTheLoadAndTheSpeedAboveTheRows) {
+  for (int test = 1; test <= 3; ++test)
+    directory.write(fmt::format("t{}.txt", test),
+                    fmt::format("Normal load\t{} [N]\nSample\tC45\nSliding speed\t20 [mm/s]\n"
+                                "Sample rate\t10\n\nTime [s]\tmu\n",
+                                5 * test) +
+                        rows(test));
+  const std::string job = guessed("t*.txt");
+  EXPECT_THAT(
+      job, AllOf(HasSubstr("\nF_N_N = \"Normal load\"                        # above the rows: 5 "
+                           "[N]; in N, as the file says\n"),
+                 HasSubstr("\nv_rel_mm_s = \"Sliding speed\" "),
+                 HasSubstr("\n# above the rows, kept where data.above names them: Sample, Sample "
+                           "rate\n"),
+                 HasSubstr("\n# sigma_n_MPa = { column = \"Normal load\", area_mm2 = 78.5 }")));
+}
+
+} // namespace
+} // namespace frictab::rig_layouts_test
