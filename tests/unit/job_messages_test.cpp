@@ -49,7 +49,7 @@ TEST(JobMessages, NameTheNearestKnownKey) {
       "  hint: known: drop, columns, constants, roles, files, wide, segments, join, training, "
       "validation, oracle, holdout, delimiter, decimal, thousands, sheet, tests, tests_sheet, "
       "skip_rows, skip_footer, units_row, header, header_rows, missing_values, missing, rows, "
-      "force_zero, allow_implausible, experiment, recording, condense, bystanders");
+      "force_zero, allow_implausible, experiment, recording, condense, above, bystanders");
 }
 
 TEST(JobMessages, NameTheRuleOfSomeFiles) {
