@@ -2,6 +2,7 @@
 #include "data/checks.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -123,6 +124,17 @@ bool rows_look_like_tests(std::span<const std::vector<double>> settings, std::si
   return 3 * combinations.size() >= rows && 5 * changes >= 4 * (rows - 1);
 }
 
+bool counts_rows_of_a_test(const std::string& name) {
+  std::string words = " ";
+  for (const char c : lower_case(name))
+    words += std::isalnum(static_cast<unsigned char>(c)) ? c : ' ';
+  words += ' ';
+  for (const char* const word :
+       {" cycle ", " zyklus ", " lap ", " laps ", " position ", " increment "})
+    if (words.find(word) != words.npos) return true;
+  return false;
+}
+
 namespace {
 
 // Applies only if the job does not define tests, so that the whole file counts as one.
@@ -132,8 +144,10 @@ void check_rows(Part& part, const DataOptions& options) {
       data.experiments.size() != 1 || data.has("time_s"))
     return;
   std::vector<std::vector<double>> settings;
-  for (const Column& column : data.columns)
+  for (const Column& column : data.columns) {
+    if (counts_rows_of_a_test(column.name)) return;
     if (!is_measured(column.name)) settings.push_back(column.values);
+  }
   if (rows_look_like_tests(settings, data.rows()))
     part.faults.add(part.header(),
                     fmt::format("is each of these {} rows a test? They differ in settings from "

@@ -31,6 +31,10 @@ void check_computed(Part& part, const ReadRequest& options);
 // are not responses, text as levels.
 bool rows_look_like_tests(std::span<const std::vector<double>> settings, std::size_t rows);
 
+// Whether the name is that of what goes on within a recording ("Cycle", "Position [mm]"), which no
+// table of one row per test has.
+bool counts_rows_of_a_test(const std::string& name);
+
 // Reports time that decreases, rows that look like tests if the job does not define tests, and
 // measured tests of one row among others.
 void check_experiments(Part& part, const ReadRequest& options);

@@ -41,7 +41,7 @@ constexpr double sure_linear = 0.95, ask_linear = 0.85; // R squared from row to
 constexpr std::array<Index, 3> least_of_level = {40, 60, 10};
 constexpr Index least_direct = 12, least_rank = 20, least_linear = 200;
 constexpr Index rows_of_test = 250, steps_of_campaign = 60000, rows_to_rank = 20000;
-constexpr Index pieces = 20, rows_for_blocks = 40, to_screen = 2000;
+constexpr Index piece_count = 20, rows_for_blocks = 40, to_screen = 2000;
 constexpr std::size_t most_in_pairs = 40;
 // Limits for a large campaign: uses every other row or fewer, and if that is not enough, some of
 // the tests.
@@ -151,7 +151,7 @@ bool is_known(double value) {
 }
 
 // The tests of all parts in sequence, and the three levels on which a column is examined: row
-// steps, pieces of tests, means of tests.
+// steps, piece_count of tests, means of tests.
 class Cut {
 public:
   explicit Cut(std::span<const Dataset* const> parts) : parts_(parts) {
@@ -282,8 +282,8 @@ private:
     for (const Test& test : tests_) {
       if (test.rows < rows_for_blocks) continue;
       double before = no_value;
-      for (Index b = 0; b < pieces; ++b) {
-        const Index begin = b * test.rows / pieces, end = (b + 1) * test.rows / pieces;
+      for (Index b = 0; b < piece_count; ++b) {
+        const Index begin = b * test.rows / piece_count, end = (b + 1) * test.rows / piece_count;
         const double now = mean(x, test.first + begin, end - begin, 0.5);
         if (b > 0) out.push_back(now - before);
         before = now;

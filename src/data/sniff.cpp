@@ -20,6 +20,7 @@
 #include "data/raw.h"
 #include "data/rig_files.h"
 #include "data/test_table.h"
+#include "data/time_stamps.h"
 #include "data/workbooks.h"
 #include "io/hdf5.h"
 #include "io/number.h"
@@ -77,13 +78,14 @@ const std::vector<Names>& known_names() {
        {}},
       {"sigma_n_MPa",
        false,
-       {"p", "pressure", "sigma n", "σ n", "druck", "cpress", "pressung", "fn mpa", "p mpa"},
+       {"p", "pressure", "sigma n", "sigman", "σ n", "σn", "σ", "druck", "cpress", "pressung",
+        "fn mpa", "p mpa"},
        {"normal stress", "contact pressure", "surface pressure", "normalspannung", "pressung",
         "kontaktdruck", "pression de contact"},
        {}},
       {"tau_R_MPa",
        false,
-       {"tau", "tau r", "τ r", "τ", "cshear", "cshear1", "shear", "friction stress"},
+       {"tau", "tau r", "taur", "τ r", "τr", "τ", "cshear", "cshear1", "shear", "friction stress"},
        {"shear stress", "schubspannung", "cisaillement"},
        {}},
       {"tau_R_MPa",
@@ -216,7 +218,8 @@ int likeness(const Names& names, const GuessedColumn& column) {
   const Quantity* quantity = find_quantity(names.canonical);
   const std::string wanted = names.coefficient || !quantity ? "1" : quantity->unit;
   if (quantity && !column.unit.empty() && !convert(column.unit, wanted)) return 0;
-  if (quantity && column.text) return 0;
+  const bool is_clock = column.clock && std::string(names.canonical) == "time_s";
+  if (quantity && column.text && !is_clock) return 0;
   const std::string name = plain(io::read_header_name(column.name).name);
   if (is_of_room(name)) return 0;
   const auto has_part = [&](const std::vector<std::string>& parts) {
@@ -231,7 +234,8 @@ int likeness(const Names& names, const GuessedColumn& column) {
     found = 2;
   else if (has_part(names.weak))
     found = 1;
-  return is_second_choice(name) ? std::min(found, 1) : found;
+  if (is_second_choice(name)) return std::min(found, 1);
+  return is_clock ? std::min(found, 2) : found; // seconds go before a clock
 }
 
 // Assigns each quantity to the column with the greatest likeness, the first one of equals.
@@ -377,6 +381,13 @@ std::string first_values(const io::CsvColumn& column) {
   return join(shown, ", ");
 }
 
+bool is_clock_column(const io::CsvColumn& column) {
+  constexpr std::size_t enough = 5;
+  for (std::size_t i = 0; i < std::min(column.texts.size(), enough); ++i)
+    if (!looks_like_time(column.texts[i].text)) return false;
+  return column.texts.size() == column.numbers.size();
+}
+
 // The cells of a column as texts, if they all differ.
 std::vector<std::string> names_in(const io::CsvColumn& column) {
   std::vector<std::string> names;
@@ -451,6 +462,7 @@ std::vector<GuessedColumn> columns_of(const io::CsvTable& table) {
     column.unit =
         raw.unit.empty() ? io::read_header_name(raw.name).unit : io::without_brackets(raw.unit);
     column.text = !is_number_column(raw);
+    column.clock = column.text && is_clock_column(raw);
     column.first_values = first_values(raw);
     if (column.text) column.names = names_in(raw);
     columns.push_back(std::move(column));
@@ -492,6 +504,8 @@ std::vector<double> levels_of(const io::CsvColumn& raw) {
 
 bool each_row_is_a_test(const GuessedFile& guess, const io::CsvTable& table) {
   if (guess.find("experiment") || guess.find("time_s")) return false;
+  for (const GuessedColumn& column : guess.columns)
+    if (counts_rows_of_a_test(column.name)) return false;
   std::vector<std::vector<double>> settings;
   for (const GuessedColumn& column : guess.columns)
     for (const io::CsvColumn& raw : table.columns)
@@ -530,9 +544,10 @@ bool GuessedFile::is_read_as(const GuessedFile& other) const {
   };
   return (any_decimal || decimal == other.decimal) &&
          (thousands == 0 || thousands == other.thousands) && units_row == other.units_row &&
-         header == other.header && header_rows == other.header_rows &&
-         intervals == other.intervals && rows == other.rows && side_by_side == other.side_by_side &&
-         skip_rows == other.skip_rows && named(*this) == named(other);
+         skip_footer == other.skip_footer && header == other.header &&
+         header_rows == other.header_rows && intervals == other.intervals && rows == other.rows &&
+         side_by_side == other.side_by_side && skip_rows == other.skip_rows &&
+         named(*this) == named(other);
 }
 
 std::string GuessedFile::label() const {
@@ -642,13 +657,44 @@ double area_in(std::string_view preamble, char decimal) {
   return 0;
 }
 
+// Number of lines at the end that hold fewer than half as many numbers as a row: means, remarks.
+std::size_t footer_of(std::string_view text, const io::CsvTable& table,
+                      const io::CsvFormat& format) {
+  constexpr std::size_t most = 10;
+  const auto numeric = std::count_if(table.columns.begin(), table.columns.end(), is_number_column);
+  std::size_t lines = 0;
+  for (std::size_t end = text.size(); end > 0 && lines <= most;) {
+    const std::size_t begin = text.find_last_of('\n', end - 1);
+    const std::string_view line =
+        begin == text.npos ? text.substr(0, end) : text.substr(begin + 1, end - begin - 1);
+    end = begin == text.npos ? 0 : begin;
+    if (line.find_first_not_of(" \t\r,;|") == line.npos) continue;
+    double ignored = 0;
+    const auto cells = io::cells_of_line(line, format);
+    const auto numbers = std::count_if(cells.begin(), cells.end(), [&](const std::string& cell) {
+      return io::read_number(cell, format.decimal, ignored);
+    });
+    if (2 * numbers >= numeric) return 2 * lines < table.rows() ? lines : 0;
+    ++lines;
+  }
+  return 0;
+}
+
 // Guesses from a text; `cells`: the sheet of a workbook that it is from, or nullptr.
-GuessedFile guess_text(std::string_view text, const std::string& named, const io::Sheet* cells) {
+GuessedFile guess_text(std::string_view whole, const std::string& named, const io::Sheet* cells) {
+  const std::string_view text = head_of(whole);
   GuessedFile guess;
   guess.file = named;
   Dialects dialects(text, named, cells != nullptr);
   io::CsvTable table = std::move(dialects.table);
-  FaultList mixed; // reported when the file is read
+  FaultList mixed;                    // reported when the file is read
+  if (whole.find('\0') == whole.npos) // as UTF-16 has
+    guess.skip_footer = footer_of(whole, table, dialects.best);
+  if (guess.skip_footer > 0 && whole.size() == text.size()) {
+    io::CsvFormat format = dialects.best;
+    format.skip_footer = guess.skip_footer;
+    table = io::parse_csv(text, named, format, mixed);
+  }
   if (cells) take_cell_units(table, *cells, mixed);
   guess.decimal = dialects.best.decimal;
   guess.thousands = dialects.best.thousands;
@@ -675,7 +721,7 @@ std::vector<GuessedFile> guess_workbook(const std::string& path, const std::stri
     ++visible;
     const io::Sheet cells = book.read(one.name);
     try {
-      guesses.push_back(guess_text(head_of(cells.text), named, &cells));
+      guesses.push_back(guess_text(cells.text, named, &cells));
       guesses.back().sheet = one.name;
     } catch (const InputError&) { // a cover, a picture, remarks
       passed.push_back(one.name);
@@ -698,7 +744,7 @@ std::vector<GuessedFile> guess_file(const std::string& path, const std::string& 
   if (io::looks_like_workbook(path)) return guess_workbook(path, named);
   if (!is_rig_file(path) && !io::looks_like_hdf5(path)) {
     const std::string text = io::read_text_file(path, named);
-    return {guess_text(head_of(text), named, nullptr)};
+    return {guess_text(text, named, nullptr)};
   }
   FaultList faults;
   const io::CsvTable table = read_raw(path, named, {}, faults);

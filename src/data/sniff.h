@@ -17,6 +17,7 @@ struct GuessedColumn {
   std::string canonical;     // a quantity, or experiment; else empty
   bool coefficient = false;  // of friction: tau_R_MPa is this times sigma_n_MPa
   bool text = false;
+  bool clock = false;       // texts that are times of day, or dates with them
   bool above = false;       // a condition above the rows (data/above.h)
   bool as_small = false;    // numbers between 0.01 and 1, as coefficients of friction are
   std::string first_values; // "812.3, 813.1, 815"
@@ -33,6 +34,7 @@ struct GuessedFile {
   char decimal = '.';
   char thousands = 0;
   bool any_decimal = false;  // only whole numbers, which either sign reads
+  std::size_t skip_footer = 0;
   std::size_t skip_rows = 0; // 0 also if the names identify the header line
   bool units_row = false;
   bool header = true;          // false: columns are named column_1, column_2, ...

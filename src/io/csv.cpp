@@ -180,14 +180,15 @@ std::size_t count_cells(std::string_view line, char delimiter) {
 
 // Separator of a header: the most frequent candidate, or blanks if there is none. A candidate that
 // gives the line below the same number of cells takes precedence, because names contain commas too
-// ("Load (N, mean)").
+// ("Load (N, mean)"). The decimal sign may separate cells in quotes.
 char find_delimiter(std::string_view header, std::string_view below, char decimal) {
   char best = ' ';
   std::size_t most = 0;
   for (const char candidate : {'\t', ';', ',', '|'}) {
     const std::size_t count = count_cells(header, candidate);
-    if (candidate == decimal || count < 2) continue;
     const bool agrees = count_cells(below, candidate) == count;
+    const bool is_decimal = candidate == decimal && !(agrees && below.starts_with('"'));
+    if (is_decimal || count < 2) continue;
     const std::size_t score = count + (agrees ? header.size() : 0);
     if (score > most) {
       most = score;
@@ -501,6 +502,16 @@ void join_names(std::vector<std::string>& names, const std::vector<std::string>&
       names[i] += " " + below[i];
 }
 
+// Removes the sign before a header that programs write as a comment: "# t(s) mu", "#time,mu".
+void remove_comment_sign(std::vector<std::string>& names, Scanner below) {
+  std::string& first = names.front();
+  if ((first == "#" || first == "%") && !below.at_end() &&
+      read_names(below).size() + 1 == names.size())
+    names.erase(names.begin());
+  else if (first.size() > 1 && (first[0] == '#' || first.starts_with("% ")))
+    first = trim(std::string_view(first).substr(1));
+}
+
 // Columns named by their numbers, for a file whose first line below the preamble is a row.
 void name_by_number(CsvTable& table, std::size_t columns) {
   for (std::size_t i = 1; i <= columns; ++i)
@@ -526,6 +537,7 @@ bool read_header(CsvTable& table, Scanner& scanner, const CsvFormat& format) {
         fmt::format("{} of the {} column names in this line are numbers", numeric, names.size()),
         "the header is another line: data.skip_rows counts the lines before it; of a "
         "file without one, data.header = false takes columns by number");
+  remove_comment_sign(names, scanner);
   for (std::size_t i = 1; i < format.header_rows && !scanner.at_end(); ++i)
     join_names(names, read_names(scanner));
   for (const std::string& name : names)
@@ -600,8 +612,9 @@ std::optional<CsvAbove> condition_in(std::string_view line) {
 }
 
 std::vector<CsvAbove> conditions_in(std::string_view preamble) {
+  constexpr std::size_t most = 200;
   std::vector<CsvAbove> out;
-  for (Scanner lines(preamble, '\n'); !lines.at_end();)
+  for (Scanner lines(preamble, '\n'); !lines.at_end() && out.size() < most;)
     if (auto one = condition_in(lines.take_line());
         one && std::none_of(out.begin(), out.end(),
                             [&](const CsvAbove& other) { return other.name == one->name; }))

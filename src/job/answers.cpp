@@ -105,9 +105,12 @@ private:
     return fmt::format("'{}' is none of them: {}", printable(answer), suggest(answer, names));
   }
 
+  // Files that are read alike may have further columns, in another order.
   template <class Change> void change(std::size_t column, const Change& change) {
+    const GuessedColumn meant = columns()[column];
     for (const std::size_t f : alike_)
-      change(campaign_.files[f].columns[column]);
+      for (GuessedColumn& one : campaign_.files[f].columns)
+        if (one.name == meant.name && one.number == meant.number) change(one);
   }
   void name(std::size_t column, const std::string& canonical, bool coefficient = false) {
     change(column, [&](GuessedColumn& one) {

@@ -51,6 +51,8 @@ std::string dialect_lines(const GuessedFile& file) {
   if (file.skip_rows > 0)
     out += line(fmt::format("skip_rows = {}", file.skip_rows),
                 file.header ? "lines before the one of the names" : "lines before the first row");
+  if (file.skip_footer > 0)
+    out += line(fmt::format("skip_footer = {}", file.skip_footer), "lines below the last row");
   if (!file.header) out += line("header = false", "no line of names: columns are taken by number");
   if (file.header_rows > 1)
     out += line(fmt::format("header_rows = {}", file.header_rows),
@@ -88,7 +90,8 @@ std::string column_line(const GuessedColumn& column, const GuessedFile& file) {
   std::string comment =
       (column.above ? "above the rows: " : "first values: ") + shown(column.first_values);
   if (quantity && !column.coefficient)
-    comment += !column.answered_unit.empty() ? fmt::format("; in {}, as answered", other_unit)
+    comment += column.clock                    ? "; seconds since the first"
+               : !column.answered_unit.empty() ? fmt::format("; in {}, as answered", other_unit)
                : !other_unit.empty() ? fmt::format("; in {}, by the end of its name", other_unit)
                : column.unit.empty()
                    ? fmt::format("; no unit is given: {} is assumed", quantity->unit)
@@ -340,6 +343,7 @@ private:
     std::string out;
     if (file.decimal == '.' && most_.decimal != '.') out += "decimal = \".\"\n";
     if (file.skip_rows == 0 && most_.skip_rows > 0) out += "skip_rows = 0\n";
+    if (file.skip_footer == 0 && most_.skip_footer > 0) out += "skip_footer = 0\n";
     if (!file.units_row && most_.units_row) out += "units_row = false\n";
     if (!file.intervals && !file.rows && !file.side_by_side &&
         (most_.intervals || most_.rows || most_.side_by_side))

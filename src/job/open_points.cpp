@@ -33,8 +33,8 @@ std::string unit_of_torque(const GuessedColumn& column) {
 
 bool has_unit_to_name(const GuessedColumn& column) {
   const data::Quantity* quantity = data::find_quantity(column.canonical);
-  return quantity && quantity->unit != "1" && !column.coefficient && column.unit.empty() &&
-         column.name != column.canonical;
+  return quantity && quantity->unit != "1" && !column.coefficient && !column.text &&
+         column.unit.empty() && column.name != column.canonical;
 }
 
 } // namespace

@@ -107,6 +107,16 @@ TEST_F(InteractiveInit, TakesAForceWithoutANameOverAnArea) {
   expect_reads("2", "coulomb");
 }
 
+TEST_F(InteractiveInit, FindsAColumnByItsNameInFilesWithOtherColumnsBesideIt) {
+  write_tests(2, "Zeit [s];F_N [N];Kanal 3;T1\n", 1, false);
+  directory.write("t1.csv", "Kanal 3;Zeit [s];F_N [N]\n0.1;0;100\n0.11;1;101\n0.1;2;103\n");
+  EXPECT_EQ(init("Kanal 3\n3\n/20\n480\n").exit_code, 0);
+  const std::string job = directory.read("job/job.toml");
+  EXPECT_THAT(job, HasSubstr("\ntau_R_MPa = { column = \"Kanal 3\", times = "));
+  EXPECT_EQ(job.find("Kanal 3", job.find("Kanal 3") + 1), job.npos) << job; // no rule of its own
+  expect_reads("2", "coulomb");
+}
+
 TEST_F(InteractiveInit, AsksAgainForWhatCannotBeMeant) {
   write_tests(2, "Zeit [s];F_N;Kanal 3;T1\n", 1, false);
   const CommandResult asked =

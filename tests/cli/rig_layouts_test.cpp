@@ -172,6 +172,64 @@ TEST_F(RigLayouts, LinesOfTextsBelowTheUnitsArePassedAndCounted) {
   }
 }
 
+// What init proposes for one file is read as it is.
+TEST_F(RigLayouts, InitReadsHeadersBehindACommentSignCommasInQuotesFootersAndClocks) {
+  const auto text = [](const std::string& header, const char* row, const std::string& footer) {
+    std::string out = header;
+    for (int i = 0; i < 20; ++i)
+      out += fmt::format(fmt::runtime(row), fmt::arg("t", 0.5 * i), fmt::arg("s", i % 60),
+                         fmt::arg("p", 100 + i), fmt::arg("mu", 0.1 + 0.001 * (i % 4)),
+                         fmt::arg("tau", (100 + i) * (0.1 + 0.001 * (i % 4))));
+    return out + footer;
+  };
+  const struct {
+    const char* file;
+    std::string text;
+    std::vector<const char*> lines;
+  } cases[] = {
+      {"savetxt.dat",
+       text("# shear test\n#  t(s)  sigma_n(MPa)  tau(MPa)\n", "{t:8.2f} {p:9.1f} {tau:9.4f}\n",
+            ""),
+       {"time_s = \"t\"", "sigma_n_MPa = \"sigma_n\"", "tau_R_MPa = \"tau\""}},
+      {"sign.csv",
+       text("#time [s],pressure [MPa],mu\n", "{t:.2f},{p},{mu:.4f}\n", ""),
+       {"time_s = \"time\"", "sigma_n_MPa = \"pressure\""}},
+      {"quotes.csv",
+       text("\"Zeit [s]\",\"Druck [MPa]\",\"Reibwert\"\n", "\"{s},50\",\"{p},25\",\"0,1{s:02}\"\n",
+            ""),
+       {"decimal = \",\"", "time_s = \"Zeit\"", "sigma_n_MPa = \"Druck\""}},
+      {"footer.csv",
+       text("time [s];p [MPa];mu\n", "{t:.2f};{p};{mu:.4f}\n",
+            "\nMean;;0.1015\nStd;;0.001\n;;\nEnd of test\n"),
+       {"skip_footer = 3", "sigma_n_MPa = \"p\""}},
+      {"clock.csv",
+       text("Time;p [MPa];mu\n", "10:00:{s:02}.250;{p};{mu:.4f}\n", ""),
+       {"time_s = \"Time\"                              # first values: 10:00:00.250, "
+        "10:00:01.250, 10:00:02.250; seconds since the first\n"}},
+      {"greek.csv",
+       text("t/s;σN/MPa;τR/MPa\n", "{t:.2f};{p};{tau:.4f}\n", ""),
+       {"sigma_n_MPa = \"σN\"", "tau_R_MPa = \"τR\""}},
+  };
+  for (const auto& one : cases) {
+    directory.write(one.file, one.text);
+    const std::string job = guessed(one.file);
+    for (const char* const line : one.lines)
+      EXPECT_THAT(job, HasSubstr(std::string("\n") + line)) << one.file;
+    const CommandResult read = test::run_frictab({"data", "job/job.toml"}, directory.path());
+    EXPECT_EQ(read.exit_code, 0) << one.file << read.err;
+    EXPECT_THAT(read.out, HasSubstr("  train    20 ")) << one.file;
+  }
+}
+
+TEST_F(RigLayouts, CyclesAndPositionsAreNotTakenForTests) {
+  std::string text = "Cycle\tPosition (mm)\tFriction Force (N)\tNormal Load (N)\n";
+  for (int i = 0; i < 200; ++i)
+    text += fmt::format("{}\t{:.3f}\t{:.1f}\t30\n", 1 + i / 20, 2 * std::sin(0.314159 * i),
+                        i % 20 < 10 ? 3.0 : -3.0);
+  directory.write("cycles.txt", text);
+  EXPECT_THAT(guessed("cycles.txt"), testing::Not(HasSubstr("experiment = \"row\"")));
+}
+
 TEST_F(RigLayouts, InitFindsTheLoadAndTheSpeedAboveTheRows) {
   for (int test = 1; test <= 3; ++test)
     directory.write(fmt::format("t{}.txt", test),
