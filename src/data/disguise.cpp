@@ -151,7 +151,7 @@ bool is_known(double value) {
 }
 
 // The tests of all parts in sequence, and the three levels on which a column is examined: row
-// steps, piece_count of tests, means of tests.
+// steps, pieces of tests, means of tests.
 class Cut {
 public:
   explicit Cut(std::span<const Dataset* const> parts) : parts_(parts) {
