@@ -109,7 +109,8 @@ TEST_F(InteractiveInit, TakesAForceWithoutANameOverAnArea) {
 
 TEST_F(InteractiveInit, FindsAColumnByItsNameInFilesWithOtherColumnsBesideIt) {
   write_tests(2, "Zeit [s];F_N [N];Kanal 3;T1\n", 1, false);
-  directory.write("t1.csv", "Kanal 3;Zeit [s];F_N [N]\n0.1;0;100\n0.11;1;101\n0.1;2;103\n");
+  directory.write("t1.csv",
+                  "T1;Kanal 3;Zeit [s];F_N [N]\n5;0.1;0;100\n5;0.11;1;101\n5;0.1;2;103\n");
   EXPECT_EQ(init("Kanal 3\n3\n/20\n480\n").exit_code, 0);
   const std::string job = directory.read("job/job.toml");
   EXPECT_THAT(job, HasSubstr("\ntau_R_MPa = { column = \"Kanal 3\", times = "));

@@ -178,7 +178,7 @@ TEST_F(RigLayouts, InitReadsHeadersBehindACommentSignCommasInQuotesFootersAndClo
     std::string out = header;
     for (int i = 0; i < 20; ++i)
       out += fmt::format(fmt::runtime(row), fmt::arg("t", 0.5 * i), fmt::arg("s", i % 60),
-                         fmt::arg("p", 100 + i), fmt::arg("mu", 0.1 + 0.001 * (i % 4)),
+                         fmt::arg("p", 100.0 + i), fmt::arg("mu", 0.1 + 0.001 * (i % 4)),
                          fmt::arg("tau", (100 + i) * (0.1 + 0.001 * (i % 4))));
     return out + footer;
   };
