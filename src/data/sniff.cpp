@@ -657,25 +657,28 @@ double area_in(std::string_view preamble, char decimal) {
   return 0;
 }
 
-// Number of lines at the end that hold fewer than half as many numbers as a row: means, remarks.
+// Number of lines below the last row, where one of them holds fewer than half as many numbers as a
+// row: means, remarks.
 std::size_t footer_of(std::string_view text, const io::CsvTable& table,
                       const io::CsvFormat& format) {
   constexpr std::size_t most = 10;
   const auto numeric = std::count_if(table.columns.begin(), table.columns.end(), is_number_column);
   std::size_t lines = 0;
-  for (std::size_t end = text.size(); end > 0 && lines <= most;) {
-    const std::size_t begin = text.find_last_of('\n', end - 1);
-    const std::string_view line =
-        begin == text.npos ? text.substr(0, end) : text.substr(begin + 1, end - begin - 1);
-    end = begin == text.npos ? 0 : begin;
-    if (line.find_first_not_of(" \t\r,;|") == line.npos) continue;
+  bool has_text = false;
+  std::size_t end = text.find_last_not_of(" \t\r\n") + 1;
+  while (end > 0 && lines <= most) {
+    const std::size_t begin = text.find_last_of('\n', end - 1) + 1; // 0: the first line
+    const std::string_view line = text.substr(begin, end - begin);
     double ignored = 0;
     const auto cells = io::cells_of_line(line, format);
     const auto numbers = std::count_if(cells.begin(), cells.end(), [&](const std::string& cell) {
       return io::read_number(cell, format.decimal, ignored);
     });
-    if (2 * numbers >= numeric) return 2 * lines < table.rows() ? lines : 0;
+    if (numbers > 0 && 2 * numbers >= numeric)
+      return has_text && 2 * lines < table.rows() ? lines : 0;
+    has_text = has_text || line.find_first_not_of(" \t\r,;|") != line.npos;
     ++lines;
+    end = begin == 0 ? 0 : begin - 1;
   }
   return 0;
 }
