@@ -33,7 +33,7 @@ struct GuessedFile {
   char delimiter = 0;              // 0: frictab detects it
   char decimal = '.';
   char thousands = 0;
-  bool any_decimal = false;  // only whole numbers, which either sign reads
+  bool any_decimal = false; // only whole numbers, which either sign reads
   std::size_t skip_footer = 0;
   std::size_t skip_rows = 0; // 0 also if the names identify the header line
   bool units_row = false;

@@ -201,7 +201,7 @@ TEST_F(RigLayouts, InitReadsHeadersBehindACommentSignCommasInQuotesFootersAndClo
       {"footer.csv",
        text("time [s];p [MPa];mu\n", "{t:.2f};{p};{mu:.4f}\n",
             "\nMean;;0.1015\nStd;;0.001\n;;\nEnd of test\n"),
-       {"skip_footer = 4", "sigma_n_MPa = \"p\""}},
+       {"skip_footer = 5", "sigma_n_MPa = \"p\""}},
       {"clock.csv",
        text("Time;p [MPa];mu\n", "10:00:{s:02}.250;{p};{mu:.4f}\n", ""),
        {"time_s = \"Time\"                              # first values: 10:00:00.250, "
