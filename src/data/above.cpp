@@ -33,7 +33,8 @@ std::set<std::string> names_of_job(const io::CsvTable& raw, const Reading& optio
                      [&](const std::string& name) { return has_column(raw, name); }))
       names.insert(source.names.begin(), source.names.end());
   for (const Quantity& quantity : options.quantities)
-    if (!options.columns.count(quantity.name) && !options.constants.count(quantity.name))
+    if ((quantity.state || quantity.name == "F_N_N") && !options.columns.count(quantity.name) &&
+        !options.constants.count(quantity.name))
       names.insert(quantity.name);
   return names;
 }

@@ -16,8 +16,8 @@ struct ValueAbove {
 };
 ValueAbove read_value_above(const std::string& text, char decimal);
 
-// Adds those that the job maps, uses in formulas or lists in data.above, and quantities by their
-// canonical names, as columns with the same value in every row; columns of the file come first.
+// Adds those that the job maps, uses in formulas or lists in data.above, and states and F_N_N by
+// their canonical names, as columns with one value in every row; columns of the file come first.
 // Adds a fault for each name in data.above that the file does not have.
 void add_values_above(io::CsvTable& raw, const Reading& options, FaultList& faults);
 
