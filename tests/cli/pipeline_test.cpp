@@ -523,9 +523,9 @@ struct MeasuredExample {
 void PrintTo(const MeasuredExample& example, std::ostream* out) {
   *out << example.job;
 }
-class SlowMeasured : public testing::TestWithParam<MeasuredExample> {};
+class LongMeasured : public testing::TestWithParam<MeasuredExample> {};
 
-TEST_P(SlowMeasured, ExampleRunsEndToEnd) {
+TEST_P(LongMeasured, ExampleRunsEndToEnd) {
   const auto [example, folder, laws] = GetParam();
   const fs::path measured = measured_files(folder);
   if (!fs::is_directory(measured))
@@ -555,7 +555,7 @@ TEST_P(SlowMeasured, ExampleRunsEndToEnd) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Examples, SlowMeasured,
+    Examples, LongMeasured,
     testing::Values(MeasuredExample{"02_rock_velocity_steps", "rock_velocity_steps", 7},
                     MeasuredExample{"03_ptfe_pin_on_disc", "pps_ptfe_pin_on_disc", 9}));
 
