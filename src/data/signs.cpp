@@ -169,7 +169,7 @@ public:
       : part_(part), options_(options), direction_(part.row.size(), 1.0) {
     for (const char* name : {"v_rel_mm_s", "tau_R_MPa", "F_R_N"})
       if (const Column* with_sign = part.find(signed_name(name)))
-        part.find(name)->values = with_sign->values;
+        if (Column* own = part.find(name)) own->values = with_sign->values; // a file may lack it
     forget_signed(part);
     const Column* const force = part.find("F_N_N");
     const bool by_force = force && std::any_of(force->values.begin(), force->values.end(),
