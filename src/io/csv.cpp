@@ -482,9 +482,10 @@ std::vector<std::string> notes_of(const CsvPassedOver& lines) {
     notes.push_back(
         fmt::format("{} lines hold delimiters alone: they are not rows", lines.delimiters_alone));
   if (lines.below_units > 0)
-    notes.push_back(fmt::format("{} below the units {} not a row: texts alone",
-                                lines.below_units == 1 ? "a line" : "lines",
-                                lines.below_units == 1 ? "is" : "are"));
+    notes.push_back(
+        lines.below_units == 1
+            ? "a line below the units is not a row: texts alone"
+            : fmt::format("{} lines below the units are not rows: texts alone", lines.below_units));
   if (lines.segments > 0)
     notes.push_back(fmt::format("{} segments of rows; {} lines outside them are not read",
                                 lines.segments, lines.outside_segments));
@@ -908,6 +909,7 @@ CsvPieces::CsvPieces(std::unique_ptr<std::istream> in, const std::string& named,
   d.delimiter = head.delimiter;
   d.line = head.end_line;
   d.rest.erase(0, head.end);
+  d.passed_over.below_units = d.header.passed_over.below_units;
 }
 
 CsvPieces::~CsvPieces() = default;

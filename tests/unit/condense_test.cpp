@@ -192,6 +192,19 @@ TEST(CsvPieces, AreTheFile) {
   }
 }
 
+TEST(CsvPieces, CountTextsBelowTheUnitsAsTheFileDoes) {
+  const std::string text = "t,F_N\ns,N\nchannel a,channel b\nMX840,MX840\n0,1\n1,2\n2,3\n";
+  io::CsvFormat format;
+  format.units_row = true;
+  FaultList faults;
+  const io::CsvTable whole = io::parse_csv(text, "a.csv", format, faults);
+  ASSERT_EQ(whole.rows(), 3u);
+  EXPECT_THAT(whole.notes,
+              testing::ElementsAre("2 lines below the units are not rows: texts alone"));
+  for (std::size_t bytes = 1; bytes < text.size(); bytes += 3)
+    EXPECT_EQ(whole.notes, in_pieces(text, format, bytes).notes) << bytes;
+}
+
 TEST(CsvPieces, FaultsStandInTheLinesOfTheFile) {
   std::string text = "a,b\n";
   for (int i = 0; i < 100; ++i)
