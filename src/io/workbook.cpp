@@ -24,6 +24,7 @@ namespace frictab::io {
 namespace {
 
 constexpr std::uint32_t last_row = 1048576, last_column = 16384; // of Excel
+constexpr std::size_t most_bytes = std::size_t{1} << 30;         // of a sheet as text
 
 // The name without the prefix of its namespace, which writers may choose.
 std::string_view local_name(const char* name) {
@@ -178,13 +179,20 @@ struct Workbook::Data {
   }
 
   void read_sheets(const std::string& part, const std::map<std::string, Relation>& known) {
+    std::map<std::string, std::string> sheet_of_part;
     const bool there = with_part(part, [&](const pugi::xml_node& root) {
       since_1904 = is_on(attribute(child(root, "workbookPr"), "date1904"));
       for_each_child(child(root, "sheets"), "sheet", [&](const pugi::xml_node& one) {
         const auto found = known.find(attribute(one, "id"));
-        if (found != known.end() && found->second.type == "worksheet")
-          sheets.push_back({attribute(one, "name"), found->second.target,
-                            attribute(one, "state").find("idden") != std::string::npos});
+        if (found == known.end() || found->second.type != "worksheet") return;
+        const Entry sheet{attribute(one, "name"), found->second.target,
+                          attribute(one, "state").find("idden") != std::string::npos};
+        const auto [first, is_new] = sheet_of_part.emplace(sheet.part, sheet.name);
+        if (!is_new)
+          refuse(
+              fmt::format("its sheets '{}' and '{}' are one file in it", first->second, sheet.name),
+              "open the workbook in a spreadsheet program and save it again");
+        sheets.push_back(sheet);
       });
     });
     if (!there)
@@ -257,8 +265,15 @@ struct Workbook::Data {
     return number_cell(place, stored, kind_of(cell));
   }
 
+  // Cells may share one long text, so that what they take is known only here.
+  void check_size(std::size_t bytes) const {
+    if (bytes > most_bytes)
+      refuse("a sheet of it is larger than 1 GiB as text", "save the sheet as CSV");
+  }
+
   // All cells with content, by row and column.
   std::vector<Cell> cells_of(const pugi::xml_node& root, Sheet& sheet) const {
+    std::size_t bytes = 0;
     std::vector<Cell> cells;
     CellPlace next{0, 0};
     for_each_child(child(root, "sheetData"), "row", [&](const pugi::xml_node& row) {
@@ -273,6 +288,7 @@ struct Workbook::Data {
                  "open the workbook in a spreadsheet program and save it again");
         Cell cell = cell_of(one, *place);
         if (cell.text.empty()) sheet.uncalculated += !child(one, "f").empty();
+        check_size(bytes += cell.text.size());
         if (!cell.text.empty()) cells.push_back(std::move(cell));
         next.column = place->column + 1;
       });
@@ -286,6 +302,7 @@ struct Workbook::Data {
   // Gives every cell of a merged area its value, which the file holds in the first one.
   void fill_merged(const pugi::xml_node& root, std::vector<Cell>& cells, Sheet& sheet) const {
     constexpr std::size_t most = 1'000'000;
+    std::size_t bytes = 0;
     const auto before = [](const Cell& cell, const CellPlace& place) { return cell.place < place; };
     std::vector<Cell> more;
     for_each_child(child(root, "mergeCells"), "mergeCell", [&](const pugi::xml_node& one) {
@@ -297,6 +314,7 @@ struct Workbook::Data {
       for (std::uint32_t row = area->first.row; row <= end; ++row)
         for (std::uint32_t column = area->first.column; column <= area->last.column; ++column)
           if (row != area->first.row || column != area->first.column) {
+            check_size(bytes += first->text.size());
             more.push_back({{column, row}, first->kind, first->text});
             if (more.size() > most)
               refuse("more than a million cells of a sheet are merged", "save the sheet as CSV");
@@ -318,7 +336,6 @@ struct Workbook::Data {
 
   // A line per row, so that lines in messages are rows; line breaks in cells become blanks.
   void write(std::vector<Cell>&& cells, Sheet& sheet) const {
-    constexpr std::size_t most_bytes = std::size_t{1} << 30;
     CellPlace at{0, 0};
     for (Cell& cell : cells) {
       const auto [column, row] = cell.place;
@@ -332,19 +349,23 @@ struct Workbook::Data {
       for (char& c : cell.text)
         if (c == '\n' || c == '\r') c = ' ';
       sheet.text += plain ? cell.text : csv_cell(cell.text);
-      if (sheet.text.size() > most_bytes)
-        refuse("a sheet of it is larger than 1 GiB as text", "save the sheet as CSV");
+      check_size(sheet.text.size());
       if (sheet.kinds.size() <= column) sheet.kinds.resize(column + 1);
-      std::vector<CellKind>& kinds = sheet.kinds[column];
-      kinds.resize(row, CellKind::empty);
-      kinds.push_back(cell.kind);
+      std::vector<Sheet::KindRun>& runs = sheet.kinds[column];
+      if (!runs.empty() && runs.back().end == row && runs.back().kind == cell.kind)
+        ++runs.back().end;
+      else
+        runs.push_back({row, row + std::size_t{1}, cell.kind});
     }
     if (!sheet.text.empty()) sheet.text += '\n';
   }
 };
 
 CellKind Sheet::kind(std::size_t column, std::size_t row) const {
-  return column < kinds.size() && row < kinds[column].size() ? kinds[column][row] : CellKind::empty;
+  if (column >= kinds.size()) return CellKind::empty;
+  const auto run = std::upper_bound(kinds[column].begin(), kinds[column].end(), row,
+                                    [](std::size_t r, const KindRun& one) { return r < one.end; });
+  return run != kinds[column].end() && row >= run->first ? run->kind : CellKind::empty;
 }
 
 namespace {

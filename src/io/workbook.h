@@ -20,9 +20,14 @@ struct Sheet {
   // CSV with commas and decimal points; its lines are the sheet's rows, its cells start at column
   // A.
   std::string text;
-  std::vector<std::vector<CellKind>> kinds; // [column][row], both from 0; short of empty cells
-  std::size_t merged_cells = 0;             // cells that got the value of their merged area
-  std::size_t uncalculated = 0;             // formulas without a stored value: empty cells
+  // Rows first .. end-1 of a column, all of one kind.
+  struct KindRun {
+    std::size_t first, end;
+    CellKind kind;
+  };
+  std::vector<std::vector<KindRun>> kinds; // by column, ascending; cells in no run are empty
+  std::size_t merged_cells = 0;            // cells that got the value of their merged area
+  std::size_t uncalculated = 0;            // formulas without a stored value: empty cells
 
   CellKind kind(std::size_t column, std::size_t row) const;
 };

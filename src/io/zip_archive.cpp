@@ -31,6 +31,22 @@ struct ZipArchive::Data {
                          "CSV, or cut it into several",
                          limits.bytes >> 20, limits.ratio));
   }
+
+  // Limits the time that reading takes: files in it may lie in the same place of the archive.
+  void check_all() const {
+    std::uint64_t bytes = 0;
+    const zip_int64_t count = zip_get_num_entries(archive, 0);
+    for (zip_int64_t i = 0; i < count; ++i) {
+      zip_stat_t entry;
+      zip_stat_init(&entry);
+      const bool known = zip_stat_index(archive, static_cast<zip_uint64_t>(i), 0, &entry) == 0 &&
+                         (entry.valid & ZIP_STAT_SIZE) != 0;
+      bytes += known ? std::min(entry.size, limits.all_bytes) : 0;
+      if (bytes > limits.all_bytes)
+        refuse(fmt::format("its files would unfold to more than {} GiB", limits.all_bytes >> 30),
+               "save its sheets as CSV");
+    }
+  }
 };
 
 ZipArchive::ZipArchive(const std::filesystem::path& path, const std::string& named,
@@ -41,7 +57,10 @@ ZipArchive::ZipArchive(const std::filesystem::path& path, const std::string& nam
   const InputFile checked(path, named, limits.file_bytes); // a pipe would be waited for
   int code = 0;
   data_->archive = zip_open(path.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, &code);
-  if (data_->archive) return;
+  if (data_->archive) {
+    data_->check_all();
+    return;
+  }
   zip_error_t error;
   zip_error_init_with_code(&error, code);
   const std::string reason = zip_error_strerror(&error);

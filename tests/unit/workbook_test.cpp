@@ -6,6 +6,7 @@
 #include "core/random.h"
 #include "io/number_format.h"
 #include "io/workbook.h"
+#include "io/zip_archive.h"
 #include "support/run_command.h"
 #include "support/workbook.h"
 
@@ -167,6 +168,49 @@ TEST_F(Workbook, RefusesMergedAreasThatWouldFillMemory) {
       {{"A", test::xml_row(1, {number_cell("1")}) + test::xml_row(1048576, {number_cell("2")}),
         "<mergeCells><mergeCell ref=\"A1:XFD1048576\"/></mergeCells>"}}};
   EXPECT_THAT(fault([&] { sheet(book); }), HasSubstr("more than a million cells"));
+}
+
+TEST_F(Workbook, NeedsNoMemoryForEmptyCellsAboveTheLastRow) {
+  std::vector<XmlCell> names, numbers;
+  for (int i = 0; i < 16384; ++i) {
+    names.push_back(text_cell(fmt::format("n{}", i)));
+    numbers.push_back(number_cell("1"));
+  }
+  const io::Sheet last =
+      sheet({{{"A", test::xml_row(1048575, names) + test::xml_row(1048576, numbers)}}});
+  std::size_t runs = 0;
+  for (const auto& column : last.kinds)
+    runs += column.size();
+  EXPECT_EQ(runs, 2 * 16384u);
+  EXPECT_EQ(last.kind(16383, 1048575), CellKind::number);
+  EXPECT_EQ(last.kind(16383, 1048574), CellKind::text);
+  EXPECT_EQ(last.kind(16383, 1048573), CellKind::empty);
+  EXPECT_EQ(last.kind(16384, 1048575), CellKind::empty);
+}
+
+TEST_F(Workbook, RefusesALongTextThatManyCellsShare) {
+  XmlWorkbook book{{{"A", ""}}};
+  book.strings = {"<t>" + std::string(std::size_t{4} << 20, 'a') + "</t>"};
+  for (std::size_t row = 1; row <= 300; ++row)
+    book.sheets[0].rows += test::xml_row(row, {{"t=\"s\"", "<v>0</v>"}});
+  EXPECT_THAT(fault([&] { sheet(book); }), HasSubstr("larger than 1 GiB as text"));
+}
+
+TEST_F(Workbook, RefusesSheetsThatAreOneFile) {
+  auto parts = test::workbook_parts({{{"A", ""}, {"B", ""}}});
+  parts["xl/_rels/workbook.xml.rels"] =
+      replace_all(parts["xl/_rels/workbook.xml.rels"], "sheet2.xml", "sheet1.xml");
+  EXPECT_THAT(fault_of_parts(parts), HasSubstr("its sheets 'A' and 'B' are one file in it"));
+}
+
+TEST_F(Workbook, RefusesAnArchiveWhoseFilesAreTooLargeTogether) {
+  test::write_archive(path_, {{"a", std::string(1000, 'a')}, {"b", std::string(1000, 'b')}});
+  io::ZipLimits limits;
+  limits.all_bytes = 2000;
+  EXPECT_EQ(fault([&] { io::ZipArchive(path_, "a.xlsx", limits); }), "no fault");
+  limits.all_bytes = 1999;
+  EXPECT_THAT(fault([&] { io::ZipArchive(path_, "a.xlsx", limits); }),
+              HasSubstr("its files would unfold to more than"));
 }
 
 // Every truncation, and flipped bytes all over the archive.
