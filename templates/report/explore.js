@@ -121,10 +121,15 @@ function make_controls() {
   fill(get("law"), data.laws.map((law, i) => [i, law.name]), view.law);
   fill(get("test"), [[-1, "none"], ...data.tests.map((test, i) => [i, test.name])], view.test);
   for (const id of ["quantity", "along", "across"])
-    get(id).onchange = () => { view[id] = get(id).value; show(true); };
+    get(id).onchange = () => {
+      view[id] = get(id).value;
+      get("from").value = get("to").value = ""; // of the axis before
+      show(true);
+    };
   for (const id of ["law", "test"])
     get(id).onchange = () => { view[id] = Number(get(id).value); show(true); };
-  get("clear").onclick = () => { view.marked.clear(); show(true); };
+  for (const id of ["from", "to"]) get(id).onchange = mark_range;
+  get("clear").onclick = () => { get("from").value = get("to").value = ""; mark_range(); };
   data.laws.forEach((law, i) => {
     const box = element("input", {type: "checkbox", checked: view.shown.has(i)});
     box.onchange = () => { view.shown[box.checked ? "add" : "delete"](i); show(true); };
@@ -321,15 +326,23 @@ function mean_residual(test) {
   return mean(test.tau.map((tau, i) => tau - tau_of(view.law, row_of(test, i))));
 }
 
-let test_points = [];
+let test_points = []; // the tests as drawn
+
+// Marks the tests whose mean along the axis lies in the range that the two fields give.
+function mark_range() {
+  const [from, to] = ["from", "to"].map((id) => get(id).value), given = from !== "" || to !== "";
+  const inside = ({x}) => given && (from === "" || x >= Number(from)) && (to === "" || x <= Number(to));
+  view.marked = new Set(test_points.filter(inside).map((point) => point.t));
+  show(true);
+}
 
 function make_tests() {
   if (tests_plot) tests_plot.destroy();
   const state = stateNamed[view.along], host = get("tests");
   test_points = data.tests.map((test, t) => ({t, x: state && state.name in test.states
-    ? mean(test.states[state.name]) : t, y: mean_residual(test)}));
-  const drawn = test_points.filter((point) => Number.isFinite(point.y)).sort((a, b) => a.x - b.x);
-  const column = (keep) => drawn.map((point) => (keep(point.t) ? point.y : null));
+    ? mean(test.states[state.name]) : t, y: mean_residual(test)}))
+    .filter((point) => Number.isFinite(point.y)).sort((a, b) => a.x - b.x);
+  const column = (keep) => test_points.map((point) => (keep(point.t) ? point.y : null));
   const series = (label, stroke, fill, keep) => ({keep, label, stroke, paths: () => null,
     points: {show: true, size: 8, stroke, fill}});
   const all = [
@@ -338,21 +351,21 @@ function make_tests() {
     series("marked", css("--mark"), css("--mark"), emphasised)];
   tests_plot = new uPlot({
     ...size_of(host, 260),
-    scales: {x: scale_of(state, Math.min(...drawn.map((point) => point.x)),
-      Math.max(...drawn.map((point) => point.x)))},
+    scales: {x: scale_of(state, Math.min(...test_points.map((point) => point.x)),
+      Math.max(...test_points.map((point) => point.x)))},
     axes: [state_axis(state, ", mean of the test"), axis("residual / MPa")],
     cursor: {drag: {x: true, y: false, setScale: false}, points: {show: false}},
     series: [{}, ...all],
     hooks: {setSelect: [(u) => {
       if (u.select.width < 3) return;
-      const low = u.posToVal(u.select.left, "x"), high = u.posToVal(u.select.left + u.select.width, "x");
-      view.marked = new Set(drawn.filter((point) => point.x >= low && point.x <= high)
-        .map((point) => point.t));
-      setTimeout(() => show(true));
+      get("from").value = digits(u.posToVal(u.select.left, "x"));
+      get("to").value = digits(u.posToVal(u.select.left + u.select.width, "x"));
+      setTimeout(mark_range);
     }]},
-  }, [drawn.map((point) => point.x), ...all.map((one) => column(one.keep))], host);
+  }, [test_points.map((point) => point.x), ...all.map((one) => column(one.keep))], host);
   tests_plot.over.onclick = (event) =>
-    choose_nearest(event, tests_plot, (_, t) => [[test_points[t].x, test_points[t].y]]);
+    choose_nearest(event, tests_plot, (_, t) =>
+      test_points.filter((point) => point.t === t).map((point) => [point.x, point.y]));
   get("marked").textContent = view.marked.size ? `${view.marked.size} of ${data.tests.length} marked` : "";
 }
 

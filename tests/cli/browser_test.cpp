@@ -184,6 +184,17 @@ TEST_F(SlowPagesInBrowser, ExploreShowsTheValuesOfTheProgram) {
   EXPECT_GE(compared, 2U);
 }
 
+TEST_F(SlowPagesInBrowser, ExploreMarksTheTestsOfARangeWithoutAPointer) {
+  ASSERT_NO_FATAL_FAILURE(make_pages());
+  const std::string script =
+      "<script>get('from').value = 1000; get('from').onchange();"
+      "const wrong = test_points.filter(({t, x}) => view.marked.has(t) !== (x >= 1000)).length;"
+      "const some = view.marked.size; get('clear').onclick();"
+      "document.title = [wrong, some > 0 && some < data.tests.length, view.marked.size,"
+      "location.hash.includes('marked')].join(' ');</script>";
+  EXPECT_EQ(said(pages[3], script, {"--window-size=1400,900"}), "0 true 0 false");
+}
+
 TEST_F(SlowPagesInBrowser, PrintEverySectionAndNoEmptyPage) {
   if (run_command({"sh", "-c", "command -v pdftotext"}).exit_code != 0)
     GTEST_SKIP() << "pdftotext is not installed";
