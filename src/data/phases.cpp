@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "data/middle.h"
 
@@ -23,6 +24,7 @@ constexpr double longest_turn = 0.2, half_turned = 0.5, turned = 0.9;
 // Step of a reading, and its scatter from row to row, relative to the typical speed.
 constexpr double coarse_step = 1.0 / 3, noisy_speed = 0.3;
 constexpr std::size_t ramp_rows = 20, stroke_rows = 3, mean_rows = 5, few_values = 60;
+constexpr double rare_pauses = 50; // steps of a path for each pause, if it is regular
 // A test has both directions if this share of the rows goes either way at this share of the speed.
 constexpr double either_way = 0.1, goes = 0.2;
 // Largest ratio of friction over load to that of the whole test at which it counts as the same
@@ -170,9 +172,11 @@ private:
 
 // True for a set speed, which stays the same for many rows, unlike a measured one.
 bool is_held(Values speed) {
+  constexpr double rounding = 1e-9;
   std::size_t held = 0, moving = 0;
   for (std::size_t from = 0, i = 1; i <= speed.size(); ++i) {
-    if (i < speed.size() && speed[i] == speed[from]) continue;
+    if (i < speed.size() && std::abs(speed[i] - speed[from]) <= rounding * std::abs(speed[from]))
+      continue;
     if (speed[from] != 0) {
       moving += i - from;
       held += i - from >= mean_rows ? i - from : 0;
@@ -243,6 +247,111 @@ std::vector<TestPhases::Stroke> strokes_of(Values values, double near_zero) {
   return strokes;
 }
 
+// Rows over which a path stands still: it stays within its resolution and noise for so long that
+// its mean speed is below the share `slow` of the test's. A path that does not resolve the way of a
+// row shows that only over many rows, or at its ends; over fewer where it advances regularly.
+class Standing {
+public:
+  Standing(Values path, Values time) : path_(path) {
+    const std::vector<double> ways = ways_per_row(path, time);
+    const double way = typical_of(ways, 0.1), noise = row_scatter(without_repeats(path));
+    const std::vector<double> gaps = rows_between_steps(ways, 0.1 * way);
+    if (!(way > 0) || gaps.empty()) return;
+    const double held = median_of(gaps); // above 1 where a slow recorder repeats its last reading
+    const auto pauses = std::count_if(gaps.begin(), gaps.end(), [&](double x) { return x > held; });
+    is_regular_ = rare_pauses * static_cast<double>(pauses) <= static_cast<double>(gaps.size());
+    double step = finest(ways, 1e-9 * way);
+    is_coarse_ = 1.5 * step > coarse_step * way;
+    if (is_coarse_) step = 0;
+    const double still = std::max({slow * way, 1.5 * step, 5 * noise});
+    if (still > coarse_step * way) return;
+    reach_ = std::max(2 * step, 6 * noise);
+    least_ = std::max(reach_ / (slow * way / held), held > 1 ? 3 * held : 2.0);
+    for (const Piece& run :
+         pieces_where(ways.size(), [&](std::size_t i) { return ways[i] <= still; }))
+      take(run.begin, run.end);
+  }
+
+  const std::vector<Piece>& pieces() const { return pieces_; } // of rows
+
+private:
+  // Magnitudes, those over longer times scaled to a usual one.
+  static std::vector<double> ways_per_row(Values path, Values time) {
+    std::vector<double> ways, times;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      ways.push_back(std::abs(path[i] - path[i - 1]));
+      if (!time.empty()) times.push_back(time[i] - time[i - 1]);
+    }
+    const double usual = times.empty() ? 0 : median_of(times);
+    for (std::size_t i = 0; i < times.size(); ++i)
+      if (usual > 0 && times[i] > usual) ways[i] *= usual / times[i];
+    return ways;
+  }
+
+  static std::vector<double> without_repeats(Values path) {
+    std::vector<double> out;
+    std::unique_copy(path.begin(), path.end(), std::back_inserter(out));
+    return out;
+  }
+
+  // Smallest difference between two ways, or between one and none.
+  static double finest(std::vector<double> ways, double rounding) {
+    ways.push_back(0);
+    std::sort(ways.begin(), ways.end());
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < ways.size(); ++i)
+      if (const double apart = ways[i] - ways[i - 1]; apart > rounding)
+        least = std::min(least, apart);
+    return least;
+  }
+
+  static std::vector<double> rows_between_steps(const std::vector<double>& ways, double least) {
+    std::vector<double> rows;
+    for (std::size_t i = 0, last = 0; i < ways.size(); ++i) {
+      if (!(ways[i] > least)) continue;
+      if (last > 0) rows.push_back(static_cast<double>(i + 1 - last));
+      last = i + 1;
+    }
+    return rows;
+  }
+
+  // A path that advances evenly, however little, slides; one that only turns is no rest.
+  bool moves(std::size_t first, std::size_t last) const {
+    const double all = path_[last] - path_[first], half = path_[(first + last) / 2] - path_[first];
+    if (std::abs(all) > reach_ && half / all > 0.25 && half / all < 0.75) return true;
+    return last - first < mean_rows && first > 0 && last + 1 < path_.size() &&
+           (path_[first] - path_[first - 1]) * (path_[last + 1] - path_[last]) < 0;
+  }
+
+  // Takes the parts of rows first .. last, between which the path hardly advances, that are long
+  // enough.
+  void take(std::size_t first, std::size_t last) {
+    if (moves(first, last)) return;
+    const bool at_end = first == 0 || last + 1 == path_.size();
+    double least = least_;
+    if (is_coarse_ && is_regular_) least = at_end ? least_ : mean_rows;
+    if (is_coarse_ && !is_regular_) least = at_end ? mean_rows : 1 / slow;
+    for (std::size_t from = first; from < last;) {
+      double low = path_[from], high = low;
+      std::size_t to = from;
+      for (; to < last; ++to) {
+        low = std::min(low, path_[to + 1]);
+        high = std::max(high, path_[to + 1]);
+        if (high - low > reach_) break;
+      }
+      const bool is_long = static_cast<double>(to - from) >= least;
+      const bool arrives = from == first && first > 0; // its way was made before
+      if (is_long) pieces_.push_back({arrives ? from + 1 : from, to + 1});
+      from = is_long ? to + 1 : from + 1;
+    }
+  }
+
+  Values path_;
+  bool is_coarse_ = false, is_regular_ = false;
+  double reach_ = 0, least_ = 0; // way; rows
+  std::vector<Piece> pieces_;
+};
+
 // Speed of a path, over as many rows as its noise requires.
 std::vector<double> speed_of_path(Values path, Values time) {
   std::vector<double> speed(path.size());
@@ -260,7 +369,8 @@ std::vector<double> speed_of_path(Values path, Values time) {
 
 class SpeedPhases {
 public:
-  SpeedPhases(const TestSignals& test, TestPhases& out) : test_(test), out_(out) {
+  // `of_path`: the speed is that of the path.
+  SpeedPhases(const TestSignals& test, bool of_path, TestPhases& out) : test_(test), out_(out) {
     const std::size_t rows = out.rows.size();
     if (!test.speed.empty()) out.speed = reading_of(test.speed);
     if (out.speed == SpeedReading::still) mark(0, rows, Phase::rest);
@@ -277,6 +387,7 @@ public:
     }
     if (!out.both_directions()) take_strokes_of_friction();
     if (out.speed == SpeedReading::usable) mark_rest();
+    if ((of_path || !test.speed.empty()) && test.path.size() > 2) take_standing(of_path);
     if (!out.both_directions()) {
       double sum = 0;
       for (const double v : test.speed)
@@ -325,6 +436,14 @@ private:
       if (mean.is_zero() ? mean.value == 0 || run.rows() >= mean_rows : is_offset)
         mark(run.begin, run.end, Phase::rest);
     }
+  }
+
+  // A set speed, as one that is too coarse, does not show where the path stands.
+  void take_standing(bool of_path) {
+    if (!of_path && out_.speed == SpeedReading::usable && !is_held(test_.speed)) return;
+    const Standing standing(test_.path, test_.time);
+    for (const Piece& piece : standing.pieces())
+      mark(piece.begin, piece.end, Phase::rest);
   }
 
   bool turns_in(const Piece& piece) const {
@@ -414,12 +533,13 @@ TestPhases phases_of(const TestSignals& test) {
   std::vector<double> speed, time, load, path, friction;
   TestSignals whole = {filled(test.speed, speed), filled(test.time, time), filled(test.load, load),
                        filled(test.path, path), filled(test.friction, friction)};
-  if (whole.speed.empty() && whole.path.size() > 2 && !whole.time.empty()) {
+  const bool of_path = whole.speed.empty() && whole.path.size() > 2 && !whole.time.empty();
+  if (of_path) {
     speed = speed_of_path(whole.path, whole.time);
     whole.speed = speed;
   }
   const LoadPhases of_load(whole, out);
-  const SpeedPhases of_speed(whole, out);
+  const SpeedPhases of_speed(whole, of_path, out);
   return out;
 }
 

@@ -243,6 +243,95 @@ TEST(Phases, APathStandsForASpeedThatIsNotRecorded) {
   EXPECT_EQ(std::count(found.rows.begin() + 55, found.rows.end(), Phase::sliding), 145);
 }
 
+// A drive that stands, slides, stands, slides on and stands, and the reading of its path.
+struct Drive {
+  double noise = 0, step = 0; // of the reading, in ways of a row
+  std::size_t held = 1;       // rows for which a slow recorder repeats its reading
+  bool set_speed = false;     // recorded as the speed
+
+  Rig rig(std::uint64_t seed, std::vector<double>& path) const {
+    Random random(seed, 7);
+    const double way = std::exp(4 * random.uniform() - 2);
+    Rig out;
+    double at = 0, shown = 0;
+    const auto add = [&](std::size_t rows, double speed) {
+      for (std::size_t i = 0; i < rows; ++i) {
+        at += speed * way;
+        if (out.time.size() % held == 0)
+          shown = read(at + noise * way * random.normal(), step * way);
+        path.push_back(shown);
+        out.add(set_speed ? 100 * way : 0, 500, speed > 0 ? 50 : 0,
+                speed > 0 ? Phase::sliding : Phase::rest);
+      }
+    };
+    add(40, 0);
+    add(150, 1);
+    add(70, 0);
+    add(100, 1);
+    add(30, 0);
+    if (!set_speed) out.speed.clear();
+    return out;
+  }
+};
+
+TEST(Phases, APathThatStandsIsRestBesideASetSpeedToo) {
+  for (const bool set_speed : {false, true})
+    for (const Drive& drive : {Drive{0, 0, 1, set_speed}, Drive{0.01, 0, 1, set_speed},
+                               Drive{0, 0.01, 1, set_speed}, Drive{0.03, 0.01, 1, set_speed},
+                               Drive{0, 1, 1, set_speed}, Drive{0, 0.01, 4, set_speed}}) {
+      std::size_t missed = 0, wrongly = 0, rests = 0;
+      for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        std::vector<double> path;
+        const Rig rig = drive.rig(seed, path);
+        const TestPhases found = phases_of({rig.speed, rig.time, rig.load, path, rig.friction});
+        for (std::size_t i = 0; i < rig.truth.size(); ++i) {
+          const bool is = found.rows[i] == Phase::rest, should = rig.truth[i] == Phase::rest;
+          missed += should && !is;
+          wrongly += is && !should;
+          rests += should;
+        }
+      }
+      const std::string name = "noise " + std::to_string(drive.noise) + ", step " +
+                               std::to_string(drive.step) + ", held " + std::to_string(drive.held);
+      const std::size_t edges =
+          4 * seeds; // a row at each start and stop, longer where readings repeat
+      EXPECT_LE(wrongly, edges * drive.held) << name;
+      EXPECT_LE(missed, drive.noise > 0  ? rests / 50
+                        : drive.held > 1 ? edges * drive.held
+                                         : 0)
+          << name;
+    }
+}
+
+TEST(Phases, ThreeRowsAtRestAreFoundWhereTheReadingAdvancesEveryRow) {
+  Rig rig;
+  std::vector<double> path;
+  for (int i = 0; i < 90; ++i) {
+    path.push_back(40.0 * std::max(i - 2, 0));
+    rig.add(20, 500, i < 3 ? 0 : 50, i < 3 ? Phase::rest : Phase::sliding);
+  }
+  EXPECT_EQ(phases_of({rig.speed, rig.time, rig.load, path, rig.friction}).rows, rig.truth);
+}
+
+TEST(Phases, SlowSlidingIsNoRestByItsPath) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed)
+    for (const double noise : {0.0, 0.0005}) {
+      Random random(seed, 8);
+      Rig rig;
+      std::vector<double> path;
+      double at = 0;
+      for (const double speed : {1.0, 0.01, 0.1, 0.003, 1.0, 0.03})
+        for (std::size_t i = 0; i < 100; ++i) {
+          path.push_back((at += speed) + noise * random.normal());
+          rig.add(speed, 500, 50, Phase::sliding);
+        }
+      const TestPhases of_path = phases_of({{}, rig.time, rig.load, path, rig.friction});
+      EXPECT_EQ(std::count(of_path.rows.begin(), of_path.rows.end(), Phase::rest), 0) << noise;
+      const TestPhases set = phases_of({rig.speed, rig.time, rig.load, path, rig.friction});
+      EXPECT_EQ(std::count(set.rows.begin(), set.rows.end(), Phase::rest), 0) << noise;
+    }
+}
+
 TEST(Phases, WhatIsNoNumberIsSkipped) {
   Rig rig = one_way({}, 1);
   rig.speed[10] = rig.load[20] = rig.friction[30] = std::nan("");
