@@ -244,6 +244,12 @@ void add_other_splits(Calibration& calibration, const models::Conventions& conve
 
 } // namespace
 
+const ModelFit* find_fit(const Calibration& calibration, std::string_view law) {
+  for (const ModelFit& fit : calibration.fits)
+    if (fit.model.law->name == law) return &fit;
+  return nullptr;
+}
+
 std::string size_of_trained(const ModelFit& fit) {
   if (fit.network) return network_size(*fit.network);
   return fit.polynomial ? polynomial_size(*fit.polynomial) : "";

@@ -126,6 +126,9 @@ struct Calibration {
   std::size_t delivery_folds = 0; // folds of experiments that cross-validated ModelFit::on_all
 };
 
+// The fit of the law with this name; nullptr if there is none.
+const ModelFit* find_fit(const Calibration& calibration, std::string_view law);
+
 struct CalibrationInput {
   const data::Dataset& training;
   const data::Dataset& validation; // same as training for leave_one_out and fit

@@ -149,9 +149,8 @@ const ModelFit& best_fit(const Calibration& calibration) {
 }
 
 const ModelFit& recommended_fit(const Calibration& calibration) {
-  for (const ModelFit& fit : calibration.fits)
-    if (fit.model.law->name == calibration.recommended.law) return fit;
-  return best_fit(calibration);
+  const ModelFit* const fit = find_fit(calibration, calibration.recommended.law);
+  return fit ? *fit : best_fit(calibration);
 }
 
 std::string recommended_sentence(const Calibration& calibration, int decimals) {

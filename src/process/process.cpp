@@ -354,8 +354,8 @@ Assessment assessment_of(const Tests& tests, const Coverage& coverage, const Jud
   v.differ_MPa = difference_of(leading, p.work_J);
   v.take = law_to_take(v, calibration);
   v.resampled = resample_tests(tests, names, p.history, p.used, j.effects, j.options.resamples);
-  v.parameter =
-      parameter_that_matters(*find_fit(calibration, v.take), v.law_to_take().late_percent, j);
+  v.parameter = parameter_that_matters(*calibrate::find_fit(calibration, v.take),
+                                       v.law_to_take().late_percent, j);
   return v;
 }
 
@@ -363,7 +363,7 @@ Assessment assessment_of(const Tests& tests, const Coverage& coverage, const Jud
 void price_held(Process& p, const Tests& tests, const ProcessOptions& options) {
   std::vector<const ModelFit*> leading;
   for (const LawThere& law : p.assessment.laws)
-    if (law.leads) leading.push_back(find_fit(tests.calibration, law.law));
+    if (law.leads) leading.push_back(calibrate::find_fit(tests.calibration, law.law));
   for (Held& held : p.history.held) {
     if (!(held.high > held.low)) continue;
     std::vector<std::vector<double>> percent(2);

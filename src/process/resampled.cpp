@@ -313,7 +313,7 @@ public:
         judged_(tests.judged) {
     bool trained = false;
     for (const std::string& name : laws) {
-      const ModelFit& fit = *find_fit(tests.calibration, name);
+      const ModelFit& fit = *calibrate::find_fit(tests.calibration, name);
       laws_.push_back(std::make_unique<LawAgain>(fit, fitted_, judged_, history));
       numbers_.push_back(calibrate::numbers_of(fit, tests.calibration.fits));
       trained = trained || laws_.back()->is_trained();

@@ -47,7 +47,8 @@ models::Model constant_law(const std::string& text, const models::Conventions& c
 
 models::Model model_used(const std::string& used, const calibrate::Calibration& calibration,
                          const models::Conventions& conventions) {
-  if (const calibrate::ModelFit* fit = find_fit(calibration, used)) return fit->delivered().model;
+  if (const calibrate::ModelFit* fit = calibrate::find_fit(calibration, used))
+    return fit->delivered().model;
   models::Model model = constant_law(used, conventions);
   if (!model.law)
     throw InputError({}, fmt::format("law '{}' (--used) was not calibrated", used),
@@ -74,13 +75,6 @@ void check_not_above(const ContactHistory& h, const UsedLaw& used, std::span<con
 }
 
 } // namespace
-
-const calibrate::ModelFit* find_fit(const calibrate::Calibration& calibration,
-                                    std::string_view law) {
-  for (const calibrate::ModelFit& fit : calibration.fits)
-    if (fit.model.law->name == law) return &fit;
-  return nullptr;
-}
 
 UsedLaw used_law(const ContactHistory& h, const std::string& used,
                  const calibrate::Calibration& calibration,

@@ -20,10 +20,6 @@
 
 namespace frictab::process {
 
-// Fit of the law with this name; nullptr if it was not calibrated.
-const calibrate::ModelFit* find_fit(const calibrate::Calibration& calibration,
-                                    std::string_view law);
-
 // Law that a simulation had, and its stress.
 struct UsedLaw {
   std::string name;            // empty: only the solver's own stress is known

@@ -110,7 +110,7 @@ words::Picture laws_picture(const Process& p, const Dataset& tests,
   double most = 0;
   for (const LawThere& law : a.laws) {
     lines.push_back(
-        calibrate::predict(process::find_fit(calibration, law.law)->delivered().model, rows));
+        calibrate::predict(calibrate::find_fit(calibration, law.law)->delivered().model, rows));
     if (law.leads)
       most = std::max(most, *std::max_element(lines.back().begin(), lines.back().end()));
   }

@@ -140,20 +140,19 @@ std::string curve_plot(const trace::TracedEffect& effect, const svg::Axis& x_axi
                                  "training experiments");
 }
 
-const calibrate::ModelFit* fit_of(const ReportInput& input, const std::string& model,
-                                  std::size_t& index) {
-  for (index = 0; index < input.calibration.fits.size(); ++index)
-    if (input.calibration.fits[index].model.law->name == model)
-      return &input.calibration.fits[index];
-  return nullptr;
+// Residual of a law at the tests that judge.
+std::vector<double> residuals_of(const ReportInput& input, const calibrate::ModelFit& fit) {
+  const auto place = static_cast<std::size_t>(&fit - input.calibration.fits.data());
+  return residuals(input.validation.values("tau_R_MPa"), input.predicted[place]);
 }
 
 // Draws three plots over the effect's column: residual before, the effect, residual after.
 std::string effect_plots(const ReportInput& input, const trace::Trace& trace,
                          const trace::TracedEffect& effect) {
-  std::size_t before = 0, after = 0;
-  const calibrate::ModelFit* extended = fit_of(input, trace.extended_model, after);
-  if (!extended || !fit_of(input, trace.model, before)) return "";
+  const calibrate::ModelFit *extended =
+                                calibrate::find_fit(input.calibration, trace.extended_model),
+                            *own = calibrate::find_fit(input.calibration, trace.model);
+  if (!extended || !own) return "";
   const models::AssembledLaw law(extended->model);
   const calibrate::InputColumns columns =
       calibrate::input_columns(law, law.inputs, input.validation);
@@ -161,9 +160,8 @@ std::string effect_plots(const ReportInput& input, const trace::Trace& trace,
   const auto column = static_cast<std::size_t>(
       std::find(law.inputs.begin(), law.inputs.end(), effects::symbol_of(input_of_effect.column)) -
       law.inputs.begin());
-  const Values x = columns[column], measured = input.validation.values("tau_R_MPa");
-  const auto r0 = residuals(measured, input.predicted[before]);
-  const auto r1 = residuals(measured, input.predicted[after]);
+  const Values x = columns[column];
+  const std::vector<double> r0 = residuals_of(input, *own), r1 = residuals_of(input, *extended);
   const auto [low, high] = std::minmax_element(x.begin(), x.end());
   const std::string label = axis_name(input_of_effect.column);
   const svg::Axis x_axis = effect.placed.form->categorical

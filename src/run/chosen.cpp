@@ -27,10 +27,8 @@ bool is_constant(const models::Law& law) {
 }
 
 Fits fits_named(const calibrate::Calibration& calibration, const std::string& law) {
-  Fits fits;
-  for (const ModelFit& fit : calibration.fits)
-    if (fit.model.law->name == law) fits.push_back(&fit);
-  return fits;
+  const ModelFit* const fit = calibrate::find_fit(calibration, law);
+  return fit ? Fits{fit} : Fits();
 }
 
 // The fits of one entry of table.model.

@@ -16,9 +16,7 @@ using table::Table;
 namespace {
 
 const ModelFit& fit_of(const Run& run, const models::Model& model) {
-  const std::vector<ModelFit>& fits = run.calibration->fits;
-  return *std::find_if(fits.begin(), fits.end(),
-                       [&](const ModelFit& fit) { return fit.model.law->name == model.law->name; });
+  return *calibrate::find_fit(*run.calibration, model.law->name);
 }
 
 double mean_stress_MPa(const Run& run) {
@@ -56,10 +54,8 @@ models::AssembledLaw law_of(const Run& run, const Table& table) {
 
 const data::Dataset& fitted_tests(const Run& run, const models::Model& model) {
   const data::Dataset* all = run.data->all();
-  const bool on_all = std::any_of(
-      run.calibration->fits.begin(), run.calibration->fits.end(),
-      [&](const ModelFit& fit) { return fit.on_all && fit.model.law->name == model.law->name; });
-  return all && on_all ? *all : run.data->training;
+  const ModelFit* const fit = calibrate::find_fit(*run.calibration, model.law->name);
+  return all && fit && fit->on_all ? *all : run.data->training;
 }
 
 table::Tolerance drift_allowed(const Run& run, const models::Model& model) {
