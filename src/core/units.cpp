@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -16,23 +17,11 @@ namespace frictab {
 namespace {
 
 // As rigs write units that the library does not know, or takes for coulombs and farads.
-constexpr std::pair<const char*, const char*> spellings[] = {{"-", "1"},
-                                                             {"C", "degC"},
-                                                             {"deg C", "degC"},
-                                                             {"Grad C", "degC"},
-                                                             {"ºC", "degC"},
-                                                             {"F", "degF"},
-                                                             {"deg F", "degF"},
-                                                             {"kp", "kgf"},
-                                                             {"kp/mm2", "kgf/mm2"},
-                                                             {"kp/cm2", "kgf/cm2"},
-                                                             {"lbs", "lbf"},
-                                                             {"Sekunden", "s"},
-                                                             {"Sekunde", "s"},
-                                                             {"Sek", "s"},
-                                                             {"sek", "s"},
-                                                             {"Sek.", "s"},
-                                                             {"sec.", "s"}};
+constexpr std::pair<const char*, const char*> spellings[] = {
+    {"-", "1"},    {"C", "degC"},     {"deg C", "degC"}, {"Grad C", "degC"}, {"ºC", "degC"},
+    {"F", "degF"}, {"deg F", "degF"}, {"lbs", "lbf"},
+                                                             {"ksi", "kpsi"},    {"Sekunden", "s"},  {"Sekunde", "s"},
+    {"Sek", "s"},  {"sek", "s"},      {"Sek.", "s"},     {"sec.", "s"}};
 
 // The library's database; one thread at a time may query it.
 class Units {
@@ -57,17 +46,21 @@ private:
     if (name.empty()) return nullptr;
     for (const auto& [of_rigs, of_library] : spellings)
       if (name == of_rigs) return ut_parse(system_, of_library, UT_UTF8);
-    ut_unit* const unit = ut_parse(system_, name.c_str(), UT_UTF8);
-    return unit ? unit : parse_torque(name);
+    if (ut_unit* const unit = ut_parse(system_, name.c_str(), UT_UTF8)) return unit;
+    return name.starts_with("kp") ? parse("kgf" + name.substr(2)) : parse_torque(name);
   }
 
-  // "Nm", "kNm", "Ncm": the library wants a blank between the two.
+  // "Nm", "kNm", "Ncm", "kgcm": the library wants a blank between the two, and a force.
   ut_unit* parse_torque(const std::string& name) {
-    const std::size_t newton = name.find('N');
-    if (newton == name.npos || newton > 1 || newton + 1 == name.size()) return nullptr;
-    const std::string length = name.substr(newton + 1);
-    if (length != "m" && length != "cm" && length != "mm") return nullptr;
-    return ut_parse(system_, (name.substr(0, newton + 1) + " " + length).c_str(), UT_UTF8);
+    for (const char* const length : {"mm", "cm", "m"}) {
+      if (!name.ends_with(length)) continue;
+      const std::string force = name.substr(0, name.size() - std::strlen(length));
+      for (const char* const known : {"N", "kN", "mN", "kgf", "kg"})
+        if (force == known)
+          return ut_parse(system_, ((force == "kg" ? "kgf" : force) + " " + length).c_str(),
+                          UT_UTF8);
+    }
+    return nullptr;
   }
 
   std::optional<Conversion> ask(const std::string& from, const std::string& to) {

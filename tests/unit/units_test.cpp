@@ -35,6 +35,10 @@ TEST(Units, ReadsThemAsRigsWriteThem) {
   EXPECT_DOUBLE_EQ(factor("mNm", "N m"), 1e-3);
   EXPECT_DOUBLE_EQ(factor("Nmm", "N m"), 1e-3);
   EXPECT_DOUBLE_EQ(factor("kp", "N"), 9.80665);
+  EXPECT_DOUBLE_EQ(factor("kp/mm²", "MPa"), 9.80665);
+  EXPECT_DOUBLE_EQ(factor("kpm", "N m"), 9.80665);
+  EXPECT_NEAR(factor("ksi", "MPa"), 6.894757, 1e-6);
+  EXPECT_DOUBLE_EQ(factor("kgcm", "N m"), 0.0980665);
   EXPECT_DOUBLE_EQ(factor("lbs", "lbf"), 1);
   EXPECT_DOUBLE_EQ(factor("Sek", "s"), 1);
   for (const char* const celsius : {"C", "deg C", "ºC", "°C"})
