@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -20,8 +22,9 @@ namespace {
 struct Stamp {
   std::array<int, 3> field; // of the date, in the order of the text
   std::array<std::size_t, 3> digits;
-  bool points = false; // with points between them only the day may come first
-  double seconds = 0;  // of the day
+  bool points = false;         // with points between them only the day may come first
+  bool month_has_name = false; // which stands in the middle
+  double seconds = 0;          // of the day
 };
 
 double number_of(const std::string& digits) {
@@ -43,21 +46,40 @@ double seconds_of_day(const std::map<std::string, std::string>& part) {
   return seconds;
 }
 
+// 1 to 12 for English and German names, short or whole; 0 for other texts.
+int month_of(const std::string& name) {
+  constexpr std::pair<const char*, int> months[] = {
+      {"jan", 1},  {"feb", 2},  {"mar", 3},  {"m\u00E4r", 3}, {"apr", 4}, {"may", 5},
+      {"mai", 5},  {"jun", 6},  {"jul", 7},  {"aug", 8},      {"sep", 9}, {"oct", 10},
+      {"okt", 10}, {"nov", 11}, {"dec", 12}, {"dez", 12}};
+  const std::string small = lower_case(name);
+  for (const auto& [start, month] : months)
+    if (small.starts_with(start)) return month;
+  return 0;
+}
+
 std::optional<Stamp> read_stamp(const std::string& text) {
-  static const Pattern pattern(R"(^\s*(?<a>\d{1,4})(?<between>[-./])(?<b>\d{1,2})\g{between})"
-                               R"((?<c>\d{1,4})(?:[ T]+(?<hour>\d{1,2}):(?<minute>\d{2}))"
-                               R"((?::(?<second>\d{2}(?:[.,]\d+)?))?(?:\s*(?<half>[AaPp])[Mm])?)"
-                               R"((?:Z|(?<sign>[-+])(?<zone_hour>\d{2}):?(?<zone_minute>\d{2}))?)?)"
-                               R"(\s*$)",
-                               {});
+  static const Pattern pattern(
+      R"(^\s*(?<a>\d{1,4})(?<between>[-./ ])(?<b>\d{1,2}|[^\s\d./:-]{3,10}))"
+      R"(\g{between}(?<c>\d{1,4})(?:[ T]+(?<hour>\d{1,2}):(?<minute>\d{2}))"
+      R"((?::(?<second>\d{2}(?:[.,]\d+)?))?(?:\s*(?<half>[AaPp])[Mm])?)"
+      R"((?:Z|(?<sign>[-+])(?<zone_hour>\d{2}):?(?<zone_minute>\d{2}))?)?)"
+      R"(\s*$)",
+      {});
   const auto part = pattern.search(text);
   if (!part) return std::nullopt;
   Stamp stamp;
   std::size_t i = 0;
   for (const char* name : {"a", "b", "c"}) {
-    stamp.field[i] = std::stoi(part->at(name));
-    stamp.digits[i++] = part->at(name).size();
+    const std::string& digits = part->at(name);
+    const bool is_name = !std::isdigit(static_cast<unsigned char>(digits.front()));
+    const int month = is_name ? month_of(digits) : 0;
+    if (is_name && month == 0) return std::nullopt;
+    stamp.month_has_name = stamp.month_has_name || is_name;
+    stamp.field[i] = is_name ? month : std::stoi(digits);
+    stamp.digits[i++] = is_name ? 2 : digits.size();
   }
+  if (part->at("between") == " " && !stamp.month_has_name) return std::nullopt;
   stamp.points = part->at("between") == ".";
   stamp.seconds = seconds_of_day(*part);
   return stamp;
@@ -72,6 +94,7 @@ constexpr DateOrder date_orders[] = {{0, 1, 2}, {2, 1, 0}, {2, 0, 1}};
 // Time in seconds; none if the calendar does not have such a day.
 std::optional<double> time_of(const Stamp& stamp, const DateOrder& as) {
   if (stamp.digits[as.month] > 2 || stamp.digits[as.day] > 2) return std::nullopt;
+  if (stamp.month_has_name && as.month != 1) return std::nullopt;
   if (stamp.points && as.day != 0 && stamp.digits[0] != 4) return std::nullopt;
   int year = stamp.field[as.year];
   if (stamp.digits[as.year] == 2)

@@ -32,6 +32,16 @@ TEST(TestDates, AreReadAsTheCalendarAllows) {
               ElementsAre(0, 2, 1));
 }
 
+TEST(TestDates, MayHaveMonthsByTheirNames) {
+  EXPECT_THAT(sort_dates({"12-Mar-2021 10:05:01.500", "3-Feb-2021", "12-Mar-2021 09:00:00"}).place,
+              ElementsAre(2, 0, 1));
+  EXPECT_THAT(sort_dates({"2021-Okt-03", "2021-M\u00E4r-12"}).place, ElementsAre(1, 0));
+  EXPECT_THAT(sort_dates({"12 March 2021", "3 May 2021"}).place, ElementsAre(0, 1));
+  EXPECT_THAT(
+      data::seconds_since_first({"12-Mar-2021 10:05:01.500", "12-Mar-2021 10:05:02.250"}).seconds,
+      ElementsAre(0, 0.75));
+}
+
 TEST(TestDates, ThatAgreeOnTheOrderWhicheverIsTheDayAreTaken) {
   EXPECT_THAT(sort_dates({"01/01/2024", "02/02/2024"}).place, ElementsAre(0, 1));
 }
