@@ -315,7 +315,7 @@ private:
     return rows;
   }
 
-  // A path that advances evenly, however little, slides; one that only turns is no rest.
+  // A path that advances evenly, however little, slides; so does one that only turns.
   bool moves(std::size_t first, std::size_t last) const {
     const double all = path_[last] - path_[first], half = path_[(first + last) / 2] - path_[first];
     if (std::abs(all) > reach_ && half / all > 0.25 && half / all < 0.75) return true;

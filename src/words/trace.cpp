@@ -319,22 +319,33 @@ std::string not_confirmed(const Trace& t) {
   return names.empty() ? "" : "not confirmed: " + join(names, ", ");
 }
 
-std::string design_in_short(const trace::Design& d) {
-  std::vector<std::string> groups;
-  for (std::size_t t = 0; t < d.tests.size();) {
-    std::size_t alike = t + 1;
-    while (alike < d.tests.size() && d.tests[alike] == d.tests[t])
-      ++alike;
+// "3 tests with Ra_um = 1; 2 with Ra_um = 4"; "6 tests with oil = A and with oil = B in turn".
+std::string tests_in_short(const trace::Design& d) {
+  const auto settings = [&](std::size_t test) {
     std::vector<std::string> values;
     for (std::size_t c = 0; c < d.columns.size(); ++c)
-      values.push_back(d.columns[c] + " = " + d.tests[t][c]);
-    groups.push_back(fmt::format(
-        "{} with {}", groups.empty() ? count_of(alike - t, "test") : std::to_string(alike - t),
-        join(values, ", ")));
-    t = alike;
+      values.push_back(d.columns[c] + " = " + d.tests[test][c]);
+    return "with " + join(values, ", ");
+  };
+  bool in_turn = d.tests.size() > 2 && d.tests[0] != d.tests[1];
+  for (std::size_t t = 2; t < d.tests.size(); ++t)
+    in_turn = in_turn && d.tests[t] == d.tests[t - 2];
+  if (in_turn)
+    return fmt::format("{} tests {} and {} in turn", d.tests.size(), settings(0), settings(1));
+  std::vector<std::string> groups;
+  for (std::size_t t = 0, alike = 0; t < d.tests.size(); t += alike) {
+    alike = 1;
+    while (t + alike < d.tests.size() && d.tests[t + alike] == d.tests[t])
+      ++alike;
+    groups.push_back((groups.empty() ? count_of(alike, "test") : std::to_string(alike)) + " " +
+                     settings(t));
   }
+  return join(groups, "; ");
+}
+
+std::string design_in_short(const trace::Design& d) {
   return fmt::format("run {}, otherwise like {}, to decide {} ({:.0f} % chance of a clear answer)",
-                     join(groups, "; "), d.like,
+                     tests_in_short(d), d.like,
                      d.settles.size() == 1 ? "whether " + d.settles.front() + " has an effect"
                                            : "between " + join(d.settles, ", "),
                      100 * d.probability);

@@ -376,7 +376,7 @@ Design design_in_turn(const Search& search, const Cause& cause, std::optional<do
   for (std::size_t i = 0; i < tests; ++i)
     design.tests.push_back({setting.text[i % 2 == 0 ? ends.low : ends.high]});
   design.columns = {setting.column};
-  design.like = "each other, run in this order,";
+  design.like = "each other, run in this order";
   const std::string& order = search.candidates().order_column;
   design.settles = {cause_name(cause, search.candidates()), order.empty() ? "time" : order};
   design.probability = probability(tests);
