@@ -179,13 +179,6 @@ double read_number(std::string_view text) {
 
 std::vector<std::string_view> split_cells(std::string_view line, char separator) {
   std::vector<std::string_view> cells;
-  const auto trimmed = [](std::string_view cell) {
-    while (!cell.empty() && cell.front() == ' ')
-      cell.remove_prefix(1);
-    while (!cell.empty() && cell.back() == ' ')
-      cell.remove_suffix(1);
-    return cell;
-  };
   for (std::size_t at = 0; at <= line.size();) {
     const std::size_t end = std::min(line.find(separator, at), line.size());
     const std::string_view cell = trimmed(line.substr(at, end - at));

@@ -22,6 +22,9 @@ std::string lower_case(std::string_view text);
 // Orders digits as numbers: step 2 before step 10. Texts with equal numbers are ordered by bytes.
 bool natural_less(std::string_view a, std::string_view b);
 
+// Without the blanks, tabs and line ends at both ends.
+std::string_view trimmed(std::string_view text);
+
 std::string join(std::span<const std::string> parts, std::string_view separator);
 
 // Length in bytes of the well-formed UTF-8 sequence at the front (RFC 3629); 0 if there is none.

@@ -18,10 +18,9 @@ namespace {
 
 // As rigs write units that the library does not know, or takes for coulombs and farads.
 constexpr std::pair<const char*, const char*> spellings[] = {
-    {"-", "1"},    {"C", "degC"},     {"deg C", "degC"}, {"Grad C", "degC"}, {"ºC", "degC"},
-    {"F", "degF"}, {"deg F", "degF"}, {"lbs", "lbf"},
-                                                             {"ksi", "kpsi"},    {"Sekunden", "s"},  {"Sekunde", "s"},
-    {"Sek", "s"},  {"sek", "s"},      {"Sek.", "s"},     {"sec.", "s"}};
+    {"-", "1"},       {"C", "degC"},     {"deg C", "degC"}, {"Grad C", "degC"}, {"ºC", "degC"},
+    {"F", "degF"},    {"deg F", "degF"}, {"lbs", "lbf"},    {"ksi", "kpsi"},    {"Sekunden", "s"},
+    {"Sekunde", "s"}, {"Sek", "s"},      {"sek", "s"},      {"Sek.", "s"},      {"sec.", "s"}};
 
 // The library's database; one thread at a time may query it.
 class Units {

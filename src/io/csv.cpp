@@ -20,17 +20,9 @@ namespace frictab::io {
 
 namespace {
 
-std::string_view trim(std::string_view s) {
-  while (!s.empty() && (s.front() == ' ' || s.front() == '\t'))
-    s.remove_prefix(1);
-  while (!s.empty() && (s.back() == ' ' || s.back() == '\t' || s.back() == '\r'))
-    s.remove_suffix(1);
-  return s;
-}
-
 // Parses the number in a cell; false if the cell contains anything else.
 bool parse_number(std::string_view cell, const CsvFormat& format, double& value) {
-  cell = trim(cell);
+  cell = trimmed(cell);
   return read_number(cell, format.decimal, value) ||
          (format.thousands != 0 &&
           read_grouped_number(cell, format.decimal, format.thousands, value));
@@ -67,6 +59,7 @@ public:
       : text_(text), delimiter_(delimiter), line_(first_line) {}
 
   bool at_end() const { return at_ >= text_.size(); }
+  bool at_quote() const { return !at_end() && text_[at_] == '"'; }
   std::size_t line() const { return line_; }
   std::size_t column() const { return at_ - line_start_ + 1; }
   std::size_t position() const { return at_; }
@@ -217,11 +210,15 @@ bool is_blank(std::string_view text, std::size_t from) {
   return true;
 }
 
+constexpr std::size_t most_columns = 1'000'000; // of Excel: 16,384
+
+// The cells of a line; of those beyond the most columns, one.
 std::vector<std::string> read_names(Scanner& scanner) {
   std::vector<std::string> names;
   std::string storage;
   for (bool last = false; !last;)
-    names.emplace_back(trim(scanner.cell(last, storage)));
+    if (const std::string_view cell = scanner.cell(last, storage); names.size() <= most_columns)
+      names.emplace_back(trimmed(cell));
   return names;
 }
 
@@ -265,7 +262,7 @@ Cells read_cells(CsvTable& table, Scanner& scanner, const CsvFormat& format,
       continue;
     }
     const std::size_t place = scanner.column();
-    const std::string_view cell = trim(scanner.cell(last, storage));
+    const std::string_view cell = trimmed(scanner.cell(last, storage));
     if (!known) {
       if (!cell.empty()) filled = cells + 1;
       continue;
@@ -510,7 +507,21 @@ void remove_comment_sign(std::vector<std::string>& names, Scanner below) {
       read_names(below).size() + 1 == names.size())
     names.erase(names.begin());
   else if (first.size() > 1 && (first[0] == '#' || first.starts_with("% ")))
-    first = trim(std::string_view(first).substr(1));
+    first = trimmed(std::string_view(first).substr(1));
+}
+
+// True if rows have a name of their own in front, as R writes them: text in quotes or 1, 2, ... in
+// a column that the header lacks.
+bool rows_have_names(Scanner below, std::size_t columns) {
+  int row = 0;
+  for (; row < 2 && !below.at_end(); ++row) {
+    const bool quoted = below.at_quote();
+    const std::vector<std::string> cells = read_names(below);
+    if (cells.size() != columns + 1 || cells.back().empty() ||
+        (!quoted && cells.front() != std::to_string(row + 1)))
+      return false;
+  }
+  return row > 0;
 }
 
 // Columns named by their numbers, for a file whose first line below the preamble is a row.
@@ -523,6 +534,10 @@ void name_by_number(CsvTable& table, std::size_t columns) {
 // past the first row.
 bool read_header(CsvTable& table, Scanner& scanner, const CsvFormat& format) {
   std::vector<std::string> names = read_names(scanner);
+  if (names.size() > most_columns)
+    throw InputError({table.file, table.header_line, 0},
+                     fmt::format("more than {} columns in this line", thousands(most_columns)),
+                     "is this the header, and the delimiter right? data.skip_rows, data.delimiter");
   double ignored = 0;
   const auto numeric = static_cast<std::size_t>(
       std::count_if(names.begin(), names.end(),
@@ -541,6 +556,7 @@ bool read_header(CsvTable& table, Scanner& scanner, const CsvFormat& format) {
   remove_comment_sign(names, scanner);
   for (std::size_t i = 1; i < format.header_rows && !scanner.at_end(); ++i)
     join_names(names, read_names(scanner));
+  if (rows_have_names(scanner, names.size())) names.insert(names.begin(), "");
   for (const std::string& name : names)
     table.columns.push_back({to_utf8(name), "", {}, {}});
   return true;
@@ -918,10 +934,6 @@ const std::string& CsvPieces::whole_because() const {
   return data_->whole_because;
 }
 
-const CsvTable& CsvPieces::header() const {
-  return data_->header;
-}
-
 std::vector<CsvTable> CsvPieces::next(FaultList& faults) {
   Data& d = *data_;
   std::vector<std::string> texts;
@@ -1012,10 +1024,10 @@ namespace {
 
 HeaderName cut_header_name(const std::string& text, bool any_unit) {
   const auto split = [&](std::size_t at, std::size_t from, std::size_t end) -> HeaderName {
-    const std::string unit(trim(std::string_view(text).substr(from, end - from)));
+    const std::string unit(trimmed(std::string_view(text).substr(from, end - from)));
     if (at == 0 || at == text.npos || unit.empty()) return {text, ""};
     if (!any_unit && !convert(unit, unit)) return {text, ""};
-    return {std::string(trim(std::string_view(text).substr(0, at))), unit};
+    return {std::string(trimmed(std::string_view(text).substr(0, at))), unit};
   };
   if (text.empty()) return {text, ""};
   if (text.back() == ']') return split(text.rfind('['), text.rfind('[') + 1, text.size() - 1);
@@ -1048,7 +1060,7 @@ std::string without_brackets(std::string unit) {
 }
 
 std::vector<std::string> cells_of_line(std::string_view line, const CsvFormat& format) {
-  line = trim(line);
+  line = trimmed(line);
   if (line.empty()) return {};
   Scanner scanner(line,
                   format.delimiter ? format.delimiter : find_delimiter(line, "", format.decimal));

@@ -160,9 +160,6 @@ public:
   // the whole file.
   std::vector<CsvTable> next(FaultList& faults);
 
-  // A table without rows, for its columns and units.
-  const CsvTable& header() const;
-
 private:
   struct Data;
   std::unique_ptr<Data> data_;

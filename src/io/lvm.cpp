@@ -23,14 +23,6 @@ constexpr std::string_view signature = "LabVIEW Measurement", byte_order_mark = 
                            start_of_special = "***Start_Special***",
                            end_of_special = "***End_Special***";
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && std::string_view(" \t\r").find(text.front()) != text.npos)
-    text.remove_prefix(1);
-  while (!text.empty() && std::string_view(" \t\r").find(text.back()) != text.npos)
-    text.remove_suffix(1);
-  return text;
-}
-
 using Cells = std::vector<std::string>;
 
 Cells cells_of(std::string_view line, char separator) {

@@ -20,13 +20,9 @@ using data::GuessedColumn;
 
 constexpr const char* coefficient_name = "mu"; // as users call the coefficient of friction
 
-std::string trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  return begin == text.npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r\n") + 1 - begin);
-}
-
 // A number above 0, with either decimal sign.
-std::optional<double> positive(const std::string& text) {
+std::optional<double> positive(std::string_view text) {
+  text = trimmed(text);
   double value = 0;
   if (!io::read_number(text, '.', value) && !io::read_number(text, ',', value)) return std::nullopt;
   return std::isfinite(value) && value > 0 ? std::optional(value) : std::nullopt;
@@ -66,7 +62,7 @@ private:
     while (!is_over_) {
       const std::optional<std::string> line = ask_(lines);
       is_over_ = !line;
-      const std::string answer = trimmed(line.value_or(""));
+      const std::string answer(trimmed(line.value_or("")));
       if (answer.empty()) return;
       const std::string wrong = take(answer);
       if (wrong.empty()) return;
@@ -217,10 +213,11 @@ private:
       if (answer[0] == '=') return take_constant(answer, "sigma_n_MPa");
       if (slash == answer.npos || chosen(answer, open))
         return take_column(answer, "sigma_n_MPa", open);
-      const auto area_mm2 = positive(trimmed(answer.substr(slash + 1)));
+      const auto area_mm2 = positive(std::string_view(answer).substr(slash + 1));
       if (!area_mm2) return no_number(answer.substr(slash + 1));
       if (!has_force)
-        if (std::string wrong = take_column(trimmed(answer.substr(0, slash)), "F_N_N", open);
+        if (std::string wrong =
+                take_column(std::string(trimmed(answer.substr(0, slash))), "F_N_N", open);
             !wrong.empty())
           return wrong;
       divide_force_by(*area_mm2);
@@ -245,7 +242,7 @@ private:
   }
   // "=50".
   std::string take_constant(const std::string& answer, const std::string& canonical) {
-    const auto value = positive(trimmed(answer.substr(1)));
+    const auto value = positive(std::string_view(answer).substr(1));
     if (!value) return no_number(answer.substr(1));
     campaign_.constants[canonical] = *value;
     return "";

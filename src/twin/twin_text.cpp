@@ -12,17 +12,11 @@ namespace frictab::twin {
 
 namespace {
 
-std::string trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
-}
-
 std::vector<std::string> split(std::string_view text, char separator) {
   std::vector<std::string> parts;
   while (true) {
     const auto end = text.find(separator);
-    parts.push_back(trimmed(text.substr(0, end)));
+    parts.emplace_back(trimmed(text.substr(0, end)));
     if (end == std::string_view::npos) return parts;
     text.remove_prefix(end + 1);
   }
@@ -41,8 +35,8 @@ std::vector<KeyValue> read_pairs(std::string_view text, char separator, const st
                  "keys: " + join({known.data(), known.size()}, ", "));
       continue;
     }
-    KeyValue item{trimmed(std::string_view(part).substr(0, equals)),
-                  trimmed(std::string_view(part).substr(equals + 1)), option};
+    KeyValue item{std::string(trimmed(std::string_view(part).substr(0, equals))),
+                  std::string(trimmed(std::string_view(part).substr(equals + 1))), option};
     const auto same = [&](const KeyValue& other) { return other.key == item.key; };
     if (std::find(known.begin(), known.end(), item.key) == known.end())
       faults.add({option}, "unknown key '" + item.key + "'", suggest(item.key, known));

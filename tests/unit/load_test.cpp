@@ -168,6 +168,8 @@ TEST_F(Load, TellsFilesWithoutATable) {
   EXPECT_THAT(fault(" \n\n"), HasSubstr("the file is empty"));
   EXPECT_THAT(fault("sigma_n_MPa,tau_R_MPa\n"), HasSubstr("a.csv:1: error: there are no rows"));
   EXPECT_THAT(fault("1,2\n3,4\n"), HasSubstr("column names in this line are numbers"));
+  EXPECT_THAT(fault("sigma_n_MPa" + std::string(1000001, ',') + "\n1\n"),
+              HasSubstr("a.csv:1: error: more than 1,000,000 columns in this line"));
   EXPECT_THAT(fault(std::string("a\0b,\n1,2", 8)), HasSubstr("this is not a text file"));
   EXPECT_THAT(fault_of({"none.csv"}), HasSubstr("no such file"));
   fs::create_directory(directory_ / "folder");
