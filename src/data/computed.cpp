@@ -140,6 +140,7 @@ private:
       if (!column) return;
       names.push_back(name);
       values.push_back(column->values.data());
+      if (!options_.find_quantity(column->name)) note_empty_cells(canonical, *column);
       if (const std::string unit = unit_of(part_, *column); !unit.empty())
         inputs.push_back(name + " in " + unit);
     }
@@ -159,6 +160,19 @@ private:
     part_.data.columns.push_back(std::move(out));
     part_.data.notes.push_back(fmt::format("{} = {}{}", canonical, from.formula,
                                            inputs.empty() ? "" : ", " + join(inputs, ", ")));
+  }
+
+  // Empty cells of a recorded column count as faults only where a formula needs them.
+  void note_empty_cells(const std::string& canonical, const Column& column) {
+    for (std::size_t i = 0; i < column.values.size(); ++i)
+      if (std::isnan(column.values[i]))
+        part_.cell_faults.push_back({part_.row[i],
+                                     {part_.place(i),
+                                      fmt::format("{} is empty here, which the formula of {} needs",
+                                                  column.name, canonical),
+                                      "repair it, or data.missing = \"drop\" leaves such rows out"},
+                                     canonical + " of " + column.name,
+                                     true});
   }
 
   static bool has_direction(const std::string& canonical) {
@@ -182,10 +196,10 @@ private:
       std::vector<std::string> known = {"pi"};
       for (const Column& one : part_.data.columns)
         known.push_back(options_.find_quantity(one.name) ? one.name : name_in_formulas(one.name));
-      part_.faults.add(place,
-                       fmt::format("the formula of {} needs {}, which {} does not have", canonical,
-                                   name, part_.raw.file),
-                       suggest(name, known));
+      part_.faults.add(
+          place,
+          fmt::format("the formula of {} needs {}, which the data do not have", canonical, name),
+          suggest(name, known));
     } else if (!column->levels.empty()) {
       part_.faults.add(place,
                        fmt::format("the formula of {} needs {}, which is text", canonical, name));

@@ -85,8 +85,8 @@ TEST_F(LoadFormula, MayUseAColumnThatIsNotKept) {
 TEST_F(LoadFormula, IsToldWhereItCannotBeComputed) {
   formula("v_rel_mm_s", "rmp*2");
   const std::string text = "rpm,who,tau_R_MPa,sigma_n_MPa\n1,a,1,5\n0,b,2,5\n";
-  EXPECT_EQ(fault(text), "job.toml:7:1: error: the formula of v_rel_mm_s needs rmp, which a.csv "
-                         "does not have\n  hint: did you mean 'rpm'?");
+  EXPECT_EQ(fault(text), "job.toml:7:1: error: the formula of v_rel_mm_s needs rmp, which the "
+                         "data do not have\n  hint: did you mean 'rpm'?");
   formula("v_rel_mm_s", "who*2");
   EXPECT_THAT(fault(text), HasSubstr("needs who, which is text"));
   formula("v_rel_mm_s", "1/rpm");
