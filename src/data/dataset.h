@@ -71,6 +71,11 @@ struct SignedTest {
   bool both = false;           // has both directions
   std::optional<ForceOffset> zero = {};
   std::optional<double> unloaded = {}; // value of the friction column without load
+  // Medians of the friction column at rest and in sliding, and of the load
+  struct Rest {
+    double friction, sliding, load;
+  };
+  std::optional<Rest> rest = {};
 };
 
 // Rows that no rig can measure, left out of fits (data/plausibility.h).

@@ -42,6 +42,9 @@ constexpr std::size_t stuck_rows = 20, clipped_rows = 10;
 // share of its friction.
 constexpr double no_load = 0.05, half_load = 0.5, offset_share = 0.1;
 constexpr std::size_t rows_without_contact = 10;
+// Share of a test's friction, and coefficient, that count as none, in at least so many rows.
+constexpr double stuck_share = 0.1, stuck_mu = 0.02;
+constexpr std::size_t rows_at_rest = 5;
 
 // Returns 0 for no values.
 double quantile(std::vector<double> values, double share) {
@@ -135,8 +138,10 @@ Implausible forces(const Dataset& data) {
 Implausible friction_coefficient(const Dataset& data) {
   const std::vector<double> mu = coefficients(data, 0, data.rows());
   const double typical = median(mu);
-  return {"", count(mu, [](double x) { return !(x <= 0) && !(x >= least_mu && x <= largest_mu); }),
-          mu.size(),
+  const auto fails = [](double x) { // friction may scatter about 0
+    return x < -largest_mu || (!(x <= 0) && !(x >= least_mu && x <= largest_mu));
+  };
+  return {"", count(mu, fails), mu.size(),
           fmt::format("tau_R_MPa/sigma_n_MPa is outside {} to {}, {:.3g} in the middle", least_mu,
                       largest_mu, typical),
           coefficient_hint(data, typical)};
@@ -528,6 +533,44 @@ Implausible force_offset(const Dataset& data) {
           "{ formula = \"COLUMN - 3.2\" }"};
 }
 
+// Counts the rows under load, at both ends of a test, with next to no friction.
+std::size_t rows_without_friction(const Forces& forces) {
+  const double rubs = quantile({forces.friction.begin(), forces.friction.end()}, 0.75);
+  const auto is_still = [&](std::size_t i) {
+    const double size = std::abs(forces.friction[i]);
+    return size < stuck_share * rubs && size < stuck_mu * forces.normal[i] &&
+           forces.normal[i] > half_load * forces.load;
+  };
+  const std::size_t rows = forces.normal.size();
+  std::size_t front = 0, back = 0;
+  while (front < rows && is_still(front))
+    ++front;
+  while (front + back < rows && is_still(rows - 1 - back))
+    ++back;
+  return (front >= rows_at_rest ? front : 0) + (back >= rows_at_rest ? back : 0);
+}
+
+// Finds rows that may be at rest where no column shows motion.
+Implausible no_motion(const Dataset& data) {
+  if (data.has("v_rel_mm_s") || (data.has("s_mm") && data.has("time_s"))) return {};
+  std::size_t rows = 0, tests = 0;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    if (const std::size_t found = rows_without_friction(Forces(data, e)); found > 0) {
+      rows += found;
+      ++tests;
+    }
+  if (tests == 0) return {};
+  return {"",
+          rows,
+          data.rows(),
+          fmt::format("next to no friction in the first or last rows of {}, under load, and no "
+                      "column shows motion: rows at rest are fitted as sliding",
+                      tests == 1 ? "a test" : thousands(tests) + " tests"),
+          "map v_rel_mm_s, or s_mm with time_s (an angle, a position, a distance), or leave such "
+          "rows out with data.drop = { tau_R_MPa = { below = 1 } }",
+          false};
+}
+
 Implausible test_apart(const Dataset& data) {
   const std::vector<TestApart> apart = find_tests_apart(data);
   if (apart.empty()) return {};
@@ -666,6 +709,7 @@ constexpr Check checks[] = {{"no_friction", no_friction, Sees::campaign},
                             {"clipped_channel", clipped_channel, Sees::tests},
                             {"stuck_channel", stuck_channel, Sees::tests},
                             {"force_offset", force_offset, Sees::tests},
+                            {"no_motion", no_motion, Sees::tests},
                             {"forces", forces, Sees::rows},
                             {"test_apart", test_apart, Sees::campaign},
                             {"copied_test", copied_test, Sees::campaign}};
@@ -763,7 +807,7 @@ std::vector<ImpossibleRow> impossible_rows(const Dataset& data, std::span<const 
     std::optional<double> noise_ends;
     const auto beyond_noise = [&](double x) {
       if (!noise_ends) noise_ends = end_of_noise(tau.subspan(begin, rows));
-      return x > *noise_ends;
+      return std::abs(x) > *noise_ends;
     };
     const auto add = [&](std::size_t i, const char* check, double value) {
       found.push_back({i, check, value});
@@ -772,10 +816,11 @@ std::vector<ImpossibleRow> impossible_rows(const Dataset& data, std::span<const 
     for (std::size_t i = begin; i < begin + rows; ++i) {
       if (by_yield && above_shear_yield(tau[i], flow[i]) && beyond_noise(tau[i])) {
         add(i, "shear_yield", tau[i]);
-      } else if (by_coefficient && pressure[i] > 0 && tau[i] > largest_mu * pressure[i]) {
+      } else if (by_coefficient && pressure[i] > 0 && std::abs(tau[i]) > largest_mu * pressure[i]) {
         if (!usual) usual = median(coefficients(data, begin, begin + rows));
         const double mu = tau[i] / pressure[i];
-        if (mu > spike_height * *usual && beyond_noise(tau[i])) add(i, "friction_coefficient", mu);
+        if (std::abs(mu) > spike_height * *usual && beyond_noise(tau[i]))
+          add(i, "friction_coefficient", mu);
       }
     }
     if (allowed.count("spike") > 0) continue;
@@ -791,7 +836,8 @@ std::vector<ImpossibleRow> impossible_rows(const Dataset& data, std::span<const 
 std::string impossible_text(const std::string& check) {
   if (check == "shear_yield") return "tau_R_MPa above the shear yield stress sigma_f_MPa/sqrt(3)";
   if (check == "spike") return "a spike: tau_R_MPa far above the rows around it";
-  return fmt::format("tau_R_MPa/sigma_n_MPa above {} and far above that of its test", largest_mu);
+  return fmt::format("tau_R_MPa/sigma_n_MPa above {} in size and far from that of its test",
+                     largest_mu);
 }
 
 namespace {

@@ -26,8 +26,8 @@ using Values = std::span<const double>;
 constexpr std::size_t cycle_rows = 10, test_rows = 3;
 // Load of the opposite sign that still counts as none, relative to the typical load.
 constexpr double still_unloaded = 0.05;
-// Smallest number of rows without load that determine a zero.
-constexpr std::size_t unloaded_rows = 10;
+// Smallest number of rows without load, and at rest, that determine a zero.
+constexpr std::size_t unloaded_rows = 10, rest_rows = 5;
 // other_load: smallest ratio of loads that distinguishes a zero from friction; clearly: ratio of
 // scatters over the tests that decides between the two; matters: smallest relevant offset as a
 // share of the friction.
@@ -222,8 +222,30 @@ private:
       TestFriction(values(friction_[f], e), values(load_, e), test)
           .take_magnitude(options_.force_zero == ForceZero::keep, found);
     }
-    if (found.both || found.speed < 0 || found.friction < 0 || found.unloaded)
+    if (!friction_.empty()) found.rest = at_rest(values(friction_[0], e), values(load_, e), test);
+    if (found.both || found.speed < 0 || found.friction < 0 || found.unloaded || found.rest)
       part_.data.signs.push_back(std::move(found));
+  }
+
+  // nullopt unless the reading at rest is one value, before as after sliding, that matters.
+  static std::optional<SignedTest::Rest> at_rest(Values friction, Values load,
+                                                 const TestPhases& test) {
+    const auto of = [&](Values values, bool rest) {
+      return rows_where(values, 0, test.rows.size(), [&](std::size_t i) {
+        return rest ? test.rows[i] == Phase::rest : is_fitted(test.rows[i]);
+      });
+    };
+    const std::vector<double> still = of(friction, true), sliding = of(friction, false);
+    if (still.size() < rest_rows || sliding.size() < rest_rows || test.both_directions()) return {};
+    const SignedTest::Rest rest{finite_median(still), finite_median(sliding),
+                                finite_median(of(load, true))};
+    std::vector<double> off;
+    for (const double x : still)
+      off.push_back(std::abs(x - rest.friction));
+    const double size = std::abs(rest.friction);
+    const bool is_one_value = finite_median(off) < 0.1 * size;
+    return is_one_value && size > matters * std::abs(rest.sliding) ? std::optional(rest)
+                                                                   : std::nullopt;
   }
 
   void report_speed_readings(const std::map<SpeedReading, std::size_t>& readings) {
@@ -385,6 +407,34 @@ void report_zero_errors(Dataset& data, ForceZero said) {
   tell(data, std::move(text));
 }
 
+// Friction at rest that is the same in all tests, while their loads differ, is an offset.
+void report_rest(Dataset& data) {
+  std::vector<double> readings, coefficients, loads, shares; // readings with the column's own sign
+  std::string column;
+  for (const SignedTest& test : data.signs)
+    if (test.rest) {
+      readings.push_back(test.friction * test.rest->friction);
+      coefficients.push_back(readings.back() / test.rest->load);
+      loads.push_back(test.rest->load);
+      shares.push_back(std::abs(test.rest->friction / test.rest->sliding));
+      column = test.friction_column;
+    }
+  if (readings.size() < 3) return;
+  const auto [low, high] = std::minmax_element(loads.begin(), loads.end());
+  if (!(*high > other_load * *low) || relative_scatter(readings) > 0.1 ||
+      !(relative_scatter(readings) < clearly * relative_scatter(coefficients)))
+    return;
+  const std::string unit = canonical_unit(column);
+  const double zero = finite_median(readings);
+  data.implausible.push_back(fmt::format(
+      "{} shows {} at rest in {} tests of all loads, up to {:.0f} % of what it shows in "
+      "sliding: a zero point that was not set? It is not taken off; where the friction is mapped, "
+      "{{ formula = \"COLUMN {} {:.3g}\" }} does for a column in {}",
+      column, sizes_text(readings, unit), thousands(readings.size()),
+      100 * *std::max_element(shares.begin(), shares.end()), zero < 0 ? '+' : '-', std::abs(zero),
+      unit));
+}
+
 } // namespace
 
 DirectionsDiffer directions_differ(const Dataset& data) {
@@ -424,10 +474,11 @@ void report_signs(Dataset& data, ForceZero said) {
     tell(data, fmt::format("{} is negative all along in {}: a convention, its magnitude "
                            "is fitted",
                            negative.column, tests_text(negative.names)));
+  report_rest(data);
   const Signed zeros = collected(data, [](const SignedTest& test) { return test.unloaded; });
   if (!zeros.names.empty())
-    tell(data, fmt::format("without load {} shows {} in {} (the zero of the force cell; "
-                           "it is not taken off)",
+    tell(data, fmt::format("without load {} shows {} in {} (the zero of the force cell; it is not "
+                           "taken off: {{ formula = \"COLUMN - 3.2\" }} where it is mapped does)",
                            zeros.column, sizes_text(zeros.sizes, canonical_unit(zeros.column)),
                            tests_text(zeros.names)));
 }

@@ -248,6 +248,40 @@ TEST_F(Signs, ASpeedCellThatIsNotThereIsSaid) {
               Contains(HasSubstr("rows have no phases of motion")));
 }
 
+TEST_F(Signs, AReadingAtRestThatNoLoadChangesIsAZeroPoint) {
+  const auto campaign_with = [&](double zero, double share) {
+    std::vector<std::string> files;
+    for (int t = 0; t < 4; ++t) {
+      const double load = 1000.0 * (t + 1);
+      std::string text = "time_s,F_N,F_T,v\n";
+      for (int i = 0; i < 60; ++i)
+        text += fmt::format("{},{},{},{}\n", 0.1 * i, load + i % 3,
+                            zero + (i < 15 ? share : mu) * load + 0.1 * (i % 4), i < 15 ? 0 : 20);
+      files.push_back(file(fmt::format("z{}.csv", t), text));
+    }
+    return load_dataset(files, options).implausible;
+  };
+  EXPECT_THAT(campaign_with(150, 0),
+              Contains(HasSubstr("tau_R_MPa shows 7.5 MPa at rest in 4 tests of all loads, "
+                                 "up to 56 % of what it shows in sliding: a zero point")));
+  EXPECT_THAT(campaign_with(150, 0), Contains(HasSubstr("{ formula = \"COLUMN - 7.5\" } does for a "
+                                                        "column in MPa")));
+  EXPECT_THAT(campaign_with(0, 0.06), Not(Contains(HasSubstr("at rest")))) << "held by friction";
+  EXPECT_THAT(campaign_with(0, 0), Not(Contains(HasSubstr("at rest"))));
+}
+
+TEST_F(Signs, RowsThatMayBeAtRestAreSaidWhereNoColumnShowsMotion) {
+  options.columns.erase("v_rel_mm_s");
+  std::string text = "time_s,F_N,F_T\n";
+  for (int i = 0; i < 60; ++i)
+    text += fmt::format("{},{},{}\n", 0.1 * i, 1000 + i % 3, i < 12 ? 0.2 : 120 + i % 4);
+  const std::vector<data::Implausible> found = data::find_implausible(read(text));
+  const auto one = std::find_if(found.begin(), found.end(),
+                                [](const auto& any) { return any.check == "no_motion"; });
+  ASSERT_NE(one, found.end());
+  EXPECT_EQ(one->rows, 12u);
+}
+
 // ---- rows that no rig can measure ----
 
 std::string with_row(double force, int rows = 100) {
@@ -304,6 +338,15 @@ TEST_F(Signs, MoreThanATwentiethOfImpossibleStressesIsAnErrorAndOfSpikesTheyStay
 }
 
 // Noise about the shear yield stress is noise; a whole test above it is another flow stress.
+TEST_F(Signs, AMarkerBelowZeroIsLeftOutAsOneAboveIt) {
+  for (const double marker : {9999.0 * 20, -9999.0 * 20}) {
+    const Dataset data = read(with_row(marker));
+    EXPECT_EQ(data.rows(), 99u) << marker;
+    ASSERT_EQ(data.apart.size(), 1u);
+    EXPECT_EQ(data.apart[0].check, "friction_coefficient");
+  }
+}
+
 TEST_F(Signs, RowsWithinTheScatterOfTheirTestStay) {
   options.constants["sigma_f_MPa"] = 480; // k = 277 MPa
   Random random(9, 0);
