@@ -2,13 +2,13 @@
 #include "data/checks.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/column_names.h"
 #include "data/quantity.h"
 
 namespace frictab::data {
@@ -125,14 +125,7 @@ bool rows_look_like_tests(std::span<const std::vector<double>> settings, std::si
 }
 
 bool counts_rows_of_a_test(const std::string& name) {
-  std::string words = " ";
-  for (const char c : lower_case(name))
-    words += std::isalnum(static_cast<unsigned char>(c)) ? c : ' ';
-  words += ' ';
-  for (const char* const word :
-       {" cycle ", " zyklus ", " lap ", " laps ", " position ", " increment "})
-    if (words.find(word) != words.npos) return true;
-  return false;
+  return has_word(words_of_name(name), {"cycle", "zyklus", "lap", "laps", "position", "increment"});
 }
 
 namespace {

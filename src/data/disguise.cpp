@@ -409,6 +409,7 @@ private:
       if (name == "sigma_n_MPa" || name == "F_N_N" || name == "v_rel_mm_s")
         add_power(name, logarithm(values, floor_share));
     }
+    if (data.has("sigma_f_MPa")) flow_stress_ = cut_.values("sigma_f_MPa");
     for (const char* name : {"time_s", "s_mm"})
       if (data.has(name)) clocks_.emplace_back(name, cut_.values(name));
   }
@@ -564,7 +565,7 @@ private:
 
   static std::string text_of(const std::string& name, double sign, const std::string& factor,
                              double sign_of_factor, double share) {
-    return fmt::format("tau_R_MPa goes as {}{}{}{} in addition to the states ({:.1g} % or less of "
+    return fmt::format("tau_R_MPa goes as {}{}{}{} in addition to the states ({:.2g} % or less of "
                        "what they leave is "
                        "left)",
                        sign > 0 ? "" : "1/", name,
@@ -705,7 +706,7 @@ private:
     return a.size() > 0 && squared_correlation(a, b) > limit * limit;
   }
 
-  // Targets are tau and mu, unless they are monotone functions of a state.
+  // Targets are tau, mu and the friction factor, unless they are monotone functions of a state.
   void make_targets() {
     for (Index i = 0; i < cut_.rows(); i += 1 + cut_.rows() / rows_to_rank)
       compared_.push_back(i);
@@ -721,6 +722,8 @@ private:
     add("tau_R_MPa", tau_);
     if (pressure_.size() > 0)
       add("tau_R_MPa/sigma_n_MPa", tau_.cwiseQuotient(pressure_.cwiseAbs()));
+    if (flow_stress_.size() > 0)
+      add("tau_R_MPa/sigma_f_MPa", tau_.cwiseQuotient(flow_stress_.cwiseAbs()));
   }
 
   std::string function_of(const Recorded& one) const {
@@ -777,7 +780,7 @@ private:
   }
 
   Cut cut_;
-  VectorXd tau_, log_tau_, pressure_;
+  VectorXd tau_, log_tau_, pressure_, flow_stress_;
   std::array<VectorXd, 3> tau_levels_;
   double step_MPa_ = 0, digit_ = 0; // of the last digit; the same for the logarithm
   std::vector<std::array<VectorXd, 3>> states_;

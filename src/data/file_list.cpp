@@ -294,7 +294,9 @@ std::vector<std::string> find_files(const std::vector<std::string>& named, const
       found = matching(name, base);
     if (found.empty())
       throw InputError(place, fmt::format("'{}' holds no file", name),
-                       "names are relative to the job file; * stands for any letters but /");
+                       fs::is_directory(path)
+                           ? "folders in it are not looked into: FOLDER/*/*.csv names their files"
+                           : "names are relative to the job file; * stands for any letters but /");
     for (std::string& file : found)
       if (std::find(out.begin(), out.end(), file) == out.end()) out.push_back(std::move(file));
   }

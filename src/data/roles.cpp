@@ -3,19 +3,22 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/pattern.h"
 #include "core/text.h"
+#include "core/units.h"
+#include "data/column_names.h"
 #include "data/computed.h"
 #include "data/disguise.h"
 #include "data/quantity.h"
 #include "data/recordings.h"
+#include "data/scale.h"
 #include "data/signs.h"
 
 namespace frictab::data {
@@ -50,6 +53,8 @@ constexpr NameRule name_rules[] = {
     {"time|clock|stamp|^(t|ms|tick)$", When::within, Role::clock},
     {"^(test|specimen|sample|probe|versuch|exp(eriment)?)_?(id|no|nr|number|name)?$",
      When::per_test, Role::test},
+    {"^(rep|repeat|repetition|replicate|wiederholung|wdh)_?(id|no|nr|number)?$", When::per_test,
+     Role::ignore},
     {"remark|comment|bemerkung|kommentar|^notes?$", When::any, Role::ignore},
     {"wear|worn|mass_?loss|weight_?loss|debris|scar|acoustic|vibration|"
      "contact_?(potential|resistance|voltage)",
@@ -57,7 +62,16 @@ constexpr NameRule name_rules[] = {
     {"^wear(_(um|mm|mm2|mm3|mg|g))?$|wear_?(rate|loss|depth|volume|mass|scar|track_?(depth|width))|"
      "mass_?loss|weight_?loss|"
      "verschlei|debris|(mass|weight|ra|rz|sa|roughness)\\w*_?(after|end|final)|"
-     "(after|end|final)_?\\w*(mass|weight|ra|rz|roughness)",
+     "(after|end|final)_?\\w*(mass|weight|ra|rz|roughness)|"
+     "_(after|nach)_(the_)?(test|run|versuch|sliding)|"
+     "(surface|oberfl\\w*|condition|zustand)_(after|nach)",
+     When::per_test, Role::outcome},
+    // A friction, temperature or forming force of a whole test
+    {"(^|_)(mean|avg|average|mittl\\w*|max\\w*|peak|final|end)_(\\w+_)?"
+     "(cof|mu|friction|reib\\w*|torque|drehmoment|temp\\w*)(_|$)|"
+     "(^|_)(cof|mu|friction|reib\\w*|torque|drehmoment|temp\\w*)_(\\w+_)?"
+     "(mean|avg|average|mittel\\w*|max\\w*|peak|final|end)(_|$)|"
+     "(^|_)(punch|stempel|forming|umform|drawing|zieh|pull|ejection|auswerfer)_?(force|kraft)",
      When::per_test, Role::outcome},
 };
 
@@ -65,13 +79,9 @@ constexpr NameRule name_rules[] = {
 constexpr const char* friction_names =
     "(^|[^a-z])(cof|mu|friction|torque|drag|shear|pull|f_?[xtr])([^a-z]|$)|reib|friction|torque";
 
-// Matches names in lower case, with _ for every character other than letters and digits: "Mass loss
-// [mg]" is mass_loss__mg_.
+// Matches names in lower case, with _ between words: "Mass loss [mg]" is mass_loss_mg.
 bool fits(const char* pattern, const std::string& name) {
-  std::string plain = lower_case(name);
-  for (char& c : plain)
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  return Pattern(pattern, {}).search(plain).has_value();
+  return Pattern(pattern, {}).search(replace_all(words_of_name(name), " ", "_")).has_value();
 }
 
 Given role_by_name(const std::string& name, bool within) {
@@ -145,6 +155,8 @@ public:
     if (disguise != disguises_.end() && disguise->second.sure)
       return {Role::response, disguise->second.how};
     const Look look(parts_, name);
+    if (!look.is_text && !look.within && look.values.size() > 1)
+      if (const Given set = nominal(name); !set.why.empty()) return set;
     Given given = look.is_text ? of_text(name, look) : of_numbers(name, look);
     if (given.role != Role::setting && given.role != Role::channel && given.role != Role::outcome)
       return given;
@@ -165,7 +177,7 @@ private:
     if (find_quantity(name)) return {Role::state, "a quantity that laws or routines take"};
     if (name == origin_column) return {Role::ignore, "says where rows come from"};
     if (name == interval_column) return {Role::setting, "number of the interval in its recording"};
-    if (name == recording_column) return {Role::label, "the recording that tests are intervals of"};
+    if (name == recording_column) return {Role::test, "which tests are of one recording"};
     if (name == direction_column) return {Role::setting, "sense of the motion"};
     return by_formula(name);
   }
@@ -187,9 +199,58 @@ private:
                        why, name);
   }
 
+  // A column with the set values of a state that was measured as well: a nominal load.
+  Given nominal(const std::string& name) const {
+    const std::string header = io::read_header_name(name).unit,
+                      own = parts_.front()->find(name)->unit;
+    for (const char* const state :
+         {"sigma_n_MPa", "F_N_N", "v_rel_mm_s", "T_tool_C", "T_contact_C"}) {
+      const std::string unit = find_quantity(state)->unit, ends = !own.empty() ? own
+                                                                  : !header.empty()
+                                                                      ? header
+                                                                      : unit_in_name(name, unit);
+      const bool is_force = std::string(state) == "sigma_n_MPa" &&
+                            (convert(ends, "N") || !unit_in_name(name, "N").empty());
+      if (!parts_.front()->has(state) || (!is_force && !convert(ends, unit))) continue;
+      if (follows(name, state))
+        return {Role::ignore, fmt::format("the set {}, which is measured", state)};
+    }
+    return {};
+  }
+
+  // True if the means of a state over the tests are in proportion to the column, to within a
+  // twentieth. Temperatures have to be a straight line.
+  bool follows(const std::string& name, const std::string& state) const {
+    constexpr double near = 0.05;
+    std::vector<double> x, y;
+    for (const Dataset* part : parts_)
+      for (std::size_t e = 0; part->has(name) && e < part->experiments.size(); ++e) {
+        const std::size_t begin = part->first_row[e], end = part->first_row[e + 1];
+        const auto values = part->values(state).subspan(begin, end - begin);
+        x.push_back(part->values(name)[begin]);
+        y.push_back(std::accumulate(values.begin(), values.end(), 0.0) / double(values.size()));
+      }
+    const double n = static_cast<double>(x.size());
+    const bool at_zero = !state.starts_with("T_");
+    const double mx = at_zero ? 0 : std::accumulate(x.begin(), x.end(), 0.0) / n,
+                 my = at_zero ? 0 : std::accumulate(y.begin(), y.end(), 0.0) / n;
+    double xx = 0, xy = 0, most = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      xx += (x[i] - mx) * (x[i] - mx);
+      xy += (x[i] - mx) * (y[i] - my);
+      most = std::max(most, std::abs(y[i] - my));
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double size = at_zero ? std::abs(y[i]) : most;
+      if (!(std::abs(y[i] - my - xy / xx * (x[i] - mx)) <= near * size)) return false;
+    }
+    return !x.empty();
+  }
+
   static Given of_text(const std::string& name, const Look& look) {
     const Given named = role_by_name(name, look.within);
-    if (named.role == Role::ignore || named.role == Role::order) return named;
+    if (named.role == Role::ignore || named.role == Role::order || named.role == Role::outcome)
+      return named;
     const std::size_t words = look.words.size() - look.words.count("");
     if (look.is_constant()) return {Role::label, "one value in all tests"};
     const std::size_t usable = std::max<std::size_t>(2, look.tests / 2);

@@ -15,6 +15,7 @@
 #include "core/units.h"
 #include "data/above.h"
 #include "data/checks.h"
+#include "data/column_names.h"
 #include "data/computed.h"
 #include "data/quantity.h"
 #include "data/raw.h"
@@ -30,228 +31,6 @@
 namespace frictab::data {
 
 namespace {
-
-// ---- column names ----
-
-struct Names {
-  const char* canonical;
-  bool coefficient;
-  std::vector<std::string> whole; // complete names
-  std::vector<std::string> part;  // parts of names
-  std::vector<std::string> weak;  // parts that other quantities have as well
-};
-
-// Known names in lower case, without units, with blanks for other characters. Letters of other
-// scripts are in the case of the start of a name.
-const std::vector<Names>& known_names() {
-  static const std::vector<Names> all = {
-      {"experiment",
-       false,
-       {"experiment", "test", "versuch", "versuch nr", "versuchsnummer", "versuchsnr", "run",
-        "probe", "specimen", "sample", "test id", "test no", "test nr", "test name", "id"},
-       {},
-       {}},
-      {"time_s",
-       false,
-       {"time", "zeit", "t", "elapsed", "sekunden", "tempo", "tid", "x value"},
-       {"time", "zeit", "temps", "tiempo", "czas", "Čas", "čas", "tijd", "zaman", "Время", "время",
-        "时间", "時間", "시간"},
-       {}},
-      {"F_N_N",
-       false,
-       {"f n", "fn", "fz", "load", "last", "fnormal", "carico", "carga", "Нагрузка", "载荷", "荷重",
-        "하중"},
-       {"normal force",  "normalkraft",       "normal load",       "prüfkraft",
-        "ball load",     "axial load",        "vertical force",    "clamping force",
-        "axial force",   "axialkraft",        "vertikalkraft",     "anpresskraft",
-        "normallast",    "niederhalterkraft", "blankholder force", "effort normal",
-        "force normale", "forza normale",     "fuerza normal",     "siła normalna",
-        "síla",          "normaalkracht",     "normal kuvvet"},
-       {}},
-      {"F_R_N",
-       false,
-       {"f r", "fr", "ff", "fx", "ft", "friction", "reibung"},
-       {"friction force", "frictional force", "reibkraft", "reibungskraft", "tangential",
-        "lateral force", "tangentiel", "attrito", "fuerza de fricci", "atrito", "siła tarcia",
-        "třecí", "Třecí", "friktionskraft", "wrijvingskracht", "sürtünme kuvveti", "Сила трения",
-        "摩擦力", "마찰력"},
-       {}},
-      {"sigma_n_MPa",
-       false,
-       {"p", "pressure", "sigma n", "sigman", "σ n", "σn", "σ", "druck", "cpress", "pressung",
-        "fn mpa", "p mpa"},
-       {"normal stress", "contact pressure", "surface pressure", "normalspannung", "pressung",
-        "kontaktdruck", "pression de contact"},
-       {}},
-      {"tau_R_MPa",
-       false,
-       {"tau", "tau r", "taur", "τ r", "τr", "τ", "cshear", "cshear1", "shear", "friction stress"},
-       {"shear stress", "schubspannung", "cisaillement"},
-       {}},
-      {"tau_R_MPa",
-       true,
-       {"mu", "µ", "μ", "cof", "cf"},
-       {"coefficient of friction",
-        "friction coeff",
-        "traction coeff",
-        "reibwert",
-        "reibzahl",
-        "reibungszahl",
-        "reibungskoeffizient",
-        "reibkoeffizient",
-        "reibbeiwert",
-        "coefficient de frottement",
-        "coefficiente di attrito",
-        "coeficiente de fricci",
-        "coeficiente de atrito",
-        "współczynnik tarcia",
-        "Współczynnik tarcia",
-        "koeficient t",
-        "friktionskoefficient",
-        "wrijvingsco",
-        "sürtünme katsay",
-        "Коэффициент трения",
-        "摩擦系数",
-        "摩擦係数",
-        "마찰계수"},
-       {"cof"}},
-      {"v_rel_mm_s",
-       false,
-       {"v", "v rel", "vrel", "speed", "velocity"},
-       {"speed", "velocity", "geschw", "vitesse", "velocit", "velocidad", "速度"},
-       {}},
-      {"s_mm",
-       false,
-       {"s", "distance", "distanza", "weg", "slip", "path", "s d"},
-       {"sliding distance", "sliding path", "gleitweg", "reibweg"},
-       {}},
-      {"T_tool_C", false, {"t tool", "t werkzeug"}, {"tool temp", "werkzeugtemp", "die temp"}, {}},
-      {"T_contact_C",
-       false,
-       {"t contact", "temperature", "temperatur", "temp", "t", "温度"},
-       {"contact temp", "kontakttemp"},
-       {"temp"}},
-      {"psi",
-       false,
-       {"psi"},
-       {"surface expansion", "surface enlargement", "oberflächenvergr", "oberflaechenvergr"},
-       {}},
-      {"sigma_f_MPa",
-       false,
-       {"sigma f", "kf", "k f"},
-       {"flow stress", "fließspannung", "fliessspannung", "fliessspg"},
-       {}},
-  };
-  return all;
-}
-
-bool is_capital(char c) {
-  return c >= 'A' && c <= 'Z';
-}
-bool is_small(char c) {
-  return c >= 'a' && c <= 'z';
-}
-
-// "NormalForce" in two words; "CoF" is one.
-std::string with_blanks_between_words(const std::string& name) {
-  std::string out;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    if (i > 0 && i + 1 < name.size() && is_small(name[i - 1]) && is_capital(name[i]) &&
-        is_small(name[i + 1]))
-      out += ' ';
-    out += name[i];
-  }
-  return out;
-}
-
-std::string plain(const std::string& name) {
-  std::string out;
-  for (const char c : lower_case(with_blanks_between_words(name)))
-    out += std::isalnum(static_cast<unsigned char>(c)) || (c & 0x80) ? c : ' ';
-  while (!out.empty() && out.back() == ' ')
-    out.pop_back();
-  while (out.find("  ") != out.npos)
-    out = replace_all(out, "  ", " ");
-  return out;
-}
-
-// Names in the history output of Abaqus: contact forces ("CFN2: Normal force ...", CFSM) anywhere,
-// and velocities and temperatures of a node ("V1 PI: PART-1-1 N: 1"). The other components of a
-// vector stay separate columns.
-std::string of_abaqus(const std::string& name) {
-  const std::string word = name.substr(0, name.find(' '));
-  const bool component =
-      word.size() == 4 && (std::isdigit(static_cast<unsigned char>(word[3])) || word[3] == 'm');
-  if (component && word.starts_with("cfn")) return "F_N_N";
-  if (component && word.starts_with("cfs")) return "F_R_N";
-  if (name.find(" pi ") == name.npos && name != word) return "";
-  if (word == "temp" || word == "nt11") return "T_contact_C";
-  const bool velocity =
-      word.size() == 2 && word[0] == 'v' && std::isdigit(static_cast<unsigned char>(word[1]));
-  return velocity ? "v_rel_mm_s" : "";
-}
-
-bool has_word(const std::string& name, std::initializer_list<std::string_view> words) {
-  const std::string padded = " " + name + " ";
-  return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
-    return padded.find(" " + std::string(word) + " ") != padded.npos;
-  });
-}
-
-// Values of the surroundings, which say nothing about the contact.
-bool is_of_room(const std::string& name) {
-  return has_word(name, {"room", "ambient", "air", "raum", "umgebung"}) ||
-         name.starts_with("raumtemp") || name.starts_with("umgebungstemp");
-}
-
-// Wanted or extreme values and scatter, which are taken only if nothing else is there.
-bool is_second_choice(const std::string& name) {
-  return has_word(name, {"soll", "sollwert", "set", "setpoint", "target", "nominal", "demand",
-                         "command", "consigne", "max", "maximum", "min", "minimum", "std", "sd",
-                         "stdev", "deviation", "abweichung", "streuung"});
-}
-
-// 4: the canonical name; 3: a complete name; 2: part of one; 1: a weak part, or a second choice; 0:
-// no such column.
-int likeness(const Names& names, const GuessedColumn& column) {
-  if (column.name == names.canonical && !names.coefficient) return 4;
-  const Quantity* quantity = find_quantity(names.canonical);
-  const std::string wanted = names.coefficient || !quantity ? "1" : quantity->unit;
-  if (quantity && !column.unit.empty() && !convert(column.unit, wanted)) return 0;
-  const bool is_clock = column.clock && std::string(names.canonical) == "time_s";
-  if (quantity && column.text && !is_clock) return 0;
-  const std::string name = plain(io::read_header_name(column.name).name);
-  if (is_of_room(name)) return 0;
-  const auto has_part = [&](const std::vector<std::string>& parts) {
-    return std::any_of(parts.begin(), parts.end(),
-                       [&](const std::string& part) { return name.find(part) != name.npos; });
-  };
-  int found = 0;
-  if (std::find(names.whole.begin(), names.whole.end(), name) != names.whole.end() ||
-      (!names.coefficient && of_abaqus(name) == names.canonical))
-    found = 3;
-  else if (has_part(names.part) || (names.coefficient && has_word(name, {"mu", "µ", "μ", "cof"})))
-    found = 2;
-  else if (has_part(names.weak))
-    found = 1;
-  if (is_second_choice(name)) return std::min(found, 1);
-  return is_clock ? std::min(found, 2) : found; // seconds go before a clock
-}
-
-// Assigns each quantity to the column with the greatest likeness, the first one of equals.
-void name_columns(std::vector<GuessedColumn>& columns) {
-  for (int least = 4; least >= 1; --least)
-    for (const Names& names : known_names()) {
-      const auto taken = [&](const GuessedColumn& c) { return c.canonical == names.canonical; };
-      if (std::any_of(columns.begin(), columns.end(), taken)) continue;
-      for (GuessedColumn& column : columns)
-        if (column.canonical.empty() && likeness(names, column) >= least) {
-          column.canonical = names.canonical;
-          column.coefficient = names.coefficient;
-          break;
-        }
-    }
-}
 
 // ---- dialects ----
 
@@ -308,6 +87,9 @@ public:
       if (between != best.decimal) attempt(format);
     }
     any_decimal = best.thousands == 0 && reads_as_well(best.decimal == '.' ? ',' : '.');
+    if (best.decimal == '.' && best.thousands == 0 && text.find(';') != text.npos &&
+        reads_as_well(',', '.'))
+      grouped = first_fraction();
     if (!(most_ > 0))
       throw InputError({named, 0, 0}, "no table of numbers under a line of names was found",
                        "frictab init DIR writes a job with every key, to be filled in by hand");
@@ -316,6 +98,7 @@ public:
   io::CsvFormat best;
   io::CsvTable table;       // by the best dialect
   bool any_decimal = false; // only whole numbers, so either decimal sign works
+  double grouped = 0;       // a number whose point may stand between groups of digits; 0: none
 
 private:
   // Tries decimal signs and numbers of lines before the table. A sheet has points and commas.
@@ -354,9 +137,17 @@ private:
     }
   }
 
-  bool reads_as_well(char decimal) const {
+  double first_fraction() const {
+    for (const io::CsvColumn& column : table.columns)
+      for (const double value : column.numbers)
+        if (value > 0 && value != std::floor(value)) return value;
+    return 0;
+  }
+
+  bool reads_as_well(char decimal, char thousands = 0) const {
     io::CsvFormat format = best;
     format.decimal = decimal;
+    format.thousands = thousands;
     try {
       FaultList faults;
       const io::CsvTable tried = io::parse_csv(text_, named_, format, faults);
@@ -388,15 +179,25 @@ bool is_clock_column(const io::CsvColumn& column) {
   return column.texts.size() == column.numbers.size();
 }
 
+std::vector<std::string> cells_of(const io::CsvColumn& column) {
+  std::vector<std::string> cells;
+  for (const double value : column.numbers)
+    cells.push_back(shortest(value));
+  for (const io::CsvColumn::Text& cell : column.texts)
+    cells[cell.row] = cell.text;
+  return cells;
+}
+
+std::vector<std::string> different_cells(const io::CsvColumn& column) {
+  const std::vector<std::string> cells = cells_of(column);
+  const std::set<std::string> different(cells.begin(), cells.end());
+  return {different.begin(), different.end()};
+}
+
 // The cells of a column as texts, if they all differ.
 std::vector<std::string> names_in(const io::CsvColumn& column) {
-  std::vector<std::string> names;
-  for (const double value : column.numbers)
-    names.push_back(shortest(value));
-  for (const io::CsvColumn::Text& cell : column.texts)
-    names[cell.row] = cell.text;
-  const std::set<std::string> different(names.begin(), names.end());
-  if (different.size() < names.size()) names.clear();
+  std::vector<std::string> names = cells_of(column);
+  if (different_cells(column).size() < names.size()) names.clear();
   return names;
 }
 
@@ -468,8 +269,10 @@ std::vector<GuessedColumn> columns_of(const io::CsvTable& table) {
     columns.push_back(std::move(column));
   }
   name_columns(columns);
-  if (GuessedColumn* const tests = find_column(columns, "experiment"))
+  if (GuessedColumn* const tests = find_column(columns, "experiment")) {
     tests->names = names_in(raw_of(*tests, table));
+    if (tests->names.empty()) tests->tests = different_cells(raw_of(*tests, table));
+  }
   name_clock(columns, table);
   name_coefficient(columns, table);
   return columns;
@@ -561,7 +364,7 @@ std::string pressure_of_abaqus(const GuessedFile& guess) {
   const GuessedColumn* const force = guess.find("F_N_N");
   if (guess.find("sigma_n_MPa") || !force || force->number > 0) return "";
   for (const GuessedColumn& column : guess.columns)
-    if (plain(column.name).starts_with("carea"))
+    if (words_of_name(column.name).starts_with("carea"))
       return fmt::format("F_N_N/{}", name_in_formulas(column.name));
   return "";
 }
@@ -617,11 +420,53 @@ void add_conditions(GuessedFile& guess, const io::CsvTable& table) {
   }
 }
 
+// Finds columns called "mu T1 10MPa", "mu T2 20MPa": a word for friction, and a test's own name.
+void find_tests_in_columns(GuessedFile& guess) {
+  std::map<std::string, std::vector<std::string>> columns; // by their first word
+  for (const GuessedColumn& column : guess.columns) {
+    const std::size_t end = column.name.find_first_of(" _");
+    if (column.text || column.above || end == column.name.npos || end == 0) continue;
+    const std::string word = words_of_name(column.name.substr(0, end));
+    const bool is_friction = has_word(
+        word, {"µ", "μ", "mu", "cof", "friction", "reibung", "reibzahl", "fr", "ff", "tau"});
+    if (is_friction && column.name.find_first_of("0123456789", end) != column.name.npos)
+      columns[column.name.substr(0, end + 1)].push_back(column.name);
+  }
+  for (auto& [word, names] : columns)
+    if (names.size() >= 3 && names.size() > guess.wide.size()) {
+      guess.wide_word = word;
+      guess.wide = std::move(names);
+    }
+}
+
+// Numbers that recorders write for no value, where all others of a column are far from them.
+std::vector<std::string> markers_in(const io::CsvTable& table) {
+  constexpr double known[] = {-99,    -999, -999.25, -9999,  -99999, -999999,
+                              999.25, 9999, 99999,   999999, 1e30,   9.91e37};
+  constexpr double far = 10;
+  std::set<std::string> found;
+  for (const io::CsvColumn& column : table.columns) {
+    double most = 0; // of the others
+    std::set<double> markers;
+    for (const double value : column.numbers)
+      if (std::find(std::begin(known), std::end(known), value) != std::end(known))
+        markers.insert(value);
+      else if (std::isfinite(value))
+        most = std::max(most, std::abs(value));
+    for (const double marker : markers)
+      if (markers.size() == 1 && most > 0 && std::abs(marker) > far * most)
+        found.insert(shortest(marker));
+  }
+  return {found.begin(), found.end()};
+}
+
 void finish(GuessedFile& guess, const io::CsvTable& table) {
+  guess.missing = markers_in(table);
+  find_tests_in_columns(guess);
   if (are_side_by_side(table)) take_first_test(guess);
   guess.pressure = pressure_of_abaqus(guess);
   check_experiment(guess, table);
-  guess.rows = !guess.side_by_side && each_row_is_a_test(guess, table);
+  guess.rows = !guess.side_by_side && !guess.intervals && each_row_is_a_test(guess, table);
   add_conditions(guess, table);
 }
 
@@ -701,6 +546,7 @@ GuessedFile guess_text(std::string_view whole, const std::string& named, const i
   if (cells) take_cell_units(table, *cells, mixed);
   guess.decimal = dialects.best.decimal;
   guess.thousands = dialects.best.thousands;
+  guess.grouped = dialects.grouped;
   guess.any_decimal = dialects.any_decimal;
   guess.units_row = dialects.best.units_row;
   guess.header = dialects.best.header;
@@ -761,27 +607,45 @@ std::vector<GuessedFile> guess_file(const std::string& path, const std::string& 
 
 namespace {
 
-// Number of other guesses whose labels are among the names.
-std::size_t labels_among(const std::vector<std::string>& names, std::size_t own,
-                         const std::vector<GuessedFile>& files) {
-  const std::set<std::string> known(names.begin(), names.end());
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < files.size(); ++i)
-    count += i != own && known.count(files[i].label()) > 0;
-  return count;
+// The tests that a file has: those that a column names, else itself.
+std::vector<std::string> tests_of(const GuessedFile& file) {
+  const GuessedColumn* const column = file.find("experiment");
+  return column && !column->tests.empty() ? column->tests : std::vector{file.label()};
 }
 
-// Whether the numbers in the labels of all others are those of the names, each once.
+// Whether at least half of the tests of the other guesses are among the names.
+bool names_tests(const std::vector<std::string>& names, std::size_t own,
+                 const std::vector<GuessedFile>& files) {
+  const std::set<std::string> known(names.begin(), names.end());
+  std::size_t found = 0, all = 0;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    for (const std::string& test : i == own ? std::vector<std::string>() : tests_of(files[i])) {
+      found += known.count(test);
+      ++all;
+    }
+  // only the first tests of one file of all tests are seen, perhaps one
+  const GuessedColumn* const column =
+      files.size() == 2 ? files[1 - own].find("experiment") : nullptr;
+  const std::size_t least = column && !column->tests.empty() ? 1 : 2;
+  return found >= least && 2 * found >= all;
+}
+
+// Whether the labels of all others are the names in another form, each once.
 bool are_numbered_alike(const std::vector<std::string>& names, std::size_t own,
                         const std::vector<GuessedFile>& files) {
-  std::set<long> known, labels;
+  std::map<long, std::string> known;
   for (const std::string& name : names)
-    known.insert(first_number(name));
-  for (std::size_t i = 0; i < files.size(); ++i)
-    if (i != own) labels.insert(first_number(files[i].label()));
-  return known.size() == names.size() && labels.size() + 1 == files.size() &&
-         labels.count(-1) == 0 && names.size() <= 2 * labels.size() &&
-         std::includes(known.begin(), known.end(), labels.begin(), labels.end());
+    known.emplace(first_number(name), name);
+  if (known.size() != names.size() || names.size() > 2 * (files.size() - 1)) return false;
+  std::set<long> labels;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (i == own) continue;
+    const std::string label = files[i].label();
+    const auto found = known.find(first_number(label));
+    if (found == known.end() || !is_same_test(label, found->second)) return false;
+    labels.insert(found->first);
+  }
+  return labels.size() + 1 == files.size();
 }
 
 } // namespace
@@ -793,9 +657,9 @@ std::optional<GuessedFile> take_table_of_tests(std::vector<GuessedFile>& files) 
     for (std::size_t c = 0; c < files[i].columns.size(); ++c) {
       const GuessedColumn& column = files[i].columns[c];
       if (column.names.empty()) continue;
-      const std::size_t found = labels_among(column.names, i, files);
-      const bool by_name = found >= 2 && 2 * found >= files.size() - 1;
-      if (!by_name && (files.size() < 3 || !are_numbered_alike(column.names, i, files))) continue;
+      if (!names_tests(column.names, i, files) &&
+          (files.size() < 3 || !are_numbered_alike(column.names, i, files)))
+        continue;
       GuessedFile table = std::move(files[i]);
       files.erase(files.begin() + static_cast<std::ptrdiff_t>(i));
       for (GuessedColumn& other : table.columns)
@@ -955,6 +819,19 @@ public:
   bool names_test(std::size_t tests) const {
     return values_.size() == tests && tests > 2 && !is_measured();
   }
+  // True for the numbers of repeated tests: 1, 2, 3 or rep1, rep2.
+  bool counts_repeats(std::size_t tests) const {
+    std::set<std::string> letters;
+    std::set<long> numbers;
+    for (const std::string& text : values_) {
+      letters.insert(lower_case(text.substr(0, text.find_first_of("0123456789"))));
+      numbers.insert(first_number(text));
+    }
+    const std::set<std::string> before = {"", "r", "rep", "repeat", "replicate", "w", "wdh"};
+    return letters.size() == 1 && before.count(*letters.begin()) > 0 && numbers.size() > 1 &&
+           2 * numbers.size() <= tests && *numbers.begin() == 1 &&
+           *numbers.rbegin() == static_cast<long>(numbers.size());
+  }
   std::string same() const { return as_pattern(first_); }
 
   // A named group of `letters`; for measured parts the unit is added to the name.
@@ -976,12 +853,14 @@ bool names_test(const GuessedNames& guess) {
 }
 
 // Pattern for one position of the files' own names, the `number`th from 1.
-std::string part_of_name(const NamePlace& place, std::size_t number, std::size_t tests,
-                         GuessedNames& guess) {
+std::string part_of_name(const NamePlace& place, std::size_t number, bool is_last,
+                         std::size_t tests, GuessedNames& guess) {
   const char* const letters = "[^_ /-]+";
   if (!place.differs()) return place.same();
   if (place.names_test(tests))
     return names_test(guess) ? letters : place.group("experiment", letters, guess);
+  if (is_last && number > 1 && place.counts_repeats(tests))
+    return place.group("repeat", letters, guess);
   return place.group(fmt::format("{}{}", place.is_measured() ? "x" : "name", number), letters,
                      guess);
 }
@@ -1001,7 +880,7 @@ std::string guess_parts(const std::vector<CutName>& names, GuessedNames& guess) 
     const NamePlace place(texts);
     if (place.has_empty() && place.differs()) return "";
     if (t > 0) pattern += as_pattern(first.signs.substr(t - 1, 1));
-    pattern += part_of_name(place, t + 1, names.size(), found);
+    pattern += part_of_name(place, t + 1, t + 1 == first.tokens.size(), names.size(), found);
   }
   // A pattern that only distinguishes the tests is not needed: the file's own name does the same.
   if (found.parts.empty() || (found.parts.size() == 1 && names_test(found))) return "";

@@ -23,6 +23,7 @@ struct GuessedColumn {
   std::string first_values; // "812.3, 813.1, 815"
   // The cells of a column that may name tests, as texts, if all of them differ.
   std::vector<std::string> names;
+  std::vector<std::string> tests; // in rows with several tests: their names, the first ones
 };
 
 // A file, or one sheet of a workbook.
@@ -34,6 +35,7 @@ struct GuessedFile {
   char decimal = '.';
   char thousands = 0;
   bool any_decimal = false; // only whole numbers, which either sign reads
+  double grouped = 0;       // a number whose point may stand between groups of digits; 0: none
   std::size_t skip_footer = 0;
   std::size_t skip_rows = 0; // 0 also if the names identify the header line
   bool units_row = false;
@@ -42,6 +44,11 @@ struct GuessedFile {
   bool intervals = false;      // the header line is repeated
   bool rows = false;           // each looks like a test (data/checks.h)
   bool side_by_side = false;   // the same columns come again for each test
+  // Columns that seem to be friction of a test each: the word before their names, with its
+  // separator.
+  std::vector<std::string> wide;
+  std::string wide_word;
+  std::vector<std::string> missing; // numbers that seem to stand for no value: "-9999"
   std::vector<GuessedColumn> columns;
   double area_mm2 = 0;  // of contact, given above the header; 0: none
   std::string pressure; // formula of the normal stress, from a force and the area of contact

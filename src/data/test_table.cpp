@@ -2,12 +2,14 @@
 #include "data/test_table.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/column_names.h"
 #include "data/quantity.h"
 #include "data/workbooks.h"
 #include "io/workbook.h"
@@ -36,6 +38,23 @@ DataOptions take_over(DataOptions& options, const io::CsvTable& raw) {
   return own;
 }
 
+// The letters of a name without words that every test may have: "al" of "Al_1", "" of "Versuch 1".
+std::string own_words(const std::string& name) {
+  static const std::set<std::string> common = {
+      "test", "versuch", "probe",  "sample", "specimen", "run",     "exp",         "experiment",
+      "no",   "nr",      "number", "nummer", "id",       "messung", "measurement", "file",
+      "data", "t",       "v",      "p",      "e",        "s"};
+  std::string letters, out;
+  for (const char c : words_of_name(name) + " ")
+    if (c != ' ' && !std::isdigit(static_cast<unsigned char>(c))) {
+      letters += c;
+    } else {
+      if (common.count(letters) == 0) out += letters;
+      letters.clear();
+    }
+  return out;
+}
+
 } // namespace
 
 long first_number(const std::string& name) {
@@ -47,10 +66,18 @@ long first_number(const std::string& name) {
   return end - begin > most_digits ? -1 : std::stol(name.substr(begin, end - begin));
 }
 
+bool is_same_test(const std::string& a, const std::string& b) {
+  const long number = first_number(a);
+  if (number < 0 || number != first_number(b)) return false;
+  const std::string one = own_words(a), other = own_words(b);
+  return one.empty() || other.empty() || one.starts_with(other) || other.starts_with(one);
+}
+
 const std::string* TestTable::name_of(const std::string& experiment) const {
   if (const auto own = row.find(experiment); own != row.end()) return &own->first;
   const auto other = numbered.find(first_number(experiment));
-  return other == numbered.end() ? nullptr : &other->second;
+  return other != numbered.end() && is_same_test(experiment, other->second) ? &other->second
+                                                                            : nullptr;
 }
 
 void check_numbered(const TestTable& table, const std::vector<std::string>& experiments) {

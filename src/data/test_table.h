@@ -17,8 +17,8 @@ struct TestTable {
   std::map<std::string, std::size_t> row; // by experiment
   std::map<long, std::string> numbered;   // by first_number of these; empty if two are equal
 
-  // The table's name of an experiment: its own, or the only one with the same number ("V01" is
-  // "Versuch_001_C45"); nullptr if there is none.
+  // The table's name of an experiment: its own, or the only one with the same number if
+  // is_same_test(); nullptr if there is none.
   const std::string* name_of(const std::string& experiment) const;
   std::size_t header_line = 0;
 };
@@ -31,6 +31,9 @@ TestTable read_test_table(DataOptions& options);
 
 // The first whole number in a name: 1 in "Versuch_001_C45"; -1 if there is none.
 long first_number(const std::string& name);
+// True if two names have one first number, and their other words may be the same: "V01" and
+// "Versuch_001_C45", but not "Al_1" and "Steel_1".
+bool is_same_test(const std::string& a, const std::string& b);
 
 // Throws InputError if two experiments stand for one row of the table because their numbers are
 // equal.

@@ -2,10 +2,13 @@
 #include "job/guessed_job.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/computed.h"
 #include "data/quantity.h"
 #include "data/scale.h"
 #include "io/csv.h"
@@ -106,14 +109,28 @@ bool says_itself(const GuessedColumn& column) {
   return column.name == column.canonical && column.number == 0;
 }
 
-std::string columns_lines(const GuessedFile& file) {
+// `taken`: names of lines above the rows; `tests`: the table of tests, whose column of their names
+// has its own name.
+std::string columns_lines(const GuessedFile& file, const std::set<std::string>& taken,
+                          const GuessedFile* tests = nullptr) {
+  const GuessedColumn *const own = file.find("experiment"), *const other =
+                                                                tests ? tests->find("experiment")
+                                                                      : nullptr;
+  const bool two_names = own && other && own->number == 0 && own->name != other->name;
   std::string out;
+  if (two_names)
+    out += line("experiment = " + toml_texts({own->name, other->name}),
+                "the names of tests, in the rows and in their table");
   std::vector<std::string> canonical, others, above;
   for (const GuessedColumn& column : file.columns)
-    if (column.canonical.empty() && column.above)
+    if (taken.count(column.name) > 0 && column.above)
+      continue;
+    else if (column.canonical.empty() && column.above)
       above.push_back(shown(column.name));
     else if (column.canonical.empty())
       others.push_back(shown(shown_name(column)));
+    else if (two_names && &column == own)
+      continue;
     else if (says_itself(column))
       canonical.push_back(column.name);
     else
@@ -133,24 +150,50 @@ std::string columns_lines(const GuessedFile& file) {
   return out;
 }
 
+// Conditions that all files give above their rows, with values that differ; texts only where files
+// share them.
+std::set<std::string> above_that_differ(const std::vector<GuessedFile>& files) {
+  struct Seen {
+    std::size_t files = 0;
+    bool text = false;
+    std::set<std::string> values;
+  };
+  std::map<std::string, Seen> seen;
+  for (const GuessedFile& file : files)
+    for (const GuessedColumn& column : file.columns)
+      if (column.above && column.canonical.empty()) {
+        Seen& one = seen[column.name];
+        ++one.files;
+        one.text = one.text || column.text;
+        one.values.insert(column.first_values);
+      }
+  std::set<std::string> out;
+  for (const auto& [name, one] : seen)
+    if (one.files == files.size() && one.values.size() > 1 &&
+        (!one.text || 2 * one.values.size() <= files.size()))
+      out.insert(name);
+  return out;
+}
+
 class Writer {
 public:
   Writer(const data::GuessedCampaign& campaign, const data::GuessedNames& names,
          const std::vector<std::string>& training)
       : campaign_(campaign), files_(campaign.files), points_(campaign), most_(points_.file()),
-        names_(names), training_(training) {}
+        names_(names), training_(training), above_(above_that_differ(campaign.files)) {}
 
   GuessedJob write() {
     add_head();
-    out_.text += "\n[data.columns]\n" + columns_lines(most_);
+    out_.text += "\n[data.columns]\n" +
+                 columns_lines(most_, above_, campaign_.tests ? &*campaign_.tests : nullptr);
     if (!has_names()) ask_for_names();
-    if (campaign_.tests)
-      out_.text += "# of " + campaign_.tests->label() + ":\n" + columns_lines(*campaign_.tests);
+    add_columns_of_tests();
     add_pressure_by_area();
     ask_for_units();
     if (has_names()) ask_for_pressure();
     if (has_names()) ask_for_friction();
     add_constants();
+    ask_for_wide();
     add_rules();
     out_.text += "\n[output]\ndirectory = \"out\"\n";
     return std::move(out_);
@@ -173,6 +216,11 @@ private:
                       fmt::format("{} {}{}", files_.size(), noun, files_.size() == 1 ? "" : "s"));
     add_sheets();
     out_.text += dialect_lines(most_);
+    ask_for_groups();
+    add_missing();
+    if (!above_.empty())
+      out_.text += line("above = " + toml_texts({above_.begin(), above_.end()}),
+                        "lines above the rows that differ between the files");
     add_experiment();
     add_tests();
   }
@@ -186,12 +234,38 @@ private:
       out_.text += "# " + passed + "\n";
   }
 
+  void ask_for_groups() {
+    if (most_.grouped > 0)
+      ask(fmt::format("Is {:.3f} meant as {:.0f}? Every point stands before three digits, as "
+                      "between thousands.",
+                      most_.grouped, 1000 * most_.grouped),
+          "# decimal = \",\"\n# thousands = \".\"\n");
+  }
+
+  void add_columns_of_tests() {
+    if (!campaign_.tests) return;
+    GuessedFile tests = *campaign_.tests;
+    if (most_.find("experiment")) // stands among the columns of the rows
+      std::erase_if(tests.columns, [](const auto& one) { return one.canonical == "experiment"; });
+    out_.text += "# of " + tests.label() + ":\n" + columns_lines(tests, {});
+  }
+
+  void add_missing() {
+    std::set<std::string> markers;
+    for (const GuessedFile& file : files_)
+      markers.insert(file.missing.begin(), file.missing.end());
+    if (markers.empty()) return;
+    out_.text += line("missing_values = " + toml_texts({markers.begin(), markers.end()}),
+                      "far from all other numbers: taken for no value");
+    out_.text += line("missing = \"drop\"", "leaves out rows in which a law lacks a value");
+  }
+
   // A table with one row per test.
   void add_tests() {
     if (!campaign_.tests) return;
     const GuessedFile& tests = *campaign_.tests;
     out_.text += line("tests = " + toml_quoted(tests.file),
-                      "a row per test, found by its name: " +
+                      "a row per test, found by the name or its number: " +
                           shown(source_of(*tests.find("experiment"), tests)));
     if (!tests.sheet.empty()) out_.text += "tests_sheet = " + toml_quoted(tests.sheet) + "\n";
   }
@@ -290,7 +364,11 @@ private:
                       "is friction.",
                       shown(shown_name(*likely))),
           fmt::format("# tau_R_MPa = {{ column = {}, times = \"sigma_n_MPa\" }}\n",
-                      source_of(*likely, most_)));
+                      source_of(*likely, most_)) +
+              line(fmt::format(
+                       "# tau_R_MPa = {{ formula = {} }}",
+                       toml_quoted(data::name_in_formulas(likely->name) + "*sigma_f_MPa/3**0.5")),
+                   "if it is a friction factor m"));
     } else {
       ask("Where is friction? Neither a shear stress, nor a coefficient, nor a friction force was "
           "found.",
@@ -313,6 +391,16 @@ private:
     if (!lines.empty()) out_.text += "\n[data.constants]\n" + lines;
   }
 
+  void ask_for_wide() {
+    if (most_.wide.empty()) return;
+    out_.text += "\n";
+    ask(fmt::format("Is each of the {} columns like {} a test? Then their friction is the column "
+                    "`value` above.",
+                    most_.wide.size(), shown(most_.wide.front())),
+        fmt::format("# [data.wide]\n# columns = {}\n",
+                    toml_quoted("^" + most_.wide_word + "(?<experiment>.+)")));
+  }
+
   void add_names() {
     const bool plain = names_.pattern.find('\'') == std::string::npos;
     out_.text +=
@@ -331,7 +419,7 @@ private:
       out_.text += dialect_lines(file);
       out_.text += plain_lines(file);
       if (!names_.pattern.empty()) add_names();
-      out_.text += "\n[data.files.columns]\n" + columns_lines(file);
+      out_.text += "\n[data.files.columns]\n" + columns_lines(file, above_);
     }
     if (names_.pattern.empty()) return;
     out_.text += "\n[[data.files]]\nmatch = \"*\"\n";
@@ -357,6 +445,7 @@ private:
   const GuessedFile& most_;
   const data::GuessedNames& names_;
   const std::vector<std::string>& training_;
+  const std::set<std::string> above_; // lines above the rows that are proposed as columns
   GuessedJob out_;
 };
 

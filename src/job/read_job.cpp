@@ -69,7 +69,9 @@ bool known_name(JobReader& reader, const SectionRule& section, const std::string
                 const TomlNode& entry) {
   const auto names = section.children();
   if (std::find(names.begin(), names.end(), entry.key) != names.end()) return true;
-  if (section.others && expr::is_name(entry.key) && !data::is_measured(entry.key)) return true;
+  if (section.others && (section.any_name || expr::is_name(entry.key)) &&
+      !data::is_measured(entry.key))
+    return true;
   if (data::find_quantity(entry.key))
     reader.fault(entry.key_place, fmt::format("{} cannot stand in [{}]", entry.key, path),
                  "possible: " + join(names, ", "));

@@ -117,8 +117,16 @@ const std::vector<SectionRule>& section_rules() {
        "", nullptr, column_place, "quantity", false, false, "column"},
       {"data.constants", "quantities, or inputs of a law, that are the same for every row",
        "sigma_f_MPa = 480.0", schema::constant_names, nullptr, "quantity", true},
-      {"data.roles", "what recorded columns are, where it is not what `frictab data` infers",
-       "acoustic_V = \"channel\"", no_names, nullptr, "recorded column", true},
+      {"data.roles",
+       "what recorded columns are, where it is not what `frictab data` infers",
+       "acoustic_V = \"channel\"",
+       no_names,
+       nullptr,
+       "recorded column",
+       true,
+       false,
+       {},
+       true},
       {"data.files",
        "what is special about some files: [[data.files]] stands once per rule, with any of the "
        "keys "

@@ -78,6 +78,7 @@ struct SectionRule {
   bool list = false;   // [[path]]: its tables are named by their number, from 1
   // the key of a child to which a plain value, given instead of a table, belongs
   std::string plain = {};
+  bool any_name = false; // others may have blanks and brackets, as columns of a file do
 };
 
 // Returns "unit" for "data.columns.*.unit".

@@ -234,13 +234,13 @@ TEST_F(InitFrom, FindsConditionsInTheNamesOfFiles) {
   EXPECT_THAT(job_from({"raw_data"}), HasSubstr(R"(
 [[data.files]]
 match = "*"
-from_name = '(?<name1>[^_ /-]+)_(?<x2_mm>[\d.,]+)mm_(?<name3>[^_ /-]+)\.csv$'
+from_name = '(?<name1>[^_ /-]+)_(?<x2_mm>[\d.,]+)mm_(?<repeat>[^_ /-]+)\.csv$'
 # name1: 316SS, 52100
 # x2_mm: 5, 20, 100
-# name3: r1, r2
+# repeat: r1, r2
 # Give the groups names that say what they are; one without a meaning may go.
 )"));
-  EXPECT_THAT(read().text, HasSubstr("from the names name1 (2: 316SS, 52100), name3 (2: r1, r2), "
+  EXPECT_THAT(read().text, HasSubstr("from the names name1 (2: 316SS, 52100), repeat (2: r1, r2), "
                                      "x2_mm (3: 100, 20, 5)"));
 }
 
@@ -267,7 +267,7 @@ TEST_F(InitFrom, FindsConditionsInTheNamesOfFolders) {
   const std::string job = job_from({"rig/*/*.csv"});
   EXPECT_THAT(job, HasSubstr("training = \"../rig/*/*.csv\""));
   EXPECT_THAT(job, HasSubstr("from_name = '(?<folder_pct>[\\d.,]+)pct/test "
-                             "(?<name2>[^_ /-]+)\\.csv$'\n# folder_pct: 0, 2.5, 10\n"));
+                             "(?<repeat>[^_ /-]+)\\.csv$'\n# folder_pct: 0, 2.5, 10\n"));
   EXPECT_EQ(read().tests, "0pct/test 1 30, 0pct/test 2 30, 10pct/test 1 30, 10pct/test 2 30, "
                           "2.5pct/test 1 30, 2.5pct/test 2 30");
 }

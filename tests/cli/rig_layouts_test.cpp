@@ -230,6 +230,143 @@ TEST_F(RigLayouts, CyclesAndPositionsAreNotTakenForTests) {
   EXPECT_THAT(guessed("cycles.txt"), testing::Not(HasSubstr("experiment = \"row\"")));
 }
 
+TEST_F(RigLayouts, InitProposesConditionsAboveTheRowsThatDifferBetweenFiles) {
+  for (int test = 1; test <= 4; ++test)
+    directory.write(
+        fmt::format("t{}.txt", test),
+        fmt::format("File: t{}.dat\nPressure: 10 MPa\nRoughness Ra: 0.{} um\nLubricant: "
+                    "{}\nOperator: N. N.\n\nTime [s]\tmu\n",
+                    test, test, test % 2 ? "A" : "B") +
+            rows(test));
+  EXPECT_THAT(guessed("t*.txt"),
+              AllOf(HasSubstr("\nabove = [\"Lubricant\", \"Roughness Ra\"] "),
+                    HasSubstr("\nsigma_n_MPa = \"Pressure\" "),
+                    HasSubstr("\n# above the rows, kept where data.above names them: File, "
+                              "Operator\n")));
+  const CommandResult read = test::run_frictab({"data", "job/job.toml"}, directory.path());
+  EXPECT_EQ(read.exit_code, 0) << read.err;
+  EXPECT_THAT(read.out, AllOf(HasSubstr("  Lubricant     label    2 levels\n"),
+                              HasSubstr("  Roughness Ra  setting  one value per test")));
+}
+
+TEST_F(RigLayouts, HeadersThatComeAgainAreOneWayToNameTests) {
+  std::string text;
+  for (int step = 1; step <= 3; ++step) {
+    text += fmt::format("Step {}\nRolling Speed (mm/s)\tSliding Speed (mm/s)\tTraction Coeff (-)\t"
+                        "Ball Load (N)\n",
+                        step);
+    for (int i = 0; i < 20; ++i)
+      text += fmt::format("{}\t{}\t{:.4f}\t{}\n", 3000 - 140 * (i / 4), 1500 - 70 * (i / 4),
+                          0.05 + 0.001 * (i % 5), 20 + i % 2);
+  }
+  directory.write("steps.txt", text);
+  const std::string job = guessed("steps.txt");
+  EXPECT_THAT(job, AllOf(HasSubstr("\nexperiment = \"interval\""),
+                         testing::Not(HasSubstr("experiment = \"row\"")),
+                         HasSubstr("\nv_rel_mm_s = \"Sliding Speed\"")));
+}
+
+TEST_F(RigLayouts, InitProposesWhatStandsForNoValue) {
+  std::string text = "time_s,load_kgf,torque_Nm\n";
+  for (int i = 0; i < 30; ++i)
+    text += fmt::format("{:.1f},{},{}\n", 0.1 * i, 100 + i % 3,
+                        i == 7 ? std::string("-9999") : fmt::format("{:.3f}", 2 + 0.01 * (i % 5)));
+  directory.write("m.csv", text);
+  EXPECT_THAT(guessed("m.csv"),
+              AllOf(HasSubstr("\nmissing_values = \"-9999\" "), HasSubstr("\nmissing = \"drop\" "),
+                    HasSubstr("\nF_N_N = { column = \"load_kgf\", unit = \"kgf\" }")));
+  const std::string columns =
+      "[data.columns]\nF_N_N = { column = \"load_kgf\", unit = \"kgf\" }\n"
+      "sigma_n_MPa = { column = \"load_kgf\", unit = \"kgf\", area_mm2 = 50 }\n"
+      "F_R_N = { formula = \"torque_Nm/0.02\", unit = \"N\" }\n";
+  const std::string head = "[data]\ntraining = \"m.csv\"\nmissing_values = [\"-9999\"]\n";
+  write_job(head + "missing = \"drop\"\n" + columns);
+  EXPECT_THAT(data().out, HasSubstr("left out: 1 row, an empty cell"));
+  write_job(head + columns);
+  EXPECT_THAT(data().err, HasSubstr("m.csv:9: error: torque_Nm is empty here, which the formula of "
+                                    "F_R_N needs\n  hint: repair it, or data.missing = \"drop\" "
+                                    "leaves such rows out\n"));
+}
+
+TEST_F(RigLayouts, InitAsksWherePointsMayStandBetweenThousands) {
+  std::string text = "t [s];Normalkraft [N];Reibkraft [N]\n";
+  for (int i = 0; i < 20; ++i)
+    text += fmt::format("{};16.{};1.{}\n", i, 317 + i, 629 + i % 3);
+  directory.write("g.csv", text);
+  EXPECT_THAT(guessed("g.csv"), HasSubstr("\n# ? Is 16.317 meant as 16317? Every point stands "
+                                          "before three digits, as between thousands.\n# decimal = "
+                                          "\",\"\n# thousands = \".\"\n"));
+  directory.write("g.csv", text + "20;16.5;1.6\n");
+  EXPECT_THAT(guessed("g.csv"), testing::Not(HasSubstr("meant as")));
+}
+
+TEST_F(RigLayouts, NamesOfRowsAsRWritesThemAreAColumn) {
+  std::string text = "\"time\" \"p\" \"tau\" \"oil\"\n";
+  for (int i = 0; i < 20; ++i)
+    text += fmt::format("\"{}\" {:.1f} {} {:.3f} \"dry\"\n", i + 1, 0.1 * i, 100 + i % 3,
+                        10 + 0.01 * (i % 5));
+  directory.write("r.txt", text);
+  EXPECT_THAT(guessed("r.txt"),
+              AllOf(HasSubstr("\ntime_s = \"time\""), HasSubstr("\nsigma_n_MPa = \"p\""),
+                    HasSubstr("\ntau_R_MPa = \"tau\"")));
+  directory.write("comma.csv", "time,F\n0,1,5\n0,2,5\n"); // decimal commas are no names
+  write_job("[data]\ntraining = \"comma.csv\"\n");
+  EXPECT_THAT(data().err, HasSubstr("comma.csv:2: error: 3 cells, the header has 2"));
+}
+
+TEST_F(RigLayouts, ATableOfTestsIsFoundByTheNamesInOneFileOfAllTests) {
+  std::string all = "testNo,timestamp,sigma_n_MPa,tau_R_MPa\n";
+  for (int i = 0; i < 60; ++i)
+    all += fmt::format("{},12-Mar-2021 10:{:02}:01.500,{},{:.2f}\n", 1 + i / 20, i % 20,
+                       100 + i % 3, 10 + 0.1 * (i % 5));
+  directory.write("all.csv", all);
+  directory.write("info.csv", "testNo,Ra_um\n1,0.3\n2,0.9\n3,0.5\n");
+  EXPECT_THAT(guessed("*.csv"), AllOf(HasSubstr("\ntests = \"../info.csv\""),
+                                      HasSubstr("\ntraining = \"../all.csv\""),
+                                      HasSubstr("\ntime_s = \"timestamp\"")));
+  const CommandResult read = test::run_frictab({"data", "job/job.toml"}, directory.path());
+  EXPECT_THAT(read.out, HasSubstr("Ra_um"));
+  directory.write("info.csv", "ID,Ra_um\n1,0.3\n2,0.9\n3,0.5\n");
+  EXPECT_THAT(guessed("*.csv"), HasSubstr("\nexperiment = [\"testNo\", \"ID\"] "));
+  EXPECT_EQ(test::run_frictab({"data", "job/job.toml"}, directory.path()).exit_code, 0);
+}
+
+TEST_F(RigLayouts, ALogBookIsJoinedByNumbersOnlyWhereNamesAgree) {
+  const std::string head = "time_s\tmu\n";
+  for (int test = 1; test <= 3; ++test)
+    directory.write(fmt::format("Al_{}.txt", test), head + rows(test));
+  const std::string job =
+      "[data]\ntraining = \"Al_*.txt\"\ntests = \"log.csv\"\nexperiment = \"file\"\n"
+      "[data.columns]\nexperiment = \"ID\"\n"
+      "tau_R_MPa = { column = \"mu\", times = \"sigma_n_MPa\" }\n"
+      "[data.constants]\nsigma_n_MPa = 10\n";
+  write_job(job);
+  directory.write("log.csv", "ID,Ra_um\nSteel_1,0.5\nSteel_2,0.7\nSteel_3,0.9\n");
+  EXPECT_THAT(data().err, HasSubstr("test 'Al_1' of Al_1.txt is not in this table"));
+  directory.write("log.csv", "ID,Ra_um\nVersuch 01 (al),0.5\nVersuch 02 (al),0.7\nV03,0.9\n");
+  EXPECT_THAT(data().out, HasSubstr("tests are found by the numbers in their names"));
+}
+
+TEST_F(RigLayouts, InitAsksWhetherColumnsOfFrictionAreATestEach) {
+  std::string text = "Time [s];mu T1 dry;mu T2 oil;mu T3 oil\n";
+  for (int i = 0; i < 20; ++i)
+    text += fmt::format("{:.1f};{:.3f};{:.3f};{:.3f}\n", 0.1 * i, 0.2, 0.1 + 0.001 * (i % 5), 0.11);
+  directory.write("wide.csv", text);
+  EXPECT_THAT(guessed("wide.csv"),
+              AllOf(HasSubstr("\n# ? Is each of the 3 columns like mu T1 dry a test?"),
+                    HasSubstr("\n# columns = \"^mu (?<experiment>.+)\"\n")));
+}
+
+TEST_F(RigLayouts, RolesAreGivenToColumnsByTheNamesOfTheFile) {
+  directory.write("t1.txt", "time_s\tmu\tCup height H1/H2 [mm]\n0\t0.1\t3\n1\t0.2\t4\n2\t0.1\t5\n");
+  write_job("[data]\ntraining = \"t1.txt\"\n[data.columns]\n"
+            "tau_R_MPa = { column = \"mu\", times = \"sigma_n_MPa\" }\n[data.constants]\n"
+            "sigma_n_MPa = 10\n[data.roles]\n\"Cup height H1/H2 [mm]\" = \"response\"\n");
+  const CommandResult read = data();
+  EXPECT_EQ(read.exit_code, 0) << read.err;
+  EXPECT_THAT(read.out, HasSubstr("Cup height H1/H2 [mm] belongs to the measured friction"));
+}
+
 TEST_F(RigLayouts, InitFindsTheLoadAndTheSpeedAboveTheRows) {
   for (int test = 1; test <= 3; ++test)
     directory.write(fmt::format("t{}.txt", test),

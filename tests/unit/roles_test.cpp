@@ -269,6 +269,49 @@ TEST(Roles, FollowFromTheJobTheDataAndNamesInThatOrder) {
   EXPECT_THAT(data.notes, Contains(HasSubstr("torque belongs to the measured friction")));
 }
 
+TEST(Roles, WhatAWholeTestShowedIsNoSetting) {
+  Rig rig(5, 24, 1);
+  const auto levels = [](std::size_t e) { return double(e * e % 7); };
+  for (const char* const outcome :
+       {"wear [mg]", "Wear volume [mm3]", "Mean COF", "mu_max", "Max. temperature [C]",
+        "Punch force [kN]", "Stempelkraft [kN]", "Ra after test [um]"})
+    rig.add(outcome, [&](auto e, auto) { return 1 + levels(e); });
+  for (const char* const setting :
+       {"hardness", "Ra [um]", "preheat_temp", "days after coating", "mean roughness"})
+    rig.add(setting, [&](auto e, auto) { return 2 + levels(e); });
+  for (const char* const number : {"Replicate", "rep", "Wiederholung"})
+    rig.add(number, [](auto e, auto) { return double(1 + e % 3); });
+  rig.add("Surface after test", [](auto e, auto) { return double(e % 2); });
+  rig.data.columns.back().levels = {"bright", "scored"};
+  const Dataset data = with_roles(rig.data);
+  for (const data::Column& column : data.columns) {
+    const std::string& name = column.name;
+    const bool is_number = name == "Replicate" || name == "rep" || name == "Wiederholung";
+    const bool is_setting = name == "hardness" || name == "Ra [um]" || name == "preheat_temp" ||
+                            name == "days after coating" || name == "mean roughness";
+    if (data::find_quantity(name) || name == "film_nm") continue;
+    EXPECT_EQ(column.role, is_number    ? Role::ignore
+                           : is_setting ? Role::setting
+                                        : Role::outcome)
+        << name;
+  }
+}
+
+TEST(Roles, TheSetValueOfAMeasuredStateIsNoCauseOfItsOwn) {
+  Rig rig(6, 12, 40);
+  const auto pressure = [](std::size_t e) { return 20 * std::pow(2.0, double(e % 4)); };
+  rig.add("Load [N]", [&](auto e, auto) { return 20 * pressure(e); });
+  rig.add("p_ksi", [&](auto e, auto) { return 0.145 * pressure(e); });
+  rig.add("dose_mg", [&](auto e, auto) { return 20 * pressure(e); });
+  rig.add("spring [N]", [&](auto e, auto) { return 1 + double(e * e % 7); });
+  const Dataset data = with_roles(rig.data);
+  EXPECT_EQ(role_of(data, "Load [N]"), Role::ignore);
+  EXPECT_EQ(data.find("Load [N]")->why, "the set sigma_n_MPa, which is measured");
+  EXPECT_EQ(role_of(data, "p_ksi"), Role::ignore);
+  EXPECT_EQ(role_of(data, "dose_mg"), Role::setting);
+  EXPECT_EQ(role_of(data, "spring [N]"), Role::setting);
+}
+
 TEST(Roles, FreeTextIsNoLabel) {
   Rig rig(4, 20, 5);
   const auto text = [&](const char* name, std::vector<std::string> levels, auto of_test) {

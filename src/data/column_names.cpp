@@ -1,0 +1,251 @@
+// Quantities by the names that rigs and offices give their columns.
+#include "data/column_names.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/text.h"
+#include "core/units.h"
+#include "data/quantity.h"
+#include "data/scale.h"
+#include "io/csv.h"
+
+namespace frictab::data {
+
+namespace {
+
+bool is_capital(char c) {
+  return c >= 'A' && c <= 'Z';
+}
+bool is_small(char c) {
+  return c >= 'a' && c <= 'z';
+}
+
+// "NormalForce" in two words; "CoF" is one.
+std::string with_blanks_between_words(const std::string& name) {
+  std::string out;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if (i > 0 && i + 1 < name.size() && is_small(name[i - 1]) && is_capital(name[i]) &&
+        is_small(name[i + 1]))
+      out += ' ';
+    out += name[i];
+  }
+  return out;
+}
+
+} // namespace
+
+std::string words_of_name(const std::string& name) {
+  std::string out;
+  for (const char c : lower_case(with_blanks_between_words(name)))
+    out += std::isalnum(static_cast<unsigned char>(c)) || (c & 0x80) ? c : ' ';
+  while (!out.empty() && out.back() == ' ')
+    out.pop_back();
+  while (out.find("  ") != out.npos)
+    out = replace_all(out, "  ", " ");
+  return out;
+}
+
+bool has_word(const std::string& name, std::initializer_list<std::string_view> words) {
+  const std::string padded = " " + name + " ";
+  return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
+    return padded.find(" " + std::string(word) + " ") != padded.npos;
+  });
+}
+
+namespace {
+
+struct Names {
+  const char* canonical;
+  bool coefficient;
+  std::vector<std::string> whole; // complete names
+  std::vector<std::string> part;  // parts of names
+  std::vector<std::string> weak;  // parts that other quantities have as well
+};
+
+// Known names in lower case, without units, with blanks for other characters. Letters of other
+// scripts are in the case of the start of a name.
+const std::vector<Names>& known_names() {
+  static const std::vector<Names> all = {
+      {"experiment",
+       false,
+       {"experiment", "test", "versuch", "versuch nr", "versuchsnummer", "versuchsnr", "run",
+        "probe", "specimen", "sample", "test id", "test no", "test nr", "test name", "id",
+        "specimen id", "sample id", "probe nr", "probennummer"},
+       {},
+       {}},
+      {"time_s",
+       false,
+       {"time", "zeit", "t", "elapsed", "sekunden", "tempo", "tid", "x value"},
+       {"time", "zeit", "temps", "tiempo", "czas", "Čas", "čas", "tijd", "zaman", "Время", "время",
+        "时间", "時間", "시간"},
+       {}},
+      {"F_N_N",
+       false,
+       {"f n", "fn", "fz", "load", "last", "fnormal", "carico", "carga", "Нагрузка", "载荷", "荷重",
+        "하중"},
+       {"normal force",  "normalkraft",       "normal load",       "prüfkraft",
+        "ball load",     "axial load",        "vertical force",    "clamping force",
+        "axial force",   "axialkraft",        "vertikalkraft",     "anpresskraft",
+        "normallast",    "niederhalterkraft", "blankholder force", "effort normal",
+        "force normale", "forza normale",     "fuerza normal",     "siła normalna",
+        "síla",          "normaalkracht",     "normal kuvvet"},
+       {}},
+      {"F_R_N",
+       false,
+       {"f r", "fr", "ff", "fx", "ft", "friction", "reibung"},
+       {"friction force", "frictional force", "reibkraft", "reibungskraft", "tangential",
+        "lateral force", "tangentiel", "attrito", "fuerza de fricci", "atrito", "siła tarcia",
+        "třecí", "Třecí", "friktionskraft", "wrijvingskracht", "sürtünme kuvveti", "Сила трения",
+        "摩擦力", "마찰력"},
+       {}},
+      {"sigma_n_MPa",
+       false,
+       {"p", "pressure", "sigma n", "sigman", "σ n", "σn", "σ", "druck", "cpress", "pressung",
+        "fn mpa", "p mpa"},
+       {"normal stress", "contact pressure", "surface pressure", "normalspannung", "pressung",
+        "kontaktdruck", "pression de contact"},
+       {}},
+      {"tau_R_MPa",
+       false,
+       {"tau", "tau r", "taur", "τ r", "τr", "τ", "cshear", "cshear1", "shear", "friction stress"},
+       {"shear stress", "schubspannung", "cisaillement"},
+       {}},
+      {"tau_R_MPa",
+       true,
+       {"mu", "µ", "μ", "cof", "cf"},
+       {"coefficient of friction",
+        "friction coeff",
+        "traction coeff",
+        "reibwert",
+        "reibzahl",
+        "reibungszahl",
+        "reibungskoeffizient",
+        "reibkoeffizient",
+        "reibbeiwert",
+        "coefficient de frottement",
+        "coefficiente di attrito",
+        "coeficiente de fricci",
+        "coeficiente de atrito",
+        "współczynnik tarcia",
+        "Współczynnik tarcia",
+        "koeficient t",
+        "friktionskoefficient",
+        "wrijvingsco",
+        "sürtünme katsay",
+        "Коэффициент трения",
+        "摩擦系数",
+        "摩擦係数",
+        "마찰계수"},
+       {"cof"}},
+      {"v_rel_mm_s",
+       false,
+       {"v", "v rel", "vrel", "v slide", "speed", "velocity", "sliding speed"},
+       {"speed", "velocity", "geschw", "vitesse", "velocit", "velocidad", "速度"},
+       {}},
+      {"s_mm",
+       false,
+       {"s", "distance", "distanza", "weg", "slip", "path", "s d"},
+       {"sliding distance", "sliding path", "gleitweg", "reibweg"},
+       {}},
+      {"T_tool_C", false, {"t tool", "t werkzeug"}, {"tool temp", "werkzeugtemp", "die temp"}, {}},
+      {"T_contact_C",
+       false,
+       {"t contact", "temperature", "temperatur", "temp", "t", "温度"},
+       {"contact temp", "kontakttemp"},
+       {"temp"}},
+      {"psi",
+       false,
+       {"psi"},
+       {"surface expansion", "surface enlargement", "oberflächenvergr", "oberflaechenvergr"},
+       {}},
+      {"sigma_f_MPa",
+       false,
+       {"sigma f", "kf", "k f"},
+       {"flow stress", "fließspannung", "fliessspannung", "fliessspg"},
+       {}},
+  };
+  return all;
+}
+
+// Names in the history output of Abaqus: contact forces ("CFN2: Normal force ...", CFSM) anywhere,
+// and velocities and temperatures of a node ("V1 PI: PART-1-1 N: 1"). The other components of a
+// vector stay separate columns.
+std::string of_abaqus(const std::string& name) {
+  const std::string word = name.substr(0, name.find(' '));
+  const bool component =
+      word.size() == 4 && (std::isdigit(static_cast<unsigned char>(word[3])) || word[3] == 'm');
+  if (component && word.starts_with("cfn")) return "F_N_N";
+  if (component && word.starts_with("cfs")) return "F_R_N";
+  if (name.find(" pi ") == name.npos && name != word) return "";
+  if (word == "temp" || word == "nt11") return "T_contact_C";
+  const bool velocity =
+      word.size() == 2 && word[0] == 'v' && std::isdigit(static_cast<unsigned char>(word[1]));
+  return velocity ? "v_rel_mm_s" : "";
+}
+
+// Values of the surroundings, which say nothing about the contact.
+bool is_of_room(const std::string& name) {
+  return has_word(name, {"room", "ambient", "air", "raum", "umgebung"}) ||
+         name.starts_with("raumtemp") || name.starts_with("umgebungstemp");
+}
+
+// Wanted or extreme values, scatter, and speeds of rolling, which are taken only if nothing else is
+// there.
+bool is_second_choice(const std::string& name) {
+  return has_word(name,
+                  {"soll",     "sollwert", "set",        "setpoint", "target",    "nominal",
+                   "demand",   "command",  "consigne",   "max",      "maximum",   "min",
+                   "minimum",  "std",      "sd",         "stdev",    "deviation", "abweichung",
+                   "streuung", "rolling",  "entrainment"});
+}
+
+// 4: the canonical name; 3: a complete name; 2: part of one; 1: a weak part, or a second choice; 0:
+// no such column.
+int likeness(const Names& names, const GuessedColumn& column) {
+  if (column.name == names.canonical && !names.coefficient) return 4;
+  const Quantity* quantity = find_quantity(names.canonical);
+  const std::string wanted = names.coefficient || !quantity ? "1" : quantity->unit;
+  if (quantity && !column.unit.empty() && !convert(column.unit, wanted)) return 0;
+  const bool is_clock = column.clock && std::string(names.canonical) == "time_s";
+  if (quantity && column.text && !is_clock) return 0;
+  const std::string bare = io::read_header_name(column.name).name,
+                    unit = quantity ? unit_in_name(bare, wanted) : "", name = words_of_name(bare),
+                    without_unit = words_of_name(bare.substr(0, bare.size() - unit.size()));
+  if (is_of_room(name)) return 0;
+  const auto is_whole = [&](const std::string& one) {
+    return std::find(names.whole.begin(), names.whole.end(), one) != names.whole.end();
+  };
+  const auto has_part = [&](const std::vector<std::string>& parts) {
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const std::string& part) { return name.find(part) != name.npos; });
+  };
+  int found = 0;
+  if (is_whole(name) || is_whole(without_unit) ||
+      (!names.coefficient && of_abaqus(name) == names.canonical))
+    found = 3;
+  else if (has_part(names.part) || (names.coefficient && has_word(name, {"mu", "µ", "μ", "cof"})))
+    found = 2;
+  else if (has_part(names.weak))
+    found = 1;
+  if (is_second_choice(name)) return std::min(found, 1);
+  return is_clock ? std::min(found, 2) : found; // seconds go before a clock
+}
+
+} // namespace
+
+void name_columns(std::vector<GuessedColumn>& columns) {
+  for (int least = 4; least >= 1; --least)
+    for (const Names& names : known_names()) {
+      const auto taken = [&](const GuessedColumn& c) { return c.canonical == names.canonical; };
+      if (std::any_of(columns.begin(), columns.end(), taken)) continue;
+      for (GuessedColumn& column : columns)
+        if (column.canonical.empty() && likeness(names, column) >= least) {
+          column.canonical = names.canonical;
+          column.coefficient = names.coefficient;
+          break;
+        }
+    }
+}
+
+} // namespace frictab::data

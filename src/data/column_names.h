@@ -1,0 +1,22 @@
+// Quantities by the names that rigs and offices give their columns.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data/sniff.h"
+
+namespace frictab::data {
+
+// The words of a name in lower case, with single blanks between: "NormalForce_[N]" is "normal force
+// n".
+std::string words_of_name(const std::string& name);
+// Expects the words of a name.
+bool has_word(const std::string& name, std::initializer_list<std::string_view> words);
+
+// Assigns each quantity to the column with the greatest likeness, the first one of equals.
+void name_columns(std::vector<GuessedColumn>& columns);
+
+} // namespace frictab::data
