@@ -40,7 +40,23 @@ std::string others_text(const Calibration& calibration) {
                                     candidates);
 }
 
-Text take_text(const Calibration& calibration) {
+// The effects of a traced law: "Ra [um], oil added".
+std::string added_text(const std::string& law, const Answers& answers) {
+  constexpr std::size_t shown = 3;
+  for (const trace::Trace& t : answers.traces) {
+    if (t.extended_model != law) continue;
+    if (t.effects.size() > shown || !(t.improvement.interval.low > 0))
+      return count_of(t.effects.size(), "effect") + " added";
+    std::vector<std::string> causes;
+    for (const trace::TracedEffect& effect : t.effects)
+      causes.push_back(cause_text(effect));
+    return join(causes, ", ") + " added";
+  }
+  return "effects added";
+}
+
+Text take_text(const Answers& answers) {
+  const Calibration& calibration = *answers.calibration;
   const ModelFit& best = calibrate::best_fit(calibration);
   const std::string& best_law = best.model.law->name;
   const std::string& recommended = calibration.recommended.law;
@@ -48,7 +64,8 @@ Text take_text(const Calibration& calibration) {
     return strong(best_law) + ", which fits best; one test cannot judge laws";
   Text text = strong(recommended);
   const models::Law& law = *calibrate::recommended_fit(calibration).model.law;
-  if (!law.base.empty()) text += " (" + law.base + " with the effects below)";
+  if (!law.base.empty())
+    text += fmt::format(" ({} with {})", law.base, added_text(recommended, answers));
   if (recommended == best_law)
     text += ", the best law";
   else
@@ -126,24 +143,32 @@ std::string far_text(const Answers& answers) {
   for (const table::Table& table : answers.tables)
     if (table.model == calibrate::recommended_fit(*answers.calibration).model.law->name &&
         table.record.share_far.value_or(0) >= 0.005)
-      return fmt::format("; {:.0f} % of its table extrapolates, far from the tests",
+      return fmt::format("; {:.0f} % of its table is far from any test",
                          100 * *table.record.share_far);
   return "";
 }
 
-// "sigma_N 500 to 2,105 MPa"; other columns by their own names.
-std::string state_range(const std::string& name, const Range& range) {
-  const data::Quantity* quantity = data::find_quantity(name);
-  return fmt::format("{} {} to {}{}", quantity ? quantity->symbol : name,
-                     short_figures(range.first, 3), short_figures(range.second, 3),
-                     quantity && quantity->unit != "1" ? " " + quantity->unit : "");
+// The file's own name of an input that a traced effect brings.
+std::string name_of_input(const std::string& input, const Answers& answers) {
+  for (const trace::Trace& t : answers.traces)
+    for (const trace::TracedEffect& effect : t.effects)
+      for (const effects::EffectInput& one : effect.placed.inputs)
+        if (effects::symbol_of(one.column) == input) return one.column;
+  return input;
 }
 
-std::string valid_text(const Answers& answers) {
-  std::vector<std::string> parts;
-  for (const auto& [name, range] : valid_ranges(*answers.calibration))
-    parts.push_back(state_range(name, range));
-  return parts.empty() ? "" : join(parts, ", ") + far_text(answers);
+// "sigma_N 500 to 2,105 MPa, Ra [um] 0.2 to 3".
+Text valid_text(const Answers& answers) {
+  Text text;
+  for (const auto& [name, range] : valid_ranges(*answers.calibration)) {
+    const data::Quantity* const quantity = data::find_quantity(name);
+    if (!text.empty()) text += ", ";
+    text += quantity ? symbol(quantity->symbol) : Text(name_of_input(name, answers));
+    text += fmt::format(" {} to {}", short_figures(range.first, 3), short_figures(range.second, 3));
+    if (quantity && quantity->unit != "1") text += " " + quantity->unit;
+  }
+  if (!text.empty()) text += far_text(answers);
+  return text;
 }
 
 // ---- next: tests, checks, a command ----
@@ -182,12 +207,15 @@ Next next_of(const Answers& answers) {
   return next;
 }
 
-std::string next_text(const Next& next) {
+std::string next_text(const Answers& answers) {
+  const Next next = next_of(answers);
   std::vector<std::string> parts;
   for (const std::string& check : next.checks)
     parts.push_back("check: " + check);
   parts.insert(parts.end(), next.tests.begin(), next.tests.end());
   if (!next.command.empty()) parts.push_back(next.command + " makes tables of the law to take");
+  if (parts.empty() && answers.verification)
+    return "use a routine of export/ in your FE code; README.md in its folder shows how";
   return join(parts, "; ");
 }
 
@@ -212,16 +240,16 @@ Section in_short(const Answers& answers) {
     if (!text.empty()) list.items.push_back(strong(what) + ": " + text);
   };
   if (is_calibrated(answers)) {
-    add("take", take_text(*answers.calibration));
+    add("take", take_text(answers));
     add("expect", expect_text(*answers.calibration));
   } else if (answers.calibration) {
     add("take", "no law was calibrated");
   }
   for (const trace::Trace& trace : answers.traces)
-    add("missing effects", trace_in_short(trace));
-  if (is_calibrated(answers)) add("valid", valid_text(answers));
+    add("effects", trace_in_short(trace));
+  if (is_calibrated(answers)) add("tested", valid_text(answers));
   if (answers.verification) add("drift", drift_in_short(*answers.verification));
-  add("next", next_text(next_of(answers)));
+  add("next", next_text(answers));
   section.add(std::move(list));
   return section;
 }

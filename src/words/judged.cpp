@@ -106,12 +106,10 @@ std::string judged_text(const calibrate::Calibration& c) {
   switch (c.judged_by) {
   case JudgedBy::leave_one_out:
     if (c.recordings > 0)
-      return fmt::format("validated on {}, each of {} recordings left out in turn: the errors of a "
-                         "recording are those of the law fitted to all the others",
-                         on, c.recordings);
-    return "validated on " + on +
-           ", each left out in turn: the errors of an experiment are those of the law fitted to "
-           "all the others";
+      return fmt::format("each of {} recordings left out in turn and predicted by the law fitted "
+                         "to all the others",
+                         c.recordings);
+    return "each left out in turn and predicted by the law fitted to all the others";
   case JudgedBy::fit:
     return "not validated: " + on +
            ", to which the laws are fitted; how far they are off another test is not known";

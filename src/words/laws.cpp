@@ -180,8 +180,8 @@ Section ranking(const Calibration& c, Detail detail) {
   const int decimals = error_decimals(c);
   section.say(fmt::format("Calibrated on {} of {}, {}. Residual = measured \u2212 predicted: a "
                           "positive bias says that the law predicts too little friction. Intervals "
-                          "are 95 %, from resampling whole experiments. The noise floor is what is "
-                          "left where a law of the state is exact.",
+                          "are 95 %, from resampling whole experiments. The noise floor is the "
+                          "scatter that no law of these columns can predict.",
                           count_of(t.n_rows, "row"), count_of(t.n_experiments, "experiment"),
                           judged_text(c)),
               "", Shown::on_pages);

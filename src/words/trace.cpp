@@ -357,9 +357,10 @@ std::string trace_in_short(const Trace& t) {
     aliases += fmt::format("; {} cannot be distinguished from {}", alias.column, alias.state);
   if (t.effects.empty()) return fmt::format("{}: {}{}", t.model, headline(t), aliases);
   const calibrate::Difference& gain = t.improvement;
-  const std::string errors = fmt::format(
-      "{} -> {} MPa on unseen tests (gain 95 %: {})", digits(t.before.validation.mae_MPa),
-      digits(t.after.validation.mae_MPa), interval(gain.interval));
+  const std::string errors =
+      fmt::format("{} -> {} MPa on tests unseen by the search (95 % interval of the gain: {})",
+                  digits(t.before.validation.mae_MPa), digits(t.after.validation.mae_MPa),
+                  interval(gain.interval));
   if (!(gain.interval.low > 0))
     return fmt::format("{}: {} added that may gain nothing, {}{}", t.model,
                        count_of(t.effects.size(), "effect"), errors, aliases);

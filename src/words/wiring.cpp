@@ -61,7 +61,7 @@ Section recipe_section(const Json& recipe, const std::string& path, Detail detai
 } // namespace
 
 Section wiring(const std::vector<Recipe>& recipes, Detail detail) {
-  Section section{"wiring", "Wiring", "How to wire the routines"};
+  Section section{"wiring", "FE codes", "The routines in their FE codes"};
   for (const Recipe& one : recipes) {
     const Json recipe = io::parse_json(one.text, one.path);
     io::read_json(one.path, "export again",

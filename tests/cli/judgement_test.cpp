@@ -184,8 +184,8 @@ TEST_F(Judgement, OfFewTestsEachIsLeftOutInTurnAndTheTextSaysSo) {
   EXPECT_EQ(json.at("models").at(0).at("by_experiment_left_out").at("mae_MPa").size(), 16U);
   EXPECT_THAT(
       directory.read("data/out/benchmark.md"),
-      HasSubstr("validated on 640 rows of 16 experiments, each left out in turn: the errors "
-                "of an experiment are those of the law fitted to all the others. "));
+      HasSubstr("Calibrated on 640 rows of 16 experiments, each left out in turn and predicted by "
+                "the law fitted to all the others. "));
   EXPECT_THAT(directory.read("data/out/errors_by_experiment.csv"),
               Not(HasSubstr("log_coulomb,E001,0,")));
 }
