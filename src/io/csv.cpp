@@ -60,6 +60,7 @@ public:
 
   bool at_end() const { return at_ >= text_.size(); }
   bool at_quote() const { return !at_end() && text_[at_] == '"'; }
+  bool separates_by(char sign) const { return delimiter_ == sign; }
   std::size_t line() const { return line_; }
   std::size_t column() const { return at_ - line_start_ + 1; }
   std::size_t position() const { return at_; }
@@ -511,14 +512,14 @@ void remove_comment_sign(std::vector<std::string>& names, Scanner below) {
 }
 
 // True if rows have a name of their own in front, as R writes them: text in quotes or 1, 2, ... in
-// a column that the header lacks.
+// a column that the header lacks. Between commas only the former: one may be that of a decimal.
 bool rows_have_names(Scanner below, std::size_t columns) {
   int row = 0;
   for (; row < 2 && !below.at_end(); ++row) {
     const bool quoted = below.at_quote();
     const std::vector<std::string> cells = read_names(below);
     if (cells.size() != columns + 1 || cells.back().empty() ||
-        (!quoted && cells.front() != std::to_string(row + 1)))
+        (!quoted && (below.separates_by(',') || cells.front() != std::to_string(row + 1))))
       return false;
   }
   return row > 0;

@@ -309,7 +309,7 @@ TEST_F(RigLayouts, NamesOfRowsAsRWritesThemAreAColumn) {
   EXPECT_THAT(guessed("r.txt"),
               AllOf(HasSubstr("\ntime_s = \"time\""), HasSubstr("\nsigma_n_MPa = \"p\""),
                     HasSubstr("\ntau_R_MPa = \"tau\"")));
-  directory.write("comma.csv", "time,F\n0,1,5\n0,2,5\n"); // decimal commas are no names
+  directory.write("comma.csv", "time,F\n1,1,5\n2,2,5\n"); // decimal commas
   write_job("[data]\ntraining = \"comma.csv\"\n");
   EXPECT_THAT(data().err, HasSubstr("comma.csv:2: error: 3 cells, the header has 2"));
 }
