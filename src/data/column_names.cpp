@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "data/quantity.h"
 #include "data/scale.h"
+#include "data/sniff.h"
 #include "io/csv.h"
 
 namespace frictab::data {

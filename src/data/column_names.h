@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "data/sniff.h"
-
 namespace frictab::data {
+
+struct GuessedColumn; // sniff.h
 
 // The words of a name in lower case, with single blanks between: "NormalForce_[N]" is "normal force
 // n".

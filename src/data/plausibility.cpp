@@ -43,7 +43,7 @@ constexpr std::size_t stuck_rows = 20, clipped_rows = 10;
 constexpr double no_load = 0.05, half_load = 0.5, offset_share = 0.1;
 constexpr std::size_t rows_without_contact = 10;
 // Share of a test's friction, and coefficient, that count as none, in at least so many rows.
-constexpr double stuck_share = 0.1, stuck_mu = 0.02;
+constexpr double still_share = 0.1, still_mu = 0.02;
 constexpr std::size_t rows_at_rest = 5;
 
 // Returns 0 for no values.
@@ -538,7 +538,7 @@ std::size_t rows_without_friction(const Forces& forces) {
   const double rubs = quantile({forces.friction.begin(), forces.friction.end()}, 0.75);
   const auto is_still = [&](std::size_t i) {
     const double size = std::abs(forces.friction[i]);
-    return size < stuck_share * rubs && size < stuck_mu * forces.normal[i] &&
+    return size < still_share * rubs && size < still_mu * forces.normal[i] &&
            forces.normal[i] > half_load * forces.load;
   };
   const std::size_t rows = forces.normal.size();

@@ -79,15 +79,20 @@ constexpr NameRule name_rules[] = {
 constexpr const char* friction_names =
     "(^|[^a-z])(cof|mu|friction|torque|drag|shear|pull|f_?[xtr])([^a-z]|$)|reib|friction|torque";
 
-// Matches names in lower case, with _ between words: "Mass loss [mg]" is mass_loss_mg.
-bool fits(const char* pattern, const std::string& name) {
-  return Pattern(pattern, {}).search(replace_all(words_of_name(name), " ", "_")).has_value();
+// In lower case, with _ between words: "Mass loss [mg]" is mass_loss_mg.
+std::string plain_name(const std::string& name) {
+  return replace_all(words_of_name(name), " ", "_");
+}
+
+bool fits(const char* pattern, const std::string& plain) {
+  return Pattern(pattern, {}).search(plain).has_value();
 }
 
 Given role_by_name(const std::string& name, bool within) {
+  const std::string plain = plain_name(name);
   for (const NameRule& rule : name_rules)
     if ((rule.when == When::any || (rule.when == When::within) == within) &&
-        fits(rule.pattern, name))
+        fits(rule.pattern, plain))
       return {rule.role, "by its name"};
   return {};
 }
@@ -162,7 +167,7 @@ public:
       return given;
     if (disguise != disguises_.end())
       given.why += question(name, disguise->second.how);
-    else if (fits(friction_names, name))
+    else if (fits(friction_names, plain_name(name)))
       given.why += question(name, "by its name");
     return given;
   }
@@ -205,14 +210,14 @@ private:
                       own = parts_.front()->find(name)->unit;
     for (const char* const state :
          {"sigma_n_MPa", "F_N_N", "v_rel_mm_s", "T_tool_C", "T_contact_C"}) {
+      if (!parts_.front()->has(state)) continue;
       const std::string unit = find_quantity(state)->unit, ends = !own.empty() ? own
                                                                   : !header.empty()
                                                                       ? header
                                                                       : unit_in_name(name, unit);
       const bool is_force = std::string(state) == "sigma_n_MPa" &&
                             (convert(ends, "N") || !unit_in_name(name, "N").empty());
-      if (!parts_.front()->has(state) || (!is_force && !convert(ends, unit))) continue;
-      if (follows(name, state))
+      if ((is_force || convert(ends, unit)) && follows(name, state))
         return {Role::ignore, fmt::format("the set {}, which is measured", state)};
     }
     return {};

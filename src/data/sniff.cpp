@@ -188,16 +188,14 @@ std::vector<std::string> cells_of(const io::CsvColumn& column) {
   return cells;
 }
 
-std::vector<std::string> different_cells(const io::CsvColumn& column) {
-  const std::vector<std::string> cells = cells_of(column);
-  const std::set<std::string> different(cells.begin(), cells.end());
-  return {different.begin(), different.end()};
+std::set<std::string> set_of(const std::vector<std::string>& cells) {
+  return {cells.begin(), cells.end()};
 }
 
 // The cells of a column as texts, if they all differ.
 std::vector<std::string> names_in(const io::CsvColumn& column) {
   std::vector<std::string> names = cells_of(column);
-  if (different_cells(column).size() < names.size()) names.clear();
+  if (set_of(names).size() < names.size()) names.clear();
   return names;
 }
 
@@ -271,7 +269,8 @@ std::vector<GuessedColumn> columns_of(const io::CsvTable& table) {
   name_columns(columns);
   if (GuessedColumn* const tests = find_column(columns, "experiment")) {
     tests->names = names_in(raw_of(*tests, table));
-    if (tests->names.empty()) tests->tests = different_cells(raw_of(*tests, table));
+    const std::set<std::string> cells = set_of(cells_of(raw_of(*tests, table)));
+    if (tests->names.empty()) tests->tests.assign(cells.begin(), cells.end());
   }
   name_clock(columns, table);
   name_coefficient(columns, table);
