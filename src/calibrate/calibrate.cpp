@@ -292,6 +292,7 @@ Calibration calibrate(const CalibrationInput& input) {
     calibration.recordings = units.count;
   calibration.data_hash = data::fingerprint(input.training, input.validation);
   calibration.validation_experiments = input.validation.experiments;
+  calibration.mean_stress_MPa = mean_stress_MPa(input.validation);
   calibration.fits.resize(selection.laws.size());
   Progress progress("calibrating laws", selection.laws.size());
   parallel_for(selection.laws.size(), [&](std::size_t i) {

@@ -119,6 +119,8 @@ struct Calibration {
   Choice choice;                        // optimism of the best law's error, due to its selection
   Recommended recommended;              // law to use
   std::vector<NoiseFloor> noise_floors; // most trustworthy first
+  // Mean of |tau_R| over the rows on which the laws are judged; 0 in files of 0.2.
+  double mean_stress_MPa = 0;
   Conditional conditional;
   Deliver deliver = Deliver::training;
   // number of recordings that contain the training experiments as intervals; 0: each is its own

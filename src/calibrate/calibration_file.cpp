@@ -358,6 +358,8 @@ static void describe(Fields& f, Calibration& c) {
   }
   if (f.has("recordings", true)) f("recordings", c.recordings);
   f("validation_experiments", c.validation_experiments);
+  if (f.has("mean_stress_MPa", true)) // not in files of 0.2
+    f.known("mean_stress_MPa", c.mean_stress_MPa);
   f.within("noise_floor", [&](Fields& floors) { describe_noise_floors(floors, c.noise_floors); });
   f.list("models", c.fits, [&](Fields& one, ModelFit& fit) {
     describe_fit(one, fit, Part::calibrated, c.validation_experiments);

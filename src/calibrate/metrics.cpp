@@ -116,4 +116,12 @@ Metrics metrics(std::span<const double> measured, std::span<const double> predic
   return metrics(stats::error_sums(measured, predicted, first_row), resamples, seed);
 }
 
+double mean_stress_MPa(const data::Dataset& data) {
+  const auto tau = data.values("tau_R_MPa");
+  double sum = 0;
+  for (const double one : tau)
+    sum += std::abs(one);
+  return tau.empty() ? 0 : sum / static_cast<double>(tau.size());
+}
+
 } // namespace frictab::calibrate

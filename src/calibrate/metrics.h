@@ -28,4 +28,7 @@ Metrics metrics(const data::Dataset& data, std::span<const double> predicted, st
 Metrics metrics(std::span<const stats::ErrorSums> of_tests, std::size_t resamples,
                 std::uint64_t seed);
 
+// Mean of |tau_R| over all rows, in MPa: what errors are compared with.
+double mean_stress_MPa(const data::Dataset& data);
+
 } // namespace frictab::calibrate

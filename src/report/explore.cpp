@@ -20,6 +20,7 @@
 #include "words/data.h"
 #include "words/numbers.h"
 #include "words/render.h"
+#include "words/trace.h"
 
 namespace frictab::report {
 
@@ -93,7 +94,7 @@ Json tests_json(const std::vector<Part>& parts) {
 
 // Range and median over all tests.
 Json state_json(const std::string& name, const std::vector<Part>& parts,
-                const calibrate::Calibration& calibration) {
+                const ReportInput& input) {
   std::vector<double> values;
   for (const Part& part : parts)
     if (const auto at = part.columns.find(name); at != part.columns.end())
@@ -103,13 +104,13 @@ Json state_json(const std::string& name, const std::vector<Part>& parts,
   std::sort(values.begin(), values.end());
   const data::Quantity* quantity = data::find_quantity(name);
   Json j = {{"name", name},
-            {"label", axis_name(name)},
+            {"label", axis_name(words::column_name(name, input.traces))},
             {"log", quantity && quantity->log_axis && values.front() > 0 &&
                         values.back() > log_from * values.front()},
             {"low", rounded(values.front())},
             {"high", rounded(values.back())},
             {"middle", rounded(quantile(values, 0.5))}};
-  for (const calibrate::ModelFit& fit : calibration.fits)
+  for (const calibrate::ModelFit& fit : input.calibration.fits)
     if (const auto levels = fit.model.law->levels.find(name); levels != fit.model.law->levels.end())
       j["levels"] = levels->second;
   return j;
@@ -166,7 +167,7 @@ std::string explore_html(const ReportInput& input) {
   }
   Json states = Json::array();
   for (const std::string& name : names)
-    if (Json state = state_json(name, parts, c); !state.is_null())
+    if (Json state = state_json(name, parts, input); !state.is_null())
       states.push_back(std::move(state));
   const std::string recommended =
       c.fits.empty() ? "" : calibrate::recommended_fit(c).model.law->name;

@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "data/quantity.h"
 #include "report/svg.h"
+#include "words/trace.h"
 
 namespace frictab::report {
 
@@ -65,10 +66,12 @@ std::string residuals_over_other_inputs(const ReportInput& input, const calibrat
     const std::string& name = law.inputs[i];
     if (std::find(others.begin(), others.end(), name) == others.end()) continue;
     const auto levels = fit.model.law->levels.find(name);
-    const auto axis = levels != fit.model.law->levels.end() ? svg::named_axis(levels->second, name)
-                                                            : axis_over(name, columns[i]);
+    const std::string own_name = words::column_name(name, input.traces);
+    const auto axis = levels != fit.model.law->levels.end()
+                          ? svg::named_axis(levels->second, own_name)
+                          : axis_over(own_name, columns[i]);
     if (axis)
-      text += residual_over(fit.model.law->name, {*axis, name}, columns[i], residual, frame);
+      text += residual_over(fit.model.law->name, {*axis, own_name}, columns[i], residual, frame);
   }
   return text;
 }

@@ -2,9 +2,9 @@
 #include "run/law_accuracy.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "calibrate/band.h"
+#include "calibrate/metrics.h"
 #include "core/error.h"
 #include "table/direct.h"
 
@@ -19,19 +19,11 @@ const ModelFit& fit_of(const Run& run, const models::Model& model) {
   return *calibrate::find_fit(*run.calibration, model.law->name);
 }
 
-double mean_stress_MPa(const Run& run) {
-  double sum = 0;
-  const auto tau = run.data->training.values("tau_R_MPa");
-  for (const double one : tau)
-    sum += std::abs(one);
-  return sum / static_cast<double>(tau.size());
-}
-
 table::Tolerance tolerance_of(const Run& run, const models::Model& model) {
   if (run.job.table.tolerance_MPa) return {*run.job.table.tolerance_MPa, ""};
   const bool judged = run.calibration->judged_by != calibrate::JudgedBy::fit;
   return table::auto_tolerance(fit_of(run, model).delivered().validation.mae_MPa,
-                               mean_stress_MPa(run),
+                               calibrate::mean_stress_MPa(run.data->training),
                                judged ? "unseen tests" : "the test that it is fitted to");
 }
 
@@ -79,7 +71,7 @@ verify::VerifyInput verify_input(const Run& run, const models::AssembledLaw& law
   input.proof_boxes = run.job.verify.proof_boxes;
   input.allowed_from = allowed.from;
   input.law_error_MPa = table::least_error(fit_of(run, law.model).delivered().validation.mae_MPa,
-                                           mean_stress_MPa(run));
+                                           calibrate::mean_stress_MPa(run.data->training));
   return input;
 }
 

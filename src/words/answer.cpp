@@ -40,19 +40,20 @@ std::string others_text(const Calibration& calibration) {
                                     candidates);
 }
 
-// The effects of a traced law: "Ra [um], oil added".
+// The effects of a traced law: "with Ra [um], oil added".
 std::string added_text(const std::string& law, const Answers& answers) {
   constexpr std::size_t shown = 3;
   for (const trace::Trace& t : answers.traces) {
     if (t.extended_model != law) continue;
+    if (t.effects.empty()) return "without what follows the order of tests";
     if (t.effects.size() > shown || !(t.improvement.interval.low > 0))
-      return count_of(t.effects.size(), "effect") + " added";
+      return "with " + count_of(t.effects.size(), "effect") + " added";
     std::vector<std::string> causes;
     for (const trace::TracedEffect& effect : t.effects)
       causes.push_back(cause_text(effect));
-    return join(causes, ", ") + " added";
+    return "with " + join(causes, ", ") + " added";
   }
-  return "effects added";
+  return "with effects added";
 }
 
 Text take_text(const Answers& answers) {
@@ -65,7 +66,7 @@ Text take_text(const Answers& answers) {
   Text text = strong(recommended);
   const models::Law& law = *calibrate::recommended_fit(calibration).model.law;
   if (!law.base.empty())
-    text += fmt::format(" ({} with {})", law.base, added_text(recommended, answers));
+    text += fmt::format(" ({} {})", law.base, added_text(recommended, answers));
   if (recommended == best_law)
     text += ", the best law";
   else
@@ -112,6 +113,9 @@ Text expect_text(const Calibration& calibration) {
   if (calibration.judged_by == calibrate::JudgedBy::fit)
     return "unknown for new tests; " + strong(mae) + " on the test that it is fitted to";
   Text text = strong(mae) + " mean absolute error of " + symbol("tau_R") + " on new tests";
+  if (calibration.mean_stress_MPa > 0)
+    text += fmt::format(", {} % of the mean stress",
+                        short_figures(100 * expected.mae_MPa / calibration.mean_stress_MPa, 2));
   if (std::isfinite(expected.interval.high))
     text += fmt::format(" (95 %: {})", interval_text(expected.interval, decimals));
   if (!expected.from.empty()) text += ", " + expected.from;
@@ -148,22 +152,13 @@ std::string far_text(const Answers& answers) {
   return "";
 }
 
-// The file's own name of an input that a traced effect brings.
-std::string name_of_input(const std::string& input, const Answers& answers) {
-  for (const trace::Trace& t : answers.traces)
-    for (const trace::TracedEffect& effect : t.effects)
-      for (const effects::EffectInput& one : effect.placed.inputs)
-        if (effects::symbol_of(one.column) == input) return one.column;
-  return input;
-}
-
 // "sigma_N 500 to 2,105 MPa, Ra [um] 0.2 to 3".
 Text valid_text(const Answers& answers) {
   Text text;
   for (const auto& [name, range] : valid_ranges(*answers.calibration)) {
     const data::Quantity* const quantity = data::find_quantity(name);
     if (!text.empty()) text += ", ";
-    text += quantity ? symbol(quantity->symbol) : Text(name_of_input(name, answers));
+    text += quantity ? symbol(quantity->symbol) : Text(column_name(name, answers.traces));
     text += fmt::format(" {} to {}", short_figures(range.first, 3), short_figures(range.second, 3));
     if (quantity && quantity->unit != "1") text += " " + quantity->unit;
   }

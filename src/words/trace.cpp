@@ -1,6 +1,7 @@
 // Sentences and tables of a trace.
 #include "words/trace.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -120,11 +121,25 @@ void add_design(Section& section, const trace::Design& d) {
   section.add(std::move(table));
 }
 
-Section effect_section(const TracedEffect& e, Detail detail) {
+// The column of an effect in a product stays, whether or not it gains anything by itself.
+bool is_for_product(const TracedEffect& e, const Trace& t) {
+  return e.gain_MPa <= 0 && e.placed.inputs.size() == 1 &&
+         std::any_of(t.effects.begin(), t.effects.end(), [&](const TracedEffect& other) {
+           const auto& inputs = other.placed.inputs;
+           return inputs.size() > 1 &&
+                  std::any_of(inputs.begin(), inputs.end(), [&](const effects::EffectInput& one) {
+                    return one.column == e.placed.inputs[0].column;
+                  });
+         });
+}
+
+Section effect_section(const TracedEffect& e, const Trace& t, Detail detail) {
+  const std::string gain =
+      is_for_product(e, t) ? "kept for its product"
+                           : fmt::format("gains {} MPa on unseen tests", digits(e.gain_MPa));
   Section section{"", "",
-                  fmt::format("+ {}: {}, {}, {}, gains {} MPa on unseen tests", cause_text(e),
-                              e.placed.form->name, site_text(e.placed.acts_on), p_clause(e.p_value),
-                              digits(e.gain_MPa))};
+                  fmt::format("+ {}: {}, {}, {}, {}", cause_text(e), e.placed.form->name,
+                              site_text(e.placed.acts_on), p_clause(e.p_value), gain)};
   section.say(effects::change_text(e.placed));
   const Text formula = emphasis(effects::formula_text(e.placed)) + ": " + parameters_of(e);
   section.say(formula, "", detail == Detail::verbose ? Shown::everywhere : Shown::on_pages);
@@ -191,7 +206,7 @@ std::string shown_by_validation(const Trace& t) {
 // "v_rel_mm_s (p = 0.001, would take 15.0 to about 10.2 MPa)"
 std::string unconfirmed_text(const Lead& lead) {
   std::string text = fmt::format("{} (p = {:.2g}", lead_name(lead), lead.p_value);
-  if (lead.with_MPa < lead.without_MPa)
+  if (digits(lead.with_MPa) != digits(lead.without_MPa) && lead.with_MPa < lead.without_MPa)
     text += fmt::format(", would take {} to about {} MPa", digits(lead.without_MPa),
                         digits(lead.with_MPa));
   return text + ")";
@@ -218,7 +233,8 @@ std::string headline(const Trace& t) {
   case Verdict::unexplained_structure:
     break;
   }
-  return "unexplained structure";
+  const std::string found = not_confirmed(t);
+  return "unexplained structure" + (found.empty() ? "" : "; " + found);
 }
 
 const char* result_of(Verdict verdict) {
@@ -266,7 +282,7 @@ Section trace(const Trace& t, Detail detail) {
   for (const trace::Alias& alias : t.cannot_tell)
     section.say(alias.text);
   for (const TracedEffect& effect : t.effects)
-    section.add(effect_section(effect, detail));
+    section.add(effect_section(effect, t, detail));
   add_errors(section, t);
   List list;
   if (detail == Detail::brief) {
@@ -306,6 +322,14 @@ std::string cause_text(const TracedEffect& effect) {
   std::string text = effects::columns_text(effect.placed);
   if (!effect.derived.empty()) text += " (from " + join(effect.columns, ", ") + ")";
   return text;
+}
+
+std::string column_name(const std::string& input, const std::vector<trace::Trace>& traces) {
+  for (const trace::Trace& t : traces)
+    for (const TracedEffect& effect : t.effects)
+      for (const effects::EffectInput& one : effect.placed.inputs)
+        if (effects::symbol_of(one.column) == input) return one.column;
+  return input;
 }
 
 std::string lead_name(const Lead& lead) {

@@ -35,6 +35,10 @@ std::string lead_name(const trace::Lead& lead);
 // "friction_work (from s_mm)", "humidity_pct", "psi x s_mm".
 std::string cause_text(const trace::TracedEffect& effect);
 
+// The file's own name of a law's input that an effect brings: "Ra [um]" for "Ra__um_"; other names
+// as they are.
+std::string column_name(const std::string& input, const std::vector<trace::Trace>& traces);
+
 // "on mu", "on the limit", "added to tau_R".
 const char* site_text(effects::ActsOn acts_on);
 
