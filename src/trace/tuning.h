@@ -391,6 +391,9 @@ inline constexpr double held_share_of_range = 1e-3;
 // Range of a level's tests, as a share of their mean, that the text gives as one value. Chosen, not
 // measured.
 inline constexpr double same_value_share_of_mean = 0.05;
+// Range of a state's test means, as a share of what a test runs through, from which on the tests
+// differ in it. Chosen, not measured.
+inline constexpr double apart_share_of_range = 0.1;
 // Share of a value by which two significant digits may change it in a text. Chosen, not measured.
 inline constexpr double rounded_share_of_value = 0.01;
 // Tests below which aliases are not sought. Chosen, not measured.

@@ -87,6 +87,20 @@ TEST(Aliases, AreNoneOfWhatIsCrossedOrNamesTestsOrVariesWithin) {
   EXPECT_THAT(aliases(data), IsEmpty());
 }
 
+TEST(Aliases, AreNoneOfAStateThatIsTheSameInAllTests) {
+  GainCampaign c = GainCampaign::spread(16, 3);
+  for (std::size_t e = 0; e < 16; ++e) {
+    c.pressure[e] = 1000 * (1 + 1e-4 * double(e % 2)); // as a load cell reads one load
+    c.speed[e] = 50;
+  }
+  Dataset data = c.data(); // the temperature rises by 5 degC in a test
+  auto& temperature = data.columns[2].values;
+  for (std::size_t i = 0; i < temperature.size(); ++i)
+    temperature[i] = 40 + 100 * double(i % c.rows) / double(c.rows) + 0.5 * double(i / c.rows % 2);
+  add_setting(data, "batch", per_test([](std::size_t e) { return double(e % 2); }), {"A", "B"});
+  EXPECT_THAT(trace::find_aliases(data, law(data, "exp_coulomb"), {}), IsEmpty());
+}
+
 TEST(Aliases, AreNoneByChance) {
   std::size_t found = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {

@@ -91,6 +91,7 @@ struct Campaign {
       all.columns.push_back({c});
       all.first.push_back(1);
       all.sharp.push_back(0);
+      all.along_order.push_back(0);
       all.in_law.push_back(0);
     }
     return all;

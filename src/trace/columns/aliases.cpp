@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "data/options.h"
 #include "data/quantity.h"
+#include "data/recordings.h"
 #include "data/roles.h"
 #include "trace/columns/candidates.h"
 #include "trace/tuning.h"
@@ -38,7 +39,7 @@ std::vector<double> setting_of(const Column& column, const Dataset& data) {
 
 bool may_act(const Column& column, const TraceOptions& options) {
   return data::may_be_searched(column.role) && !data::find_quantity(column.name) &&
-         column.name != data::origin_column &&
+         column.name != data::origin_column && column.name != data::interval_column &&
          std::find(options.ignore.begin(), options.ignore.end(), column.name) ==
              options.ignore.end();
 }
@@ -50,6 +51,25 @@ struct State {
   std::vector<double> at;    // the means or their logarithms
 };
 
+// Whether the tests were run at different values: not where their means differ little, or by a
+// small part of what each test runs through.
+bool differs_between_tests(const Dataset& data, const State& state) {
+  const auto [low, high] = std::minmax_element(state.means.begin(), state.means.end());
+  std::vector<double> ranges;
+  const auto values = data.values(state.name);
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const auto [least, most] =
+        std::minmax_element(values.begin() + static_cast<long>(data.first_row[e]),
+                            values.begin() + static_cast<long>(data.first_row[e + 1]));
+    ranges.push_back(*most - *least);
+  }
+  std::nth_element(ranges.begin(), ranges.begin() + static_cast<long>(ranges.size() / 2),
+                   ranges.end());
+  const double size = std::max(std::abs(*low), std::abs(*high));
+  return *high - *low > std::max(tuning::same_value_share_of_mean * size,
+                                 tuning::apart_share_of_range * ranges[ranges.size() / 2]);
+}
+
 std::vector<State> states_of(const Dataset& data, const models::Model& model) {
   models::Conventions unlimited = model.conventions;
   unlimited.shear_limit = false;
@@ -58,6 +78,7 @@ std::vector<State> states_of(const Dataset& data, const models::Model& model) {
     const data::Quantity* quantity = data::find_quantity(name);
     if (!quantity || !quantity->state || name == "s_mm" || !data.has(name)) continue;
     State state{name, test_means(data, data.values(name)), {}};
+    if (!differs_between_tests(data, state)) continue;
     const bool log =
         quantity->log_axis && *std::min_element(state.means.begin(), state.means.end()) > 0;
     for (const double mean : state.means)

@@ -53,6 +53,8 @@ public:
     compare_errors();
     while (const auto reading = too_good())
       take_off(*reading, another_reading(*reading));
+    while (const auto idle = gains_nothing())
+      take_off(*idle, {"unseen tests are predicted no better with it"});
     if (!d_.findings.empty() && by_validation()) {
       Difference gain = against_calibrated();
       if (gain.value_MPa <= 0 && weights_ == 0) {
@@ -117,20 +119,18 @@ private:
     return is_in_product(f_.findings[finding].rival.causes.back().columns, columns);
   }
 
-  // Removes effects without which left-out tests are predicted better, the worst first.
+  // Removes effects without which left-out tests are predicted as well, the worst first.
   void drop_losses() {
     while (d_.findings.size() > 1) {
-      std::size_t worst = 0;
-      double loss = 0;
+      std::optional<std::size_t> worst;
       for (const std::size_t f : d_.findings)
-        if (const double gain = nested_gain(f); gain < loss && !is_parent(f)) {
-          worst = f;
-          loss = gain;
-        }
-      if (!(loss < 0)) return;
-      d_.against[worst] = {
-          fmt::format("left-out tests are predicted {:.2g} MPa better without it", -loss)};
-      take(without(worst));
+        if (!is_parent(f) && nested_gain(f) <= (worst ? nested_gain(*worst) : 0)) worst = f;
+      if (!worst) return;
+      const double loss = -nested_gain(*worst);
+      d_.against[*worst] = {
+          loss > 0 ? fmt::format("left-out tests are predicted {:.2g} MPa better without it", loss)
+                   : "left-out tests are predicted no better with it"};
+      take(without(*worst));
       judge_by_folds();
     }
   }
@@ -203,7 +203,7 @@ private:
       gains[i] = gained(on_validation(d_.rival), on_validation(fewer[i]));
       const bool out =
           gains[i].interval.high < 0 ||
-          (gains[i].value_MPa < 0 && d_.findings.size() > 1 && !is_parent(d_.findings[i]));
+          (gains[i].value_MPa <= 0 && d_.findings.size() > 1 && !is_parent(d_.findings[i]));
       if (out && (worst == d_.findings.size() || gains[i].value_MPa < gains[worst].value_MPa))
         worst = i;
       d_.gain_MPa.push_back(gains[i].value_MPa);
@@ -258,6 +258,13 @@ private:
         !(after * after < tuning::implausible_share_left * before * before))
       return std::nullopt;
     return *reading;
+  }
+
+  // Returns the first finding without which unseen tests are predicted as well.
+  std::optional<std::size_t> gains_nothing() const {
+    for (std::size_t i = 0; i < d_.findings.size(); ++i)
+      if (d_.gain_MPa[i] <= 0 && !is_parent(d_.findings[i])) return d_.findings[i];
+    return std::nullopt;
   }
 
   bool reads_something(std::size_t finding) const {

@@ -46,8 +46,7 @@ std::string scatter_sentence(const Trace& t) {
 
 std::string order_sentence(const OrderStructure& order) {
   return fmt::format("friction follows the order of tests ({}), {:.2g} MPa or {} root mean square: "
-                     "drift, wear or batch; no recorded column explains it in addition; the law "
-                     "holds it at {}",
+                     "drift, wear or batch; the law holds it at {}",
                      order.column, order.size_MPa, percent(order.share), order.reference);
 }
 

@@ -106,9 +106,19 @@ private:
   }
 
   bool may_be_offered(const Cause& cause) const {
-    if (is_the_order(s_, cause)) return false;
+    const bool has_walk = s_.input().options.tool_distance.empty();
+    if (goes_with_order(cause, AlongOrder::is_order) ||
+        (!has_walk && goes_with_order(cause, AlongOrder::stretches)))
+      return false;
     return cause.is_joint() || !constant_in_experiments(cause, s_.candidates()) ||
            differs_between_tests(s_.candidates().columns[cause.columns[0]]);
+  }
+
+  // The tool's wear may be declared as an effect.
+  bool goes_with_order(const Cause& cause, AlongOrder how) const {
+    if (!cause.is_joint() && s_.candidates().columns[cause.columns[0]].is_wear) return false;
+    return std::any_of(cause.columns.begin(), cause.columns.end(),
+                       [&](std::size_t c) { return along_order_[c] == how; });
   }
 
   // A text column needs a level that several tests share.
@@ -129,8 +139,10 @@ private:
 
   void offer_terms() {
     const auto& columns = s_.candidates().columns;
-    for (const CandidateColumn& column : columns)
-      offer_.in_law.push_back(column.in_law);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      offer_.in_law.push_back(columns[c].in_law);
+      along_order_.push_back(along_order(s_, c));
+    }
     shapes_.resize(columns.size());
     parallel_for(shapes_.size(), [&](std::size_t c) {
       if (columns[c].levels.empty() && !constant_in_experiments({{c}}, s_.candidates()))
@@ -180,6 +192,7 @@ private:
     offer_.columns.push_back(cause.columns);
     offer_.first.push_back(first);
     offer_.sharp.push_back(shape != nullptr);
+    offer_.along_order.push_back(goes_with_order(cause, AlongOrder::stretches));
     const MatrixXd changes = sites_[site].second.asDiagonal() * basis.columns;
     terms_.push_back({count_, basis.straight, changes.cols(), is_imitated(cause)});
     count_ += changes.cols();
@@ -226,6 +239,7 @@ private:
     offer_.columns.emplace_back();
     offer_.first.push_back(0);
     offer_.sharp.push_back(0);
+    offer_.along_order.push_back(0);
     terms_.push_back({count_, 0, per_block.cols(), false});
     count_ += per_block.cols();
     parts_.push_back(modes_.of(per_block));
@@ -317,6 +331,7 @@ private:
   std::vector<std::pair<std::size_t, VectorXd>> sites_;
   std::vector<std::vector<GridShape>> shapes_; // per column that varies within tests
   std::vector<char> imitated_;                 // per column
+  std::vector<AlongOrder> along_order_;        // per column
   struct Offered {
     Cause cause;
     std::size_t site = on_mu;

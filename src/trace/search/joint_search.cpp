@@ -99,7 +99,9 @@ public:
         return o_.columns[in.term] == own;
       });
       const bool is_out = std::find(out_.begin(), out_.end(), o_.cause[t]) != out_.end();
-      if (o_.walk == t || is_in || is_out || (o_.sharp[t] && !sharp)) continue;
+      if (o_.walk == t || (o_.walk && o_.along_order[t]) || is_in || is_out ||
+          (o_.sharp[t] && !sharp))
+        continue;
       const bool has_parent =
           own.size() == 1 ||
           std::any_of(own.begin(), own.end(), [&](std::size_t c) { return parent[c] != 0; });
@@ -112,7 +114,8 @@ public:
     return footing.of_cause[o_.cause[term]].of(footing.of_term[term].of(ratio));
   }
 
-  // Index of the rarest ratio; if several exceed the limit of rarity, of the largest one.
+  // Index of the rarest ratio; if several exceed the limit of rarity, of the largest one. A column
+  // that would enter by itself goes before its product, which might only stand in for it.
   std::size_t rarest(const Footing& footing, const std::vector<std::size_t>& terms,
                      const std::vector<double>& ratios) const {
     std::size_t best = 0;
@@ -123,6 +126,16 @@ public:
         best = i;
         rarest = own;
       }
+    const auto& columns = o_.columns[terms[best]];
+    double enough = footing.enough / tuning::thresholds_for_ranking_by_likelihood;
+    if (columns.size() == 1 || !(enough > 0)) return best;
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      if (const auto& own = o_.columns[terms[i]];
+          own.size() == 1 && std::find(columns.begin(), columns.end(), own[0]) != columns.end())
+        if (const double rare = rarity(footing, terms[i], ratios[i]); rare > enough) {
+          best = i;
+          enough = rare;
+        }
     return best;
   }
 

@@ -50,8 +50,9 @@ struct JointOffer {
   std::vector<char> sharp;  // per term: one shape of a cause; skipped by the look-ahead
   std::vector<char> in_law; // per candidate
   // Random walk over the order of tests: part of the noise where the likelihood favours it, never
-  // offered as a term.
+  // offered as a term; and whether a term is another form of the order, offered only without it.
   std::optional<std::size_t> walk;
+  std::vector<char> along_order;
 };
 
 struct JointSettings {

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include <Eigen/Cholesky>
 
+#include "core/random.h"
 #include "stats/projection.h"
 #include "trace/columns/order_test.h"
 #include "trace/tuning.h"
@@ -27,6 +29,8 @@ constexpr const char* environment[] = {"lab",  "hall", "air",  "amb",  "baro",  
                                        "day",  "date", "week", "hour", "month", "season",
                                        "raum", "luft", "tag",  "datum"};
 
+constexpr std::uint64_t steps_stream = 73;
+
 VectorXd scores_of(const Search& search, const stats::Whitener& whitener, std::size_t site) {
   return experiment_scores(search.residual(), search.sensitivities()[site], search.known(),
                            whitener, search.first());
@@ -44,33 +48,71 @@ double size_of_structure(const Search& search, const MatrixXd& functions) {
   return stats::root_mean_square(explained);
 }
 
-// Whether each level is one stretch of the order, as of batches: the column is then another form of
-// the order.
-bool is_stretch(const Search& search, std::size_t c) {
-  const CandidateColumn& column = search.candidates().columns[c];
-  const auto rank = ranks(search.candidates().order);
-  std::vector<double> by_rank(rank.size());
-  for (std::size_t e = 0; e < rank.size(); ++e)
-    by_rank[rank[e]] = column.values(static_cast<Index>(search.first()[e]));
-  std::size_t stretches = 1;
-  for (std::size_t i = 1; i < by_rank.size(); ++i)
-    stretches += by_rank[i] != by_rank[i - 1];
-  return !column.levels.empty() &&
-         stretches <= std::set<double>(by_rank.begin(), by_rank.end()).size();
-}
-
 bool is_declared(const Search& search, const Cause& cause) {
   return !cause.is_joint() && search.candidates().columns[cause.columns[0]].is_wear;
 }
 
+std::vector<double> in_order(const Search& search, const VectorXd& of_tests) {
+  const auto rank = ranks(search.candidates().order);
+  std::vector<double> values(rank.size());
+  for (std::size_t e = 0; e < rank.size(); ++e)
+    values[rank[e]] = of_tests(static_cast<Index>(e));
+  return values;
+}
+
+// Places between neighbouring tests of the order at which the level changes.
+std::vector<std::size_t> changes_of(const std::vector<double>& levels) {
+  std::vector<std::size_t> changes;
+  for (std::size_t i = 1; i < levels.size(); ++i)
+    if (levels[i] != levels[i - 1]) changes.push_back(i - 1);
+  return changes;
+}
+
+// p-value of the hypothesis that steps at these places are like those elsewhere, by the sum of
+// their squares at as many places drawn at random.
+double p_of_steps(const VectorXd& steps, const std::vector<std::size_t>& places,
+                  std::uint64_t seed) {
+  double own = 0;
+  for (const std::size_t place : places)
+    own += steps(static_cast<Index>(place)) * steps(static_cast<Index>(place));
+  std::vector<double> squares(steps.size());
+  VectorXd::Map(squares.data(), steps.size()) = steps.array().square();
+  Random random(seed, steps_stream);
+  std::size_t as_large = 1;
+  for (std::size_t draw = 0; draw < tuning::order_permutations; ++draw) {
+    random.shuffle(std::span(squares));
+    const double sum = std::accumulate(
+        squares.begin(), squares.begin() + static_cast<std::ptrdiff_t>(places.size()), 0.0);
+    as_large += sum >= own * (1 - tuning::smallest_divisor);
+  }
+  return static_cast<double>(as_large) / static_cast<double>(tuning::order_permutations + 1);
+}
+
 } // namespace
 
-bool is_the_order(const Search& search, const Cause& cause) {
-  if (search.candidates().order.empty() || is_declared(search, cause)) return false;
-  return std::any_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
-    return search.candidates().columns[c].is_order ||
-           (constant_in_experiments({{c}}, search.candidates()) && is_stretch(search, c));
-  });
+AlongOrder along_order(const Search& search, std::size_t c) {
+  const CandidateColumn& column = search.candidates().columns[c];
+  if (search.candidates().order.empty()) return AlongOrder::no;
+  if (column.is_order) return AlongOrder::is_order;
+  if (column.levels.empty() || !constant_in_experiments({{c}}, search.candidates()))
+    return AlongOrder::no;
+  VectorXd level(static_cast<Index>(search.blocks().experiments()));
+  for (Index e = 0; e < level.size(); ++e)
+    level(e) = column.values(static_cast<Index>(search.first()[static_cast<std::size_t>(e)]));
+  const std::vector<double> levels = in_order(search, level);
+  const std::vector<std::size_t> changes = changes_of(levels);
+  const std::size_t count = std::set<double>(levels.begin(), levels.end()).size();
+  if (changes.size() >= count) return AlongOrder::no;
+  const data::Dataset& data = search.input().training;
+  if (values_of_tests(*data.find(search.candidates().order_column), data) <= count)
+    return AlongOrder::stretches; // a day for each level: days and levels step together
+  const std::size_t site = search.sensitivities()[on_both].size() > 0 ? on_both : on_mu;
+  const std::vector<double> scores = in_order(search, scores_of(search, search.whitener(), site));
+  const auto z = VectorXd::Map(scores.data(), level.size());
+  const VectorXd steps = z.tail(z.size() - 1) - z.head(z.size() - 1);
+  return p_of_steps(steps, changes, search.input().seed) <= search.input().options.alpha
+             ? AlongOrder::no
+             : AlongOrder::stretches;
 }
 
 namespace {
@@ -97,12 +139,12 @@ bool drifts(const VectorXd& x) {
 }
 
 // Site where the order has the strongest structure.
-struct AlongOrder {
+struct StrongestSite {
   double p_value = 1;
   std::size_t site = 0;
 };
 
-AlongOrder test_along_order(const Search& search) {
+StrongestSite test_along_order(const Search& search) {
   const stats::Whitener weights = search.whitener();
   std::vector<std::size_t> tried;
   MatrixXd scores(static_cast<Index>(search.blocks().experiments()), 0);
@@ -144,7 +186,7 @@ Found without_drift(Found found) {
   found.order.column = search.candidates().order_column;
   if (found.order.column.empty() || search.negligible()) return found;
   const double level = tuning::order_share_of_alpha * search.input().options.alpha;
-  const AlongOrder along = test_along_order(search);
+  const StrongestSite along = test_along_order(search);
   found.order.p_value = along.p_value;
   if (along.p_value > level) return found;
   const int count = std::min(tuning::most_order_functions,

@@ -7,10 +7,11 @@
 
 namespace frictab::trace {
 
-// Whether a cause is another form of the declared order: its column, or a text column each of whose
-// levels is one stretch of it, such as batches. Such a cause is not an effect, but structure along
-// the order, unless the user declared it as the tool's wear.
-bool is_the_order(const Search& search, const Cause& cause);
+// How a column goes with the declared order. `stretches`: a text column each of whose levels is one
+// stretch of it, as of batches, unless friction steps where the levels change and hardly elsewhere:
+// a permutation test of the steps between neighbouring tests, at trace.alpha.
+enum class AlongOrder { no, stretches, is_order };
+AlongOrder along_order(const Search& search, std::size_t column);
 // Whether a drift over time would look the same as an effect of that cause: because friction
 // follows the declared order as well; or because none is declared and the cause is a column of the
 // room or the calendar, or a reading that drifts from test to test in the order of their names.
