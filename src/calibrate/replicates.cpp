@@ -60,7 +60,8 @@ struct Setting {
 };
 
 bool may_be_set(const data::Column& column) {
-  return data::may_be_cause(column.role) && !data::find_quantity(column.name) &&
+  return (data::may_be_cause(column.role) || column.why.starts_with(data::many_texts)) &&
+         !data::find_quantity(column.name) &&
          column.name != data::origin_column;
 }
 

@@ -19,8 +19,8 @@ Explanation about_experiment() {
       "one tribometer test: the statistical unit. Splits, cross-validation, standard errors and "
       "intervals never cut through one",
       {{"column", "experiment: a text or a whole number in every row"},
-       {"without it", "data.experiment says what a test is: file, file+COLUMN, COLUMN or "
-                      "interval (a header that comes again begins the next)"},
+       {"without it", "data.experiment says what a test is: file, file+COLUMN, COLUMN, interval (a "
+                      "header that comes again begins the next) or pause"},
        {"order", "of rows within an experiment: time"},
        {"what it has", "a table of one row per experiment (humidity, batch, tool): data.tests"},
        {"least", "2 rows; with fewer than 30 experiments and no validation files each is left "

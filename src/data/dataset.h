@@ -70,12 +70,17 @@ struct SignedTest {
   int speed = 1, friction = 1; // their signs, if the test has one direction
   bool both = false;           // has both directions
   std::optional<ForceOffset> zero = {};
+  // The same where the force keeps its sign in both directions: a magnitude, or a zero above the
+  // friction. With data.force_zero = "remove" it is `zero`.
+  std::optional<ForceOffset> above_friction = {};
   std::optional<double> unloaded = {}; // value of the friction column without load
   // Medians of the friction column at rest and in sliding, and of the load
   struct Rest {
     double friction, sliding, load;
   };
   std::optional<Rest> rest = {};
+  // Pieces that slide, with pauses between, where they differ in load or speed; else 1
+  std::size_t pieces = 1;
 };
 
 // Rows that no rig can measure, left out of fits (data/plausibility.h).

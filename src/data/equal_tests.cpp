@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <span>
 #include <string_view>
 #include <unordered_map>
@@ -80,8 +81,9 @@ std::vector<std::optional<std::size_t>> tests_of_equal_rows(const Dataset& data,
 
 namespace {
 
-// Stresses of a test and their second differences, which hold its noise and hardly its course,
-// with mean 0 and length 1.
+// Stresses of a test, and ranks of the second differences of its friction, with mean 0 and length
+// 1. These hold its noise and hardly its course: a programmed pressure drops out of the
+// coefficient, and its steps are few.
 struct Noise {
   std::size_t test = 0;
   std::span<const double> stress;
@@ -89,26 +91,53 @@ struct Noise {
   double mean = 0;
 };
 
+// Ranks about their mean, divided by their length; equal values share a rank. Empty: all are equal.
+std::vector<double> centred_ranks(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  std::vector<double> ranks(values.size());
+  double squares = 0;
+  for (std::size_t from = 0, to = 0; from < order.size(); from = to) {
+    while (to < order.size() && values[order[to]] == values[order[from]])
+      ++to;
+    const double rank = static_cast<double>(from + to) - static_cast<double>(values.size());
+    for (std::size_t i = from; i < to; ++i)
+      ranks[order[i]] = rank;
+    squares += static_cast<double>(to - from) * rank * rank;
+  }
+  if (!(squares > 0)) return {};
+  for (double& rank : ranks)
+    rank /= std::sqrt(squares);
+  return ranks;
+}
+
+// Friction over pressure; without a pressure, friction.
+std::vector<double> coefficients(const Dataset& data, std::size_t first, std::size_t rows) {
+  const auto stress = std::span(data.values("tau_R_MPa")).subspan(first, rows);
+  std::vector<double> out(stress.begin(), stress.end());
+  if (!data.has("sigma_n_MPa")) return out;
+  const auto pressure = std::span(data.values("sigma_n_MPa")).subspan(first, rows);
+  if (std::all_of(pressure.begin(), pressure.end(), [](double x) { return x > 0; }))
+    std::transform(stress.begin(), stress.end(), pressure.begin(), out.begin(), std::divides<>());
+  return out;
+}
+
 std::vector<Noise> noises_of(const Dataset& data) {
   std::vector<Noise> all;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
     if (rows < noise_rows) continue;
     Noise noise{e, std::span(data.values("tau_R_MPa")).subspan(first, rows), {}, 0};
-    double sum = 0, squares = 0;
-    for (std::size_t i = 1; i + 1 < rows; ++i) {
-      noise.differences.push_back(noise.stress[i - 1] - 2 * noise.stress[i] + noise.stress[i + 1]);
-      sum += noise.differences.back();
-    }
-    for (double& difference : noise.differences) {
-      difference -= sum / static_cast<double>(noise.differences.size());
-      squares += difference * difference;
-    }
-    for (double& difference : noise.differences)
-      difference /= std::sqrt(squares);
+    const std::vector<double> mu = coefficients(data, first, rows);
+    std::vector<double> differences;
+    for (std::size_t i = 1; i + 1 < rows; ++i)
+      differences.push_back(mu[i - 1] - 2 * mu[i] + mu[i + 1]);
+    noise.differences = centred_ranks(differences);
     for (const double stress : noise.stress)
       noise.mean += stress / static_cast<double>(rows);
-    if (squares > 0) all.push_back(std::move(noise));
+    if (!noise.differences.empty()) all.push_back(std::move(noise));
   }
   std::sort(all.begin(), all.end(), [](const Noise& a, const Noise& b) { return a.mean < b.mean; });
   return all;

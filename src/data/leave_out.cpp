@@ -192,6 +192,10 @@ bool look_again(const Dataset& data, Reading& options) {
     options.force_zero = ForceZero::keep;
     again = true;
   }
+  if (options.force_zero == ForceZero::automatic && hides_zero(data)) {
+    options.force_zero = ForceZero::remove;
+    again = true;
+  }
   return again;
 }
 

@@ -422,7 +422,7 @@ private:
 
   // The column that names the experiments; nullptr if experiments are files or intervals.
   const CsvColumn* experiment_source() {
-    if (options_.experiment == "file") return nullptr;
+    if (options_.experiment == "file" || options_.experiment == by_pauses) return nullptr;
     const std::string name = experiment_column_of(options_);
     if (name.empty() || options_.columns.count(experiment_column)) return source(experiment_column);
     const CsvColumn* column = by_name(name);

@@ -114,8 +114,8 @@ struct DataOptions {
   // By canonical name; for one file also other columns.
   std::map<std::string, double> constants;
   std::map<std::string, std::string> labels; // text columns for one file
-  // Definition of an experiment: "file", "interval" (from one header line to the next), "row",
-  // "columns" (those of equal names side by side are a test each), a column, or "file+COLUMN";
+  // Definition of an experiment: "file", "interval" (from one header line to the next), "pause"
+  // (what slides between two pauses, rows at rest or without load; data/signs.h), "row", "columns" (those of equal names side by side are a test each), a column, or "file+COLUMN";
   // empty: the column `experiment` if there is one, else the file.
   std::string experiment;
   // Experiments that are intervals of one recording: "none", those of a "file", those whose "name"
@@ -181,15 +181,19 @@ inline constexpr std::string_view file_and_column = "file+";
 // DataOptions::experiment of files whose columns come again, side by side, for each test.
 inline constexpr std::string_view by_columns = "columns";
 
+// DataOptions::experiment of files that are cut at pauses.
+inline constexpr std::string_view by_pauses = "pause";
+
 // True if experiments are counted within the file, which is then read as a whole.
 inline bool is_cut_whole(const DataOptions& options) {
-  return options.experiment == "interval" || options.experiment == "row";
+  return options.experiment == "interval" || options.experiment == "row" ||
+         options.experiment == by_pauses;
 }
 
 // The column that DataOptions::experiment names; empty if it names none.
 inline std::string experiment_column_of(const DataOptions& options) {
   const std::string& said = options.experiment;
-  if (said == "file" || said == "interval" || said == "row") return "";
+  if (said == "file" || said == "interval" || said == "row" || said == by_pauses) return "";
   if (said == by_columns) return "experiment"; // data/wide.h makes it
   return said.starts_with(file_and_column) ? said.substr(file_and_column.size()) : said;
 }

@@ -17,7 +17,7 @@ using Values = std::span<const double>;
 
 // Shares of the typical load, speed or path of a test.
 constexpr double unloaded_share = 0.05, full_share = 0.9, steady_share = 0.3, ramp_share = 0.15;
-constexpr double slow = 0.02, nearly_zero = 1e-3, turning_speed = 0.2, turning_path = 0.05;
+constexpr double moving_share = 0.1, slow = 0.02, nearly_zero = 1e-3, turning_speed = 0.2, turning_path = 0.05;
 // A force that builds up after a reversal: the largest share of the stroke's path for it, and the
 // shares of the later force at which it begins and ends.
 constexpr double longest_turn = 0.2, half_turned = 0.5, turned = 0.9;
@@ -94,8 +94,8 @@ template <class Is> std::vector<Piece> pieces_where(std::size_t rows, const Is& 
 
 struct Mean {
   double value = 0, error = 0;
-  // A single row has no known error.
-  bool is_zero() const { return value == 0 || std::abs(value) < 2 * error; }
+  // A single row has no known error. Of runs about zero, 0.3 % lie beyond three errors.
+  bool is_zero() const { return value == 0 || std::abs(value) < 3 * error; }
 };
 
 Mean mean_with_error(Values values) {
@@ -209,16 +209,19 @@ double row_scatter(Values speed) {
   return off.size() < 6 ? 0 : 1.4826 * median_of(std::move(off)) / 1.22;
 }
 
+// Speed in motion: most rows of a test may be at rest.
+double speed_in_motion(Values speed) {
+  return typical_of(sizes(speed), moving_share);
+}
+
 SpeedReading reading_of(Values speed) {
-  std::vector<double> moving = sizes(speed);
-  std::erase(moving, 0.0);
-  const double middle = median_of(std::move(moving));
-  if (!(middle > 0)) return SpeedReading::still;
+  const double typical = speed_in_motion(speed);
+  if (!(typical > 0)) return SpeedReading::still;
   if (is_held(speed)) return SpeedReading::usable;
-  if (reading_step(speed) > coarse_step * middle) return SpeedReading::coarse;
+  if (reading_step(speed) > coarse_step * typical) return SpeedReading::coarse;
   // Uses magnitudes for a speed that changes sign from row to row.
   const double scatter = std::min(row_scatter(speed), row_scatter(sizes(speed)));
-  return scatter > noisy_speed * middle ? SpeedReading::noisy : SpeedReading::usable;
+  return scatter > noisy_speed * typical ? SpeedReading::noisy : SpeedReading::usable;
 }
 
 bool goes_both_ways(Values values, double reference) {
@@ -254,8 +257,8 @@ class Standing {
 public:
   Standing(Values path, Values time) : path_(path) {
     const std::vector<double> ways = ways_per_row(path, time);
-    const double way = typical_of(ways, 0.1), noise = row_scatter(without_repeats(path));
-    const std::vector<double> gaps = rows_between_steps(ways, 0.1 * way);
+    const double way = typical_of(ways, moving_share), noise = row_scatter(without_repeats(path));
+    const std::vector<double> gaps = rows_between_steps(ways, moving_share * way);
     if (!(way > 0) || gaps.empty()) return;
     const double held = median_of(gaps); // above 1 where a slow recorder repeats its last reading
     const auto pauses = std::count_if(gaps.begin(), gaps.end(), [&](double x) { return x > held; });
@@ -362,9 +365,19 @@ std::vector<double> speed_of_path(Values path, Values time) {
       speed[i] = time[b] > time[a] ? (path[b] - path[a]) / (time[b] - time[a]) : 0;
     }
     if (half >= std::max<std::size_t>(2, path.size() / 20) ||
-        row_scatter(speed) < 0.2 * median_of(sizes(speed)))
+        row_scatter(speed) < 0.2 * speed_in_motion(speed))
       return speed;
   }
+}
+
+// Whether a speed neither rises nor falls by as much as it is off zero: it is not starting.
+bool is_level(Values speed) {
+  const std::size_t half = speed.size() / 2;
+  const Mean first = mean_with_error(speed.first(half)),
+             second = mean_with_error(speed.subspan(half));
+  return std::abs(second.value - first.value) <
+         std::max(0.25 * std::abs(second.value + first.value),
+                  3 * std::hypot(first.error, second.error));
 }
 
 class SpeedPhases {
@@ -376,13 +389,13 @@ public:
     if (out.speed == SpeedReading::still) mark(0, rows, Phase::rest);
     if (out.speed == SpeedReading::usable) {
       // A speed that changes sign from row to row is not smoothed.
-      const bool turns = row_scatter(test.speed) > noisy_speed * median_of(sizes(test.speed));
+      const bool turns = row_scatter(test.speed) > noisy_speed * speed_in_motion(test.speed);
       speed_ = turns ? std::vector<double>(test.speed.begin(), test.speed.end())
                      : median_of_five(test.speed);
       size_ = speed_;
       for (double& v : size_)
         v = std::abs(v);
-      typical_ = typical_of(size_, 0.1);
+      typical_ = typical_of(size_, moving_share);
       if (goes_both_ways(speed_, typical_)) out.strokes = strokes_of(speed_, slow * typical_);
     }
     if (!out.both_directions()) take_strokes_of_friction();
@@ -404,7 +417,7 @@ private:
   // Takes the direction of an unsigned speed from the force, unless that only scatters.
   void take_strokes_of_friction() {
     const std::vector<double> friction = median_of_five(test_.friction);
-    const double reference = typical_of(sizes(friction), 0.1);
+    const double reference = typical_of(sizes(friction), moving_share);
     if (!(reference > 0) || row_scatter(friction) > noisy_speed * reference ||
         !goes_both_ways(friction, reference))
       return;
@@ -413,17 +426,30 @@ private:
     out_.strokes = std::move(strokes);
   }
 
-  bool wide_range() const {
+  // Whether many rows are slow, but not slower than this.
+  bool wide_range(double slowest) const {
     const auto between = std::count_if(size_.begin(), size_.end(), [&](double v) {
-      return v >= nearly_zero * typical_ && v < 0.1 * typical_;
+      return v >= slowest * typical_ && v < moving_share * typical_;
     });
     return static_cast<double>(between) > either_way * static_cast<double>(size_.size());
   }
 
+  // Friction over load; without a load, friction.
+  std::vector<double> coefficients(std::size_t begin, std::size_t end, double least_speed) const {
+    std::vector<double> out;
+    for (std::size_t i = begin; i < std::min(end, test_.friction.size()); ++i) {
+      const double load = test_.load.empty() ? 1 : test_.load[i];
+      if (size_[i] >= least_speed && load > 0 && out_.rows[i] != Phase::unloaded)
+        out.push_back(std::abs(test_.friction[i]) / load);
+    }
+    return out;
+  }
+
   // Marks rest. A slow constant level is sliding; a speed within its error of zero is rest, and so
-  // is a small offset of the speed sensor.
+  // is an offset of the speed sensor: a small one, or one without the friction of motion.
   void mark_rest() {
-    const bool wide = wide_range();
+    const bool wide = wide_range(nearly_zero), runs_up = wide_range(slow);
+    const double rubbing = median_of(coefficients(0, size_.size(), moving_share * typical_));
     for (const Piece& run : pieces_where(size_.size(), [&](std::size_t i) {
            return size_[i] < slow * typical_ || test_.speed[i] == 0;
          })) {
@@ -432,8 +458,11 @@ private:
       const Mean mean = mean_with_error(speed);
       const bool constant =
           std::all_of(speed.begin(), speed.end(), [&](double v) { return v == speed.front(); });
-      const bool is_offset = !wide && !constant && std::abs(mean.value) < nearly_zero * typical_;
-      if (mean.is_zero() ? mean.value == 0 || run.rows() >= mean_rows : is_offset)
+      const bool is_offset = !wide && std::abs(mean.value) < nearly_zero * typical_,
+                 rubs_less = !runs_up && rubbing > 0 && run.rows() >= mean_rows && is_level(speed) &&
+                             median_of(coefficients(run.begin, run.end, 0)) < half_turned * rubbing;
+      if (mean.is_zero() ? mean.value == 0 || run.rows() >= mean_rows
+                         : !constant && (is_offset || rubs_less))
         mark(run.begin, run.end, Phase::rest);
     }
   }

@@ -4,8 +4,9 @@
 //   unloaded:  less than 5 % of the typical load, except for a low level that is held, at which
 //              friction over load is the same as under load;
 //   rest:      the speed is zero (also throughout), or below 2 % of the typical one with a mean
-//              over the run that does not differ significantly from zero; where the speed is a set
-//              one, that of the path, or too coarse, also where the path stands still;
+//              over the run that does not differ significantly from zero, or with less than half
+//              of the friction in motion; where the speed is a set one, that of the path, or too
+//              coarse, also where the path stands still;
 //   turning:   in a test that goes back and forth: below 20 % of its stroke's speed, in the first
 //              and last 5 % of its path, and while the force still builds up after the reversal;
 //   closing,   opening: before and after a steady load, while it builds up or falls off:

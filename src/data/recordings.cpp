@@ -2,6 +2,7 @@
 #include "data/recordings.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -11,7 +12,9 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/pattern.h"
 #include "core/text.h"
+#include "data/column_names.h"
 #include "data/middle.h"
 #include "data/quantity.h"
 
@@ -207,6 +210,20 @@ double smooth_below(std::size_t tests) {
 
 // ---- recordings ----
 
+// Numbers may count the repeats of each setting instead.
+bool names_tests(const Column& column) {
+  const bool has_letters =
+      !column.levels.empty() &&
+      std::all_of(column.levels.begin(), column.levels.end(), [](const std::string& text) {
+        return std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::isalpha(c); });
+      });
+  return has_letters && Pattern("^(test|versuch|experiment|specimen) "
+                                "(id|no|nr|number|nummer|name)$",
+                                {})
+                            .search(words_of_name(column.name))
+                            .has_value();
+}
+
 class RecordingFinder {
 public:
   RecordingFinder(Dataset& all, const ReadRequest& options)
@@ -295,13 +312,25 @@ private:
           take(name, tests, "by the column recording");
         return;
       }
+    for (const Column& column : all_.columns)
+      if (names_tests(column)) by_their_name(column);
     for (const auto& [file, tests] : by_file())
-      if (tests.size() > 1) one_file(file, tests);
+      if (tests.size() > 1 && !taken_[tests.front()] && options_.experiment != by_pauses)
+        one_file(file, tests);
     for (const auto& [stem, tests] : numbered(all_, taken_, true))
       several_files(stem, tests);
     if (!groups_.empty())
       for (std::size_t e = 0; e < taken_.size(); ++e)
         if (!taken_[e]) groups_[all_.experiments[e]].push_back(e);
+  }
+
+  // Files that hold one name of a test or specimen are parts of it.
+  void by_their_name(const Column& column) {
+    const auto groups = by_column(column);
+    if (!groups || groups->size() < 2 || groups->size() == all_.experiments.size()) return;
+    for (const auto& [name, tests] : *groups)
+      if (!name.empty() && !taken_[tests.front()])
+        take(name, tests, fmt::format("by the column '{}'", column.name));
   }
 
   void one_file(const std::string& file, const Tests& tests) {

@@ -48,10 +48,12 @@ struct NameRule {
 };
 constexpr NameRule name_rules[] = {
     {"^(run|test)_?(order|no|nr|number)$|^(order|run|sequence|seq)$", When::per_test, Role::order},
-    {"^(time_?stamp|date|date_?time|start(ed|_time|ed_at)|test_date)$", When::per_test,
-     Role::order},
+    {"^(time_?stamp|date_?time|start(ed|_time|ed_at))$|(^|_)date$|datum$|zeitstempel",
+     When::per_test, Role::order},
     {"time|clock|stamp|^(t|ms|tick)$", When::within, Role::clock},
-    {"^(test|specimen|sample|probe|versuch|exp(eriment)?)_?(id|no|nr|number|name)?$",
+    {"^((test|specimen|sample|probe|versuch|exp(eriment)?|(mess)?p(oin|unk)t)_?)?"
+     "(id|no|nr|number|nummer|name|index)$|^lfd_?nr$|"
+     "^(test|specimen|sample|probe|versuch|exp(eriment)?|(mess)?p(oin|unk)t)$",
      When::per_test, Role::test},
     {"^(rep|repeat|repetition|replicate|wiederholung|wdh)_?(id|no|nr|number)?$", When::per_test,
      Role::ignore},
@@ -65,6 +67,9 @@ constexpr NameRule name_rules[] = {
      "(after|end|final)_?\\w*(mass|weight|ra|rz|roughness)|"
      "_(after|nach)_(the_)?(test|run|versuch|sliding)|"
      "(surface|oberfl\\w*|condition|zustand)_(after|nach)",
+     When::per_test, Role::outcome},
+    {"(^|_)(std(_?dev|_?abw)?|st_?dev|sd|standard_?(deviation|abweichung)|streuung|"
+     "uncertainty|unsicherheit)(_|$)",
      When::per_test, Role::outcome},
     // A friction, temperature or forming force of a whole test
     {"(^|_)(mean|avg|average|mittl\\w*|max\\w*|peak|final|end)_(\\w+_)?"
@@ -149,6 +154,8 @@ public:
       if (const Given said = role_known_without_values(column.name); !said.why.empty())
         (said.role == Role::state || said.role == Role::setting ? of_states : known)
             .insert(column.name);
+    for (const Dataset* part : parts)
+      units_ += units_of(*part).count;
     const std::vector<const Dataset*> all(parts.begin(), parts.end());
     if (parts.front()->has("tau_R_MPa")) disguises_ = find_disguises(all, known, of_states);
   }
@@ -161,7 +168,7 @@ public:
       return {Role::response, disguise->second.how};
     const Look look(parts_, name);
     if (!look.is_text && !look.within && look.values.size() > 1)
-      if (const Given set = nominal(name); !set.why.empty()) return set;
+      if (const Given set = nominal(name, look.values.size()); !set.why.empty()) return set;
     Given given = look.is_text ? of_text(name, look) : of_numbers(name, look);
     if (given.role != Role::setting && given.role != Role::channel && given.role != Role::outcome)
       return given;
@@ -205,7 +212,7 @@ private:
   }
 
   // A column with the set values of a state that was measured as well: a nominal load.
-  Given nominal(const std::string& name) const {
+  Given nominal(const std::string& name, std::size_t levels) const {
     const std::string header = io::read_header_name(name).unit,
                       own = parts_.front()->find(name)->unit;
     for (const char* const state :
@@ -215,17 +222,29 @@ private:
                                                                   : !header.empty()
                                                                       ? header
                                                                       : unit_in_name(name, unit);
-      const bool is_force = std::string(state) == "sigma_n_MPa" &&
-                            (convert(ends, "N") || !unit_in_name(name, "N").empty());
-      if ((is_force || convert(ends, unit)) && follows(name, state))
+      const bool is_force =
+          std::string(state) == "sigma_n_MPa" &&
+          (convert(ends, "N") || !unit_in_name(name, "N").empty() ||
+           (ends.empty() && fits("(^|_)(load|force|kraft|last|fn|f_n)(_|$)", plain_name(name))));
+      const auto slope = slope_along(name, state);
+      if (slope && (is_force || convert(ends, unit) || (ends.empty() && is_other_unit(*slope, levels))))
         return {Role::ignore, fmt::format("the set {}, which is measured", state)};
     }
     return {};
   }
 
-  // True if the means of a state over the tests are in proportion to the column, to within a
+  // The ratio of one unit to another, where the file gives none: 50 for 0.05 MPa. Two levels may
+  // have such a ratio by chance.
+  static bool is_other_unit(double ratio, std::size_t levels) {
+    constexpr double near = 0.02;
+    const double tens = std::log10(ratio);
+    return ratio > 0 && std::abs(tens - std::round(tens)) < near &&
+           (levels > 2 || std::abs(tens) < near);
+  }
+
+  // The slope if the means of a state over the tests are in proportion to the column, to within a
   // twentieth. Temperatures have to be a straight line.
-  bool follows(const std::string& name, const std::string& state) const {
+  std::optional<double> slope_along(const std::string& name, const std::string& state) const {
     constexpr double near = 0.05;
     std::vector<double> x, y;
     for (const Dataset* part : parts_)
@@ -247,21 +266,23 @@ private:
     }
     for (std::size_t i = 0; i < x.size(); ++i) {
       const double size = at_zero ? std::abs(y[i]) : most;
-      if (!(std::abs(y[i] - my - xy / xx * (x[i] - mx)) <= near * size)) return false;
+      if (!(std::abs(y[i] - my - xy / xx * (x[i] - mx)) <= near * size)) return {};
     }
-    return !x.empty();
+    return x.empty() ? std::nullopt : std::optional(xy / xx);
   }
 
-  static Given of_text(const std::string& name, const Look& look) {
+  Given of_text(const std::string& name, const Look& look) {
     const Given named = role_by_name(name, look.within);
-    if (named.role == Role::ignore || named.role == Role::order || named.role == Role::outcome)
+    if (named.role == Role::ignore || named.role == Role::order || named.role == Role::outcome ||
+        (named.role == Role::test && fits("^(test|versuch|experiment|specimen)_", plain_name(name))))
       return named;
     const std::size_t words = look.words.size() - look.words.count("");
     if (look.is_constant()) return {Role::label, "one value in all tests"};
-    const std::size_t usable = std::max<std::size_t>(2, look.tests / 2);
+    const std::size_t usable = std::max<std::size_t>(2, units_ / 2);
     if (look.words.size() > usable)
-      return {Role::ignore,
-              fmt::format("free text: {} values in {} tests", look.words.size(), look.tests)};
+      return {Role::ignore, fmt::format("{}{} values in {} tests",
+                                        look.filled_tests == look.tests ? many_texts : "free text: ",
+                                        look.words.size(), units_)};
     if (4 * look.filled_tests < look.tests && 2 * words > look.filled_tests)
       return {Role::ignore,
               fmt::format("free text: a remark in {} of {} tests", look.filled_tests, look.tests)};
@@ -285,6 +306,7 @@ private:
   std::span<Dataset* const> parts_;
   const DataOptions& options_;
   std::map<std::string, Disguise> disguises_;
+  std::size_t units_ = 0; // tests; recordings where these hold several tests
 };
 
 void check_names(const Dataset& data, const DataOptions& options, FaultList& faults) {
@@ -330,21 +352,70 @@ bool is_order(const Column& column) {
          (column.role == Role::undecided && role_by_name(column.name, false).role == Role::order);
 }
 
+namespace {
+
+// Texts of the tests of all parts; empty for a column that changes within a test.
+std::vector<std::string> texts_of_tests(std::span<Dataset* const> parts, const std::string& name) {
+  std::vector<std::string> texts;
+  for (const Dataset* part : parts) {
+    const Column* column = part->find(name);
+    if (!column) return {};
+    for (std::size_t e = 0; e < part->experiments.size(); ++e) {
+      const double first = column->values[part->first_row[e]];
+      for (std::size_t i = part->first_row[e]; i < part->first_row[e + 1]; ++i)
+        if (column->values[i] != first) return {};
+      texts.push_back(column->levels.empty() ? fmt::format("{}", first)
+                                             : column->levels[static_cast<std::size_t>(first)]);
+    }
+  }
+  return texts;
+}
+
+void set_role(std::span<Dataset* const> parts, const std::string& name, const Given& given) {
+  for (Dataset* part : parts)
+    for (Column& column : part->columns)
+      if (column.name == name) {
+        column.role = given.role;
+        column.why = given.why;
+      }
+}
+
+// Parts of file names are called name1, x2_MPa, ...
+bool is_part_of_name(const std::string& name) {
+  return fits("^(name|x)[0-9]+($|_)", name);
+}
+
+// Leaves out columns that repeat another one in every test: they cannot be causes of their own.
+void drop_repeated_columns(std::span<Dataset* const> parts) {
+  std::map<std::vector<std::string>, std::vector<std::string>> alike; // texts -> columns
+  for (const Column& column : parts.front()->columns)
+    if ((column.role == Role::label || column.role == Role::setting ||
+         (column.role == Role::test && !column.levels.empty())) &&
+        column.why != set_by_job && !find_quantity(column.name))
+      if (auto texts = texts_of_tests(parts, column.name); !texts.empty())
+        alike[std::move(texts)].push_back(column.name);
+  for (auto& [texts, names] : alike) {
+    if (std::set<std::string>(texts.begin(), texts.end()).size() < 2) continue;
+    std::stable_partition(names.begin(), names.end(),
+                          [](const std::string& name) { return !is_part_of_name(name); });
+    for (std::size_t i = 1; i < names.size(); ++i)
+      set_role(parts, names[i], {Role::ignore, "the same as " + names.front() + " in every test"});
+  }
+}
+
+} // namespace
+
 void find_roles(std::span<Dataset* const> parts, const DataOptions& options, FaultList& faults) {
   check_names(*parts.front(), options, faults);
   RoleFinder finder(parts, options);
-  for (Column& column : parts.front()->columns) {
+  for (const Column& column : parts.front()->columns) {
     const Given given = finder.of(column);
-    for (Dataset* part : parts)
-      for (Column& same : part->columns)
-        if (same.name == column.name) {
-          same.role = given.role;
-          same.why = given.why;
-        }
+    set_role(parts, column.name, given);
     if (given.role == Role::response && !find_quantity(column.name))
       parts.front()->notes.push_back(fmt::format(
           "{} belongs to the measured friction, no cause of it: {}", column.name, given.why));
   }
+  drop_repeated_columns(parts);
 }
 
 } // namespace frictab::data

@@ -19,6 +19,10 @@ std::vector<std::string> role_names();
 // Column::why if the job gives the role.
 inline constexpr const char* set_by_job = "the job says so";
 
+// Column::why begins with this for a text in every test that few tests share: too many values to
+// search, but the tests may differ by what it names.
+inline constexpr const char* many_texts = "hardly any tests share a text: ";
+
 // True if a column of this role may be searched for causes of friction.
 bool may_be_cause(Role role);
 // True also for an order of tests, which a trace examines in its own way.

@@ -28,10 +28,15 @@ constexpr std::size_t cycle_rows = 10, test_rows = 3;
 constexpr double still_unloaded = 0.05;
 // Smallest number of rows without load, and at rest, that determine a zero.
 constexpr std::size_t unloaded_rows = 10, rest_rows = 5;
+// Smallest numbers of rows of a pause and of a test between pauses. long_pause_rows, other_setting:
+// pauses, and differences of load or speed between such tests, that lead to a question.
+constexpr std::size_t pause_rows = 5, long_pause_rows = 20;
+constexpr double other_setting = 0.1;
 // other_load: smallest ratio of loads that distinguishes a zero from friction; clearly: ratio of
 // scatters over the tests that decides between the two; matters: smallest relevant offset as a
-// share of the friction.
-constexpr double other_load = 1.2, clearly = 0.5, matters = 0.02;
+// share of the friction; share_of_zero: smallest friction of some test as a share of a zero above
+// it.
+constexpr double other_load = 1.2, clearly = 0.5, matters = 0.02, share_of_zero = 0.2;
 
 // "\1v_rel_mm_s": a character that no header contains.
 std::string signed_name(const std::string& canonical) {
@@ -86,12 +91,12 @@ public:
       : friction_(friction), load_(load), test_(test) {}
 
   // Replaces friction by its magnitude; `found` receives its sign, zero and value without load.
-  void take_magnitude(bool keeps_offset, SignedTest& found) {
+  void take_magnitude(ForceZero zero, SignedTest& found) {
     const auto unloaded = rows_where(friction_, 0, friction_.size(), [&](std::size_t i) {
       return test_.rows[i] == Phase::unloaded;
     });
     if (unloaded.size() >= unloaded_rows) found.unloaded = finite_median(unloaded);
-    if (test_.both_directions() && take_both_directions(keeps_offset, found)) return;
+    if (test_.both_directions() && take_both_directions(zero, found)) return;
     const Middle all = middle_with_error(fitted(0, friction_.size(), 0));
     if (!(all.value < -2 * all.error)) return;
     for (double& x : friction_)
@@ -122,17 +127,25 @@ private:
                   std::hypot(forward.error, backward.error) / 2, forward.rows + backward.rows};
   }
 
-  bool take_both_directions(bool keeps_offset, SignedTest& found) {
+  // False for a magnitude.
+  bool take_both_directions(ForceZero zero, SignedTest& found) {
     const double forward = finite_median(fitted(0, friction_.size(), 1)),
                  backward = finite_median(fitted(0, friction_.size(), -1));
-    if (!(forward * backward < 0)) return false; // a magnitude already
     const std::optional<Middle> of_test = offset(0, friction_.size(), test_rows);
     if (!of_test) return false;
-    const std::vector<double> offsets =
-        keeps_offset ? std::vector<double>(friction_.size(), 0.0) : by_cycle(of_test->value);
-    const double sign = forward > 0 ? 1 : -1;
-    found.zero = {sign * of_test->value, of_test->error, std::abs(forward - backward) / 2,
-                  std::abs(finite_median({load_.begin(), load_.end()}))};
+    const double sign = forward > backward ? 1 : -1;
+    const ForceOffset half{sign * of_test->value, of_test->error,
+                           std::abs(forward - backward) / 2,
+                           std::abs(finite_median({load_.begin(), load_.end()}))};
+    if (!(forward * backward < 0)) {
+      if (half.friction > std::max(5 * half.error, matters * std::abs(half.offset)))
+        found.above_friction = half;
+      if (!found.above_friction || zero != ForceZero::remove) return false;
+    }
+    const std::vector<double> offsets = zero == ForceZero::keep
+                                            ? std::vector<double>(friction_.size(), 0.0)
+                                            : by_cycle(of_test->value);
+    found.zero = half;
     for (const TestPhases::Stroke& stroke : test_.strokes)
       for (std::size_t i = stroke.begin; i < stroke.end; ++i)
         friction_[i] = sign * stroke.direction * (friction_[i] - offsets[i]);
@@ -180,12 +193,11 @@ public:
   }
 
   std::vector<Phase> take() {
+    if (options_.experiment == by_pauses) cut_at_pauses();
     std::vector<Phase> phases;
     std::map<SpeedReading, std::size_t> readings;
     for (std::size_t e = 0; e < part_.data.experiments.size(); ++e) {
-      const TestPhases test =
-          phases_of({values("v_rel_mm_s", e), values("time_s", e), values(load_, e),
-                     values("s_mm", e), friction_.empty() ? Values() : values(friction_[0], e)});
+      const TestPhases test = phases_of_test(e);
       ++readings[test.speed];
       phases.insert(phases.end(), test.rows.begin(), test.rows.end());
       take_test(e, test);
@@ -209,9 +221,79 @@ private:
         .subspan(part_.data.first_row[e], part_.data.first_row[e + 1] - part_.data.first_row[e]);
   }
 
+  TestPhases phases_of_test(std::size_t e) {
+    return phases_of({values("v_rel_mm_s", e), values("time_s", e), values(load_, e),
+                      values("s_mm", e), friction_.empty() ? Values() : values(friction_[0], e)});
+  }
+
+  struct Piece {
+    std::size_t begin, end; // rows of the test
+  };
+  // Pieces that slide, between pauses of at least so many rows.
+  static std::vector<Piece> pieces_between(const std::vector<Phase>& phases, std::size_t pause) {
+    std::vector<Piece> pieces;
+    std::size_t still = pause;
+    for (std::size_t i = 0; i < phases.size(); ++i) {
+      const bool is_still = phases[i] == Phase::rest || phases[i] == Phase::unloaded;
+      still = is_still ? still + 1 : still;
+      if (is_still) continue;
+      if (still >= pause)
+        pieces.push_back({i, i + 1});
+      else
+        pieces.back().end = i + 1;
+      still = 0;
+    }
+    std::erase_if(pieces, [](const Piece& piece) { return piece.end - piece.begin < pause_rows; });
+    return pieces;
+  }
+
+  // Each piece is a test, with the pause before it.
+  void cut_at_pauses() {
+    Dataset& data = part_.data;
+    std::vector<std::string> experiments;
+    std::vector<Dataset::Filed> filed;
+    std::vector<std::size_t> first_row{0};
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+      const std::vector<Piece> pieces = pieces_between(phases_of_test(e).rows, pause_rows);
+      const std::size_t count = std::max<std::size_t>(pieces.size(), 1);
+      for (std::size_t p = 0; p < count; ++p) {
+        experiments.push_back(pieces.size() < 2
+                                  ? data.experiments[e]
+                                  : fmt::format("{} {}", data.experiments[e], p + 1));
+        filed.push_back(data.filed[e]);
+        first_row.push_back(p + 1 < count ? data.first_row[e] + pieces[p].end
+                                          : data.first_row[e + 1]);
+      }
+    }
+    data.experiments = std::move(experiments);
+    data.filed = std::move(filed);
+    data.first_row = std::move(first_row);
+    direction_.assign(part_.row.size(), 1.0);
+  }
+
+  // Pieces with long pauses between that differ in load or speed by much; 1: they do not.
+  std::size_t other_pieces(std::size_t e, const TestPhases& test) {
+    if (options_.experiment != "file" && !options_.experiment.empty()) return 1;
+    const std::vector<Piece> pieces = pieces_between(test.rows, long_pause_rows);
+    const auto differ = [&](Values all) {
+      std::vector<double> middles;
+      for (const Piece& piece : pieces)
+        middles.push_back(std::abs(finite_median(
+            rows_where(all, piece.begin, piece.end,
+                       [&](std::size_t i) { return is_fitted(test.rows[i]); }))));
+      const auto [low, high] = std::minmax_element(middles.begin(), middles.end());
+      return *high - *low > other_setting * *high;
+    };
+    if (pieces.size() < 2) return 1;
+    for (const std::string& name : {load_, std::string("v_rel_mm_s")})
+      if (const Values all = values(name, e); !all.empty() && differ(all)) return pieces.size();
+    return 1;
+  }
+
   void take_test(std::size_t e, const TestPhases& test) {
     SignedTest found{part_.data.experiments[e], friction_.empty() ? "" : friction_[0]};
     found.both = test.both_directions();
+    found.pieces = other_pieces(e, test);
     found.speed = found.both ? 1 : test.strokes.front().direction;
     for (const TestPhases::Stroke& stroke : test.strokes)
       std::fill(direction_.begin() + static_cast<long>(part_.data.first_row[e] + stroke.begin),
@@ -219,11 +301,13 @@ private:
                 static_cast<double>(stroke.direction));
     for (std::size_t f = friction_.size(); f-- > 0;) { // `found` describes the first
       found.zero.reset();
+      found.above_friction.reset();
       TestFriction(values(friction_[f], e), values(load_, e), test)
-          .take_magnitude(options_.force_zero == ForceZero::keep, found);
+          .take_magnitude(options_.force_zero, found);
     }
     if (!friction_.empty()) found.rest = at_rest(values(friction_[0], e), values(load_, e), test);
-    if (found.both || found.speed < 0 || found.friction < 0 || found.unloaded || found.rest)
+    if (found.both || found.speed < 0 || found.friction < 0 || found.unloaded || found.rest ||
+        found.pieces > 1)
       part_.data.signs.push_back(std::move(found));
   }
 
@@ -325,6 +409,13 @@ std::vector<const ForceOffset*> offsets_of(const Dataset& data) {
   return out;
 }
 
+std::vector<const ForceOffset*> above_friction(const Dataset& data) {
+  std::vector<const ForceOffset*> out;
+  for (const SignedTest& test : data.signs)
+    if (test.above_friction) out.push_back(&*test.above_friction);
+  return out;
+}
+
 // Standard deviation over the magnitude of the mean.
 double relative_scatter(const std::vector<double>& values) {
   double mean = 0, squares = 0;
@@ -335,11 +426,15 @@ double relative_scatter(const std::vector<double>& values) {
   return std::sqrt(squares) / std::abs(mean);
 }
 
-// "1.9 to 2.1 N"; for a single value "2 N".
-std::string sizes_text(std::vector<double> values, const std::string& unit) {
+// "1.9 to 2.1"; for a single value "2".
+std::string range_text(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const std::string first = fmt::format("{:.3g}", *low), last = fmt::format("{:.3g}", *high);
-  return (first == last ? first : first + " to " + last) + " " + unit;
+  return first == last ? first : first + " to " + last;
+}
+
+std::string sizes_text(const std::vector<double>& values, const std::string& unit) {
+  return range_text(values) + " " + unit;
 }
 
 // "test 'a'"; "3 tests ('a', 'b', ...)".
@@ -386,15 +481,18 @@ void report_zero_errors(Dataset& data, ForceZero said) {
   const DirectionsDiffer why = directions_differ(data);
   const bool kept = said == ForceZero::keep ||
                     (said == ForceZero::automatic && why == DirectionsDiffer::by_friction);
+  const std::size_t one_sign = above_friction(data).size();
   std::string text = fmt::format(
-      "{} has both signs in {}: {}; magnitudes are fitted, `{}` is recorded", both.column,
-      tests_text(both.names),
+      "{} {} in {}: {}; magnitudes are fitted, `{}` is recorded", both.column,
+      one_sign > 0 ? "goes up and down about a zero" : "has both signs", tests_text(both.names),
       fmt::format("the two directions differ by twice {} at a friction of {} (half the sum and "
                   "half the difference of their medians)",
                   sizes_text(both.sizes, unit), sizes_text(both.frictions, unit)),
       direction_column);
   text += kept ? "; that difference is kept"
                : "; it is taken off, cycle by cycle, as the zero of the force cell";
+  if (one_sign > 0)
+    text += fmt::format(", which is above the friction in {} of them", thousands(one_sign));
   if (said == ForceZero::automatic) {
     if (why == DirectionsDiffer::by_zero) text += ": it is the same at every load";
     if (why == DirectionsDiffer::by_friction)
@@ -405,6 +503,12 @@ void report_zero_errors(Dataset& data, ForceZero said) {
               "(data.force_zero = \"remove\" or \"keep\" says which)";
   }
   tell(data, std::move(text));
+}
+
+// "{ formula = "COLUMN - 3.2" } does for a column in N".
+std::string without_zero(double zero, const std::string& unit) {
+  return fmt::format("{{ formula = \"COLUMN {} {:.3g}\" }} does for a column in {}",
+                     zero < 0 ? '+' : '-', std::abs(zero), unit);
 }
 
 // Friction at rest that is the same in all tests, while their loads differ, is an offset.
@@ -429,16 +533,16 @@ void report_rest(Dataset& data) {
   data.implausible.push_back(fmt::format(
       "{} shows {} at rest in {} tests of all loads, up to {:.0f} % of what it shows in "
       "sliding: a zero point that was not set? It is not taken off; where the friction is mapped, "
-      "{{ formula = \"COLUMN {} {:.3g}\" }} does for a column in {}",
+      "{}",
       column, sizes_text(readings, unit), thousands(readings.size()),
-      100 * *std::max_element(shares.begin(), shares.end()), zero < 0 ? '+' : '-', std::abs(zero),
-      unit));
+      100 * *std::max_element(shares.begin(), shares.end()), without_zero(zero, unit)));
 }
 
 } // namespace
 
-DirectionsDiffer directions_differ(const Dataset& data) {
-  const auto all = offsets_of(data);
+namespace {
+
+DirectionsDiffer why_differ(const std::vector<const ForceOffset*>& all) {
   if (all.empty()) return DirectionsDiffer::nowhere;
   std::vector<double> offsets, coefficients, loads;
   bool any = false;
@@ -455,6 +559,29 @@ DirectionsDiffer directions_differ(const Dataset& data) {
   if (as_zero < clearly * as_friction) return DirectionsDiffer::by_zero;
   if (as_friction < clearly * as_zero) return DirectionsDiffer::by_friction;
   return DirectionsDiffer::cannot_tell;
+}
+
+} // namespace
+
+DirectionsDiffer directions_differ(const Dataset& data) {
+  return why_differ(offsets_of(data));
+}
+
+bool hides_zero(const Dataset& data) {
+  std::vector<const ForceOffset*> all = above_friction(data);
+  if (all.empty()) return false;
+  const auto others = offsets_of(data);
+  all.insert(all.end(), others.begin(), others.end());
+  // A magnitude that hardly depends on the load has constant halves, or halves that hardly differ.
+  std::vector<double> offsets, frictions;
+  double largest = 0;
+  for (const ForceOffset* one : all) {
+    offsets.push_back(one->offset);
+    frictions.push_back(one->friction);
+    largest = std::max(largest, one->friction / std::abs(one->offset));
+  }
+  return why_differ(all) == DirectionsDiffer::by_zero && largest > share_of_zero &&
+         relative_scatter(offsets) < clearly * relative_scatter(frictions);
 }
 
 void report_signs(Dataset& data, ForceZero said) {
@@ -475,12 +602,21 @@ void report_signs(Dataset& data, ForceZero said) {
                            "is fitted",
                            negative.column, tests_text(negative.names)));
   report_rest(data);
+  const Signed parted = collected(data, [](const SignedTest& test) {
+    return test.pieces > 1 ? std::optional(static_cast<double>(test.pieces)) : std::nullopt;
+  });
+  if (!parted.names.empty())
+    tell(data, fmt::format("{} slide{} {} times at other loads or speeds, with pauses between: if "
+                           "each is a test of its own, data.experiment = \"pause\" says so",
+                           tests_text(parted.names), parted.names.size() == 1 ? "s" : "",
+                           range_text(parted.sizes)));
   const Signed zeros = collected(data, [](const SignedTest& test) { return test.unloaded; });
-  if (!zeros.names.empty())
+  if (!zeros.names.empty() && relative_scatter(zeros.sizes) < 1) // else it scatters about zero
     tell(data, fmt::format("without load {} shows {} in {} (the zero of the force cell; it is not "
-                           "taken off: {{ formula = \"COLUMN - 3.2\" }} where it is mapped does)",
+                           "taken off: where it is mapped, {})",
                            zeros.column, sizes_text(zeros.sizes, canonical_unit(zeros.column)),
-                           tests_text(zeros.names)));
+                           tests_text(zeros.names),
+                           without_zero(finite_median(zeros.sizes), canonical_unit(zeros.column))));
 }
 
 namespace {

@@ -30,13 +30,17 @@ void forget_signed(Part& part);
 // Changes the sign of loads that are negative throughout a test: compression is positive.
 void turn_loads(Part& part);
 
-// Returns the phases of all rows. Replaces speed and friction by their magnitudes, adds their
+// Returns the phases of all rows. Cuts the tests at pauses first if the options say so (5 rows or
+// more at rest or without load); a pause belongs to the next test. Replaces speed and friction by their magnitudes, adds their
 // `direction`, records findings in data.signs, and recomputes tau_R_MPa from forces.
 std::vector<Phase> take_signs(Part& part, const ReadRequest& options);
 
 // Cause of the difference between the directions of a campaign's tests.
 enum class DirectionsDiffer { nowhere, by_zero, by_friction, cannot_tell };
 DirectionsDiffer directions_differ(const Dataset& data);
+
+// True if tests whose force has one sign in both directions show one zero at all loads.
+bool hides_zero(const Dataset& data);
 
 // Adds notes on signs for a whole campaign.
 void report_signs(Dataset& data, ForceZero said);

@@ -207,7 +207,8 @@ std::vector<KeyRule> file_keys() {
       key<std::string>(
           "data.experiment", [](Job & job) -> auto& { return job.data.experiment; },
           "what an experiment is: \"file\", \"interval\" (from one header line of a file to the "
-          "next), \"row\" (each row is a test), \"columns\" (those of the same names side by side "
+          "next), \"pause\" (what slides between rows at rest or without load), \"row\" (each row "
+          "is a test), \"columns\" (those of the same names side by side "
           "are a test each), a column of the file, or both: \"file+COLUMN\"",
           "the column experiment where there is one, else the file", "\"file\""),
       key<std::string>(

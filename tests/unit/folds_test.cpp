@@ -130,6 +130,31 @@ TEST(Folds, CopiesWithValuesChangedALittleAreToldAndRepeatsAreNot) {
   }
 }
 
+// SYNTHETIC repeats of one programme: steps of the pressure, on which a servo swings.
+TEST(Folds, RepeatsOfOneProgrammeAreNoCopies) {
+  Random random(4);
+  for (const double noise : {0.002, 0.01}) {
+    for (const double swing : {0.0, 0.02}) {
+      Dataset data;
+      data.columns = {{"sigma_n_MPa", "MPa", {}, {}}, {"tau_R_MPa", "MPa", {}, {}}};
+      data.first_row = {0};
+      for (std::size_t e = 0; e < 20; ++e) {
+        const double mu = 0.12 * (1 + 0.003 * random.normal());
+        for (std::size_t i = 0; i < 600; ++i) {
+          const double pressure = 5 * std::pow(2.0, double(i / 150)) *
+                                  (1 + swing * std::sin(2.2 * double(i))) *
+                                  (1 + noise * random.normal());
+          data.columns[0].values.push_back(pressure);
+          data.columns[1].values.push_back(mu * pressure * (1 + noise * random.normal()));
+        }
+        data.experiments.push_back("P" + std::to_string(e));
+        data.first_row.push_back(data.columns[0].values.size());
+      }
+      EXPECT_EQ(calibrate::leak_note(data, data), "") << noise << ", " << swing;
+    }
+  }
+}
+
 // Rows of a computation have a course and no noise; tests of other states have other values.
 TEST(Folds, TestsOfOneCourseAtOtherLevelsAreNoCopies) {
   Dataset data = campaign(1, 100);

@@ -41,6 +41,8 @@ struct Habits {
   double load_noise = 0.01, speed_noise = 0.01;
   double offset_N = 0;  // of the force cell
   double step_mm_s = 0; // of the speed's reading
+  // Error of the speed at rest, relative to that in motion: its zero, and from row to row.
+  double speed_zero = 0, rest_noise = 0;
 };
 
 double read(double value, double step) {
@@ -54,15 +56,18 @@ Rig one_way(const Habits& habits, std::uint64_t seed) {
                load = 500 + 500 * random.uniform(), mu = 0.05 + 0.2 * random.uniform();
   Rig rig;
   const auto add = [&](double speed, double force, double friction, Phase phase) {
-    const double scatter = speed == 0 ? 0 : habits.speed_noise * v * random.normal();
+    const double scatter =
+        speed == 0 ? habits.rest_noise * v * random.normal() + habits.speed_zero * v
+                   : habits.speed_noise * v * random.normal();
     rig.add(read(speed + scatter, habits.step_mm_s),
             force + habits.load_noise * load * random.normal(),
             friction * (1 + 0.02 * random.normal()) + habits.offset_N, phase);
   };
   for (std::size_t i = 0; i < habits.unloaded; ++i)
     add(v, 0, 0, Phase::unloaded);
+  const double held = habits.speed_zero != 0 ? 0.1 : 1; // of the friction in motion
   for (std::size_t i = 0; i < habits.rest; ++i)
-    add(0, load, mu * load * static_cast<double>(i) / static_cast<double>(habits.rest),
+    add(0, load, held * mu * load * static_cast<double>(i) / static_cast<double>(habits.rest),
         Phase::rest);
   for (std::size_t i = 0; i < habits.closing; ++i) {
     const double share = static_cast<double>(i + 1) / static_cast<double>(habits.closing + 1);
@@ -131,6 +136,37 @@ TEST(Phases, RestAndRowsWithoutLoadAreFound) {
   EXPECT_EQ(all.missed, 0u);
   EXPECT_LT(all.wrongly,
             all.rows / 200); // the first rows of a load that builds up: below 5 % of it
+}
+
+TEST(Phases, RestIsFoundByASpeedThatScattersThere) {
+  for (const double noise : {0.0005, 0.002, 0.005})
+    for (const std::size_t rows : {std::size_t(20), std::size_t(60), std::size_t(600)}) {
+      const Calls calls = calls_of({.rest = rows, .rest_noise = noise});
+      EXPECT_EQ(calls.wrongly, 0u);
+      EXPECT_LE(calls.missed, calls.rows / 200) << noise << ", " << rows; // 3 errors from zero
+    }
+}
+
+TEST(Phases, RestIsFoundByASpeedWhoseZeroIsOffWhereNothingRubs) {
+  for (const double zero : {0.0005, 0.002, 0.01, -0.01})
+    for (const std::size_t rows : {std::size_t(20), std::size_t(60), std::size_t(600)}) {
+      const Calls calls = calls_of({.rest = rows, .speed_zero = zero, .rest_noise = 0.001});
+      EXPECT_EQ(calls.wrongly, 0u);
+      EXPECT_EQ(calls.missed, 0u) << zero << ", " << rows;
+    }
+}
+
+TEST(Phases, AStartWhoseFrictionGrowsWithTheSpeedIsNoRest) {
+  Rig rig;
+  Random random(2, 4);
+  for (std::size_t i = 0; i < 1000; ++i) { // a film: friction is in proportion to the speed
+    const double v = 0.1 * double(i + 1);
+    rig.add(v * (1 + 0.01 * random.normal()), 500, 0.5 * v * (1 + 0.02 * random.normal()),
+            Phase::sliding);
+  }
+  Calls calls;
+  count(calls, rig);
+  EXPECT_EQ(calls.wrongly, 0u);
 }
 
 TEST(Phases, ClosingIsCountedAndFitted) {

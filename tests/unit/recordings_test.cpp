@@ -15,6 +15,7 @@
 #include "core/text.h"
 #include "data/append.h"
 #include "data/recordings.h"
+#include "data/roles.h"
 #include "load_case.h"
 
 namespace frictab::recordings_test {
@@ -155,6 +156,18 @@ TEST_F(Recordings, AreSaidByAColumnOrByTheGroupOfAName) {
   EXPECT_THAT(fault_of({"*.csv"}), HasSubstr("there is no column 'prat' (data.recording)"));
   options.recording = "F_R_N";
   EXPECT_THAT(fault_of({"*.csv"}), HasSubstr("F_R_N is not the same in all rows of a test"));
+}
+
+TEST_F(Recordings, AreFilesWithOneNameOfATest) {
+  const auto loops = [&](const char* column) {
+    for (int i = 0; i < 6; ++i)
+      file(fmt::format("loop{}.csv", i),
+           fmt::format("{}: T{}\n", column, i / 3) + header + rows_from(0, 0.3));
+    options.above = {column};
+    return load_dataset({"loop*.csv"}, options).recording;
+  };
+  EXPECT_THAT(loops("Test Name"), ElementsAre(0, 0, 0, 1, 1, 1));
+  EXPECT_THAT(loops("Oil"), testing::IsEmpty());
 }
 
 // ---- each row a test ----
@@ -393,6 +406,8 @@ TEST(Repeats, AgreeInEveryLabelAndSetting) {
   EXPECT_EQ(tests_in_groups(data), 0U) << "a label of many levels";
   data.columns.back().role = data::Role::ignore;
   EXPECT_EQ(tests_in_groups(data), 12U);
+  data.columns.back().why = data::many_texts; // too many to be searched
+  EXPECT_EQ(tests_in_groups(data), 0U);
   data = repeats();
   add_setting(data, "tool", {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 2});
   EXPECT_EQ(tests_in_groups(data), 11U);

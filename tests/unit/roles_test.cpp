@@ -278,7 +278,9 @@ TEST(Roles, WhatAWholeTestShowedIsNoSetting) {
     rig.add(outcome, [&](auto e, auto) { return 1 + levels(e); });
   for (const char* const setting :
        {"hardness", "Ra [um]", "preheat_temp", "days after coating", "mean roughness"})
-    rig.add(setting, [&](auto e, auto) { return 2 + levels(e); });
+    rig.add(setting, [&](auto e, auto) {
+      return double(2 + std::string(setting).size()) + levels(e); // no two are the same
+    });
   for (const char* const number : {"Replicate", "rep", "Wiederholung"})
     rig.add(number, [](auto e, auto) { return double(1 + e % 3); });
   rig.add("Surface after test", [](auto e, auto) { return double(e % 2); });
@@ -310,6 +312,60 @@ TEST(Roles, TheSetValueOfAMeasuredStateIsNoCauseOfItsOwn) {
   EXPECT_EQ(role_of(data, "p_ksi"), Role::ignore);
   EXPECT_EQ(role_of(data, "dose_mg"), Role::setting);
   EXPECT_EQ(role_of(data, "spring [N]"), Role::setting);
+}
+
+TEST(Roles, ASetValueNeedsNoUnit) {
+  Rig rig(6, 12, 40);
+  const auto pressure = [](std::size_t e) { return 20 * std::pow(2.0, double(e % 4)); };
+  rig.add("name1", [&](auto e, auto) { return 1000 * pressure(e); }); // of a sheet "20000 Pa"
+  rig.add("load", [&](auto e, auto) { return 28.27 * pressure(e); });
+  rig.add("amount", [&](auto e, auto) { return 28.27 * pressure(e); });
+  rig.add("stage", [&](auto e, auto) { return e % 4 < 2 ? 1.0 : 10.0; });
+  const Dataset data = with_roles(rig.data);
+  EXPECT_EQ(role_of(data, "name1"), Role::ignore);
+  EXPECT_EQ(role_of(data, "load"), Role::ignore);
+  EXPECT_EQ(role_of(data, "amount"), Role::setting);
+  EXPECT_EQ(role_of(data, "stage"), Role::setting);
+}
+
+TEST(Roles, WhatNumbersNamesOrDatesTheTestsIsNoCause) {
+  Rig rig(8, 24, 1);
+  for (const char* number : {"Nr.", "No", "lfd. Nr.", "Point", "Index"})
+    rig.add(number, [](auto e, auto) { return double(1 + e); });
+  for (const char* scatter : {"Std.abw. mu", "StDev COF", "Standardabweichung", "Streuung"})
+    rig.add(scatter, [](auto e, auto) { return 0.01 * double(1 + e * e % 7); });
+  for (const char* date : {"Datum", "Pruefdatum", "Test date", "Zeitstempel"}) {
+    rig.add(date, [](auto e, auto) { return double(e / 8); });
+    rig.data.columns.back().levels = {"01.03.2026", "02.03.2026", "04.03.2026"};
+  }
+  rig.add("Test Name", [](auto e, auto) { return double(e / 3); });
+  rig.data.columns.back().levels = {"a", "b", "c", "d", "e", "f", "g", "h"};
+  const Dataset data = with_roles(rig.data);
+  for (const data::Column& column : data.columns) {
+    const std::string& name = column.name;
+    if (data::find_quantity(name) || name == "film_nm") continue;
+    const bool is_date = column.levels.size() == 3;
+    EXPECT_EQ(column.role, is_date                                             ? Role::order
+                           : name.starts_with("St") || name.starts_with("Std") ? Role::outcome
+                                                                               : Role::test)
+        << name;
+  }
+}
+
+TEST(Roles, AColumnThatRepeatsAnotherIsNoCauseOfItsOwn) {
+  Rig rig(9, 24, 5);
+  for (const char* name : {"name2", "Coating", "coating again", "other"}) {
+    const bool other = std::string(name) == "other";
+    rig.add(name, [=](auto e, auto) { return double(other ? e / 2 % 2 : e % 2); });
+    rig.data.columns.back().levels = {"DLC", "TiN"};
+  }
+  const Dataset data = with_roles(rig.data);
+  EXPECT_EQ(role_of(data, "Coating"), Role::label);
+  EXPECT_EQ(role_of(data, "other"), Role::label);
+  for (const char* repeats : {"name2", "coating again"}) {
+    EXPECT_EQ(role_of(data, repeats), Role::ignore);
+    EXPECT_EQ(data.find(repeats)->why, "the same as Coating in every test");
+  }
 }
 
 TEST(Roles, FreeTextIsNoLabel) {

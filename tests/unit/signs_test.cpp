@@ -86,6 +86,68 @@ TEST_F(Signs, TheZeroOfTheForceCellIsTheMeanOfBothDirections) {
   EXPECT_GT(data.phases[std::size_t(data::Phase::turning)], 5u * 6 * 2);
 }
 
+TEST_F(Signs, AZeroAboveTheFrictionIsTakenOffToo) {
+  for (const double zero : {120.0, -1000.0}) { // friction is 60 to 300 N
+    const Dataset data = load_dataset(campaign(zero, 0), options);
+    EXPECT_NEAR(mean_mu(data, 1), mu, 0.001) << zero;
+    EXPECT_NEAR(mean_mu(data, -1), mu, 0.001) << zero;
+    EXPECT_THAT(data.notes, Contains(HasSubstr("which is above the friction in"))) << zero;
+  }
+  options.force_zero = ForceZero::remove; // one load: only the job can say it
+  EXPECT_NEAR(mean_mu(read(there_and_back(500, 200, 0, 1)), -1), mu, 0.0005);
+}
+
+// Four tests of a day, with pauses of 30 rows at rest and without load; mu is that of the load.
+std::string day(std::size_t number) {
+  Random random(number, 3);
+  std::string text = "time_s,F_N,F_T,v\n";
+  int row = 0;
+  for (const double load : {500.0, 1000.0, 1000.0, 2000.0}) {
+    for (int i = 0; i < 130; ++i, ++row) {
+      const bool slides = i >= 30;
+      const double force = slides ? load * (1 + 0.01 * random.normal()) : 0.5 * random.normal();
+      text += fmt::format("{},{},{},{}\n", 0.1 * row, force, slides ? 0.1 * force : 0.0,
+                          slides ? 20 + 0.1 * random.normal() : 0.0);
+    }
+  }
+  return text;
+}
+
+TEST_F(Signs, PausesPartTestsWhereTheJobSaysSo) {
+  const std::vector<std::string> files = {file("d1.csv", day(1)), file("d2.csv", day(2))};
+  Dataset data = load_dataset(files, options);
+  EXPECT_EQ(data.experiments.size(), 2u);
+  EXPECT_THAT(data.notes, Contains(HasSubstr("2 tests ('d1', 'd2') slide 4 times at other loads "
+                                             "or speeds, with pauses between")));
+  options.experiment = "pause";
+  data = load_dataset(files, options);
+  EXPECT_THAT(data.experiments, testing::ElementsAre("d1 1", "d1 2", "d1 3", "d1 4", "d2 1",
+                                                     "d2 2", "d2 3", "d2 4"));
+  EXPECT_EQ(data.rows(), 800u);
+  EXPECT_THAT(data.notes, Not(Contains(HasSubstr("with pauses between"))));
+  EXPECT_NEAR(data.values("sigma_n_MPa")[350], 100, 5); // of d1 4
+}
+
+// A shear stress at its limit is the same at every load.
+TEST_F(Signs, AMagnitudeThatDiffersByDirectionIsNoZero) {
+  for (const double exponent : {0.0, 0.5, 1.0}) {
+    std::vector<std::string> files;
+    for (int t = 0; t < 5; ++t) {
+      const double apart = exponent == 0 ? 0.01 * (1 + t) : 0.05; // misaligned, each in its own way
+      std::string text = "time_s,F_N,F_T,v\n";
+      const double load = 500.0 * (t + 1), friction = 60 * std::pow(t + 1, exponent);
+      for (int i = 0; i < 300; ++i) {
+        const double sign = i / 50 % 2 == 0 ? 1 : -1;
+        text += fmt::format("{},{},{},{}\n", 0.1 * i, load,
+                            friction * (1 + apart * sign + 0.001 * (i % 7)), 20 * sign);
+      }
+      files.push_back(file(fmt::format("t{}.csv", t), text));
+    }
+    const Dataset data = load_dataset(files, options);
+    EXPECT_NEAR(data.values("tau_R_MPa")[10], 62.0 / 20, 0.1) << exponent;
+  }
+}
+
 TEST_F(Signs, WhatGrowsWithTheLoadIsFrictionAndStays) {
   const Dataset data = load_dataset(campaign(0, 0.02), options);
   EXPECT_NEAR(mean_mu(data, 1), mu + 0.02, 0.0005);
