@@ -54,7 +54,9 @@ ValueAbove read_value_above(const std::string& text, char decimal) {
   std::size_t end = text.find_first_not_of("+-.,0123456789eE");
   if (end == text.npos) end = text.size();
   ValueAbove value;
-  const std::string number = text.substr(0, end);
+  std::string number = text.substr(0, end);
+  while (number.ends_with(',')) // of the cells "1.961,N"
+    number.pop_back();
   if (!io::read_number(number, decimal, value.number) &&
       !io::read_number(number, decimal == '.' ? ',' : '.', value.number))
     return {};
@@ -66,7 +68,8 @@ ValueAbove read_value_above(const std::string& text, char decimal) {
 }
 
 void add_values_above(io::CsvTable& raw, const Reading& options, FaultList& faults) {
-  const std::set<std::string> wanted = names_of_job(raw, options);
+  const std::set<std::string> wanted = names_of_job(raw, options),
+                              listed(options.above.begin(), options.above.end());
   const std::set<std::string> in_formulas = names_in_formulas(options);
   std::vector<std::string> taken;
   for (const io::CsvAbove& line : raw.above) {
@@ -74,7 +77,9 @@ void add_values_above(io::CsvTable& raw, const Reading& options, FaultList& faul
     const bool is_named = wanted.count(line.name) || wanted.count(bare) ||
                           in_formulas.count(line.name) ||
                           in_formulas.count(name_in_formulas(line.name));
-    if (!is_named || has_column(raw, line.name) || has_column(raw, bare)) continue;
+    const bool is_column =
+        has_column(raw, line.name) || (has_column(raw, bare) && listed.count(line.name) == 0);
+    if (!is_named || is_column) continue;
     add_column(raw, line, options.decimal);
     taken.push_back(line.name);
   }

@@ -101,6 +101,7 @@ io::CsvFormat csv_format(const std::string& path, const DataOptions& options) {
     format.delimiter = ',';
     format.decimal = '.';
     format.thousands = 0;
+    format.sheet = true;
   }
   return format;
 }

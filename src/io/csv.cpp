@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <optional>
@@ -234,9 +235,16 @@ std::vector<char> text_columns(const CsvTable& table, const CsvFormat& format) {
 }
 
 // `filled`: cells of a line without the empty ones after the last column; `kept`: cells stored in
-// columns.
+// columns; `held`: those with content, of which the first is in column `first`.
 struct Cells {
-  std::size_t filled = 0, kept = 0;
+  std::size_t filled = 0, kept = 0, held = 0, first = 0;
+  bool begins_with_number = false;
+  bool is_one_text() const { return held == 1 && !begins_with_number; }
+  void hold(std::size_t column, bool is_number) {
+    if (held++ > 0) return;
+    first = column;
+    begins_with_number = is_number;
+  }
 };
 
 // Appends empty cells for the rows before this one that the column lacks.
@@ -252,31 +260,44 @@ void pad(CsvColumn& column, std::size_t row) {
 Cells read_cells(CsvTable& table, Scanner& scanner, const CsvFormat& format,
                  const std::vector<char>& is_text, std::size_t named, std::size_t row) {
   std::string storage;
-  std::size_t cells = 0, filled = 0;
+  std::size_t cells = 0;
+  Cells line;
   for (bool last = false; !last; ++cells) {
     const bool known = cells < is_text.size();
-    if (known) filled = cells + 1;
+    if (known) line.filled = cells + 1;
     double value = no_value;
     if (known && !is_text[cells] && scanner.number(format.decimal, value, last)) {
+      line.hold(cells, true);
       pad(table.columns[cells], row);
       table.columns[cells].numbers.push_back(value);
       continue;
     }
     const std::size_t place = scanner.column();
     const std::string_view cell = trimmed(scanner.cell(last, storage));
+    const bool is_number = parse_number(cell, format, value);
+    if (!cell.empty()) line.hold(cells, is_number);
     if (!known) {
-      if (!cell.empty()) filled = cells + 1;
+      if (!cell.empty()) line.filled = cells + 1;
       continue;
     }
     if (cells >= named && cell.empty()) continue;
     pad(table.columns[cells], row);
-    if (is_text[cells] || !parse_number(cell, format, value)) {
+    if (is_text[cells] || !is_number) {
       table.columns[cells].texts.push_back({row, to_utf8(cell), place});
       value = no_value;
     }
     table.columns[cells].numbers.push_back(value);
   }
-  return {filled, std::min(cells, is_text.size())};
+  line.kept = std::min(cells, is_text.size());
+  return line;
+}
+
+// True for a line of a sheet that lacks cells at its end, which are empty and thus not stored. A
+// title or a remark is one text, and begins with it where rows begin with numbers.
+bool is_short_row(const CsvTable& table, const Cells& line, std::size_t named, std::size_t row) {
+  if (line.held == 0 || (line.is_one_text() && named > 2)) return false;
+  return row == 0 || line.begins_with_number ||
+         std::isnan(table.columns[line.first].numbers.front());
 }
 
 // Number of columns up to the last name: a header may end with delimiters that its rows do not
@@ -289,12 +310,12 @@ std::size_t named_columns(const CsvTable& table) {
 }
 
 // Removes nameless columns without content after the last name and pads the others with empty
-// cells.
+// cells, as are those that a sheet does not store.
 void settle_nameless(CsvTable& table, std::size_t named) {
   while (table.columns.size() > named && table.columns.back().numbers.empty())
     table.columns.pop_back();
-  for (std::size_t i = named; i < table.columns.size(); ++i)
-    pad(table.columns[i], table.rows());
+  for (CsvColumn& column : table.columns)
+    pad(column, table.rows());
 }
 
 bool starts_with_line(std::string_view text, std::size_t at, std::string_view line) {
@@ -331,22 +352,29 @@ void forget_row(CsvTable& table, std::size_t row, std::size_t columns) {
 // A line that is not a row.
 struct RaggedLine {
   std::size_t line, cells;
+  bool is_one_text;
 };
 
 // Reports ragged lines, once per number of cells.
 void report_ragged_lines(const std::vector<RaggedLine>& ragged, const CsvTable& table,
                          const char* model, FaultList& faults) {
-  std::map<std::size_t, std::size_t> count;
-  for (const RaggedLine& one : ragged)
+  std::map<std::size_t, std::size_t> count, titles;
+  for (const RaggedLine& one : ragged) {
     ++count[one.cells];
+    titles[one.cells] += one.is_one_text && table.rows() > 0 && one.line > table.line.front() &&
+                         one.line < table.line.back();
+  }
   for (const RaggedLine& one : ragged) {
     std::size_t& lines = count[one.cells];
     if (lines == 0) continue; // already reported
     faults.add({table.file, one.line, 0},
                fmt::format("{} cells, the {} has {}{}", one.cells, model, table.columns.size(),
                            and_more(lines - 1, "line")),
-               "a delimiter too many or too few, a line that is not data (skip_footer), or another "
-               "line is the header (skip_rows)");
+               titles[one.cells] > 0
+                   ? "are these titles between the rows? Cut the rows at them with data.segments; "
+                     "or a delimiter too many or too few"
+                   : "a delimiter too many or too few, a line that is not data (skip_footer), or "
+                     "another line is the header (skip_rows)");
     lines = 0;
   }
 }
@@ -356,15 +384,25 @@ std::string_view line_at(std::string_view text, std::size_t begin) {
                              : std::string_view();
 }
 
+// A line as the job's patterns see it: without the quotes that the reader of a sheet adds.
+std::string text_of_line(std::string_view line, const CsvFormat& format) {
+  line = line.substr(0, line.find('\r'));
+  if (!format.sheet || line.find('"') == line.npos) return std::string(line);
+  Scanner cells(line, ',');
+  return join(read_names(cells), ",");
+}
+
 // The runs of rows that the job's patterns cut out of the lines.
 class Segments {
 public:
-  explicit Segments(const CsvSegments* rules) : rules_(rules) {}
+  explicit Segments(const CsvFormat& format) : format_(format), rules_(format.segments.get()) {}
 
-  // True for a line that begins or ends a run, or stands between two of them.
-  bool passes(std::string_view line) {
-    const std::string text(line.substr(0, line.find('\r')));
+  // True for a line that begins or ends a run, or stands between two of them. A run takes the place
+  // of those before the first row.
+  bool passes(std::string_view line, bool has_rows) {
+    const std::string text = text_of_line(line, format_);
     if (auto groups = rules_->begins.search(text)) {
+      if (!has_rows) groups_.clear();
       groups_.push_back(std::move(*groups));
       inside_ = true;
       return true;
@@ -380,8 +418,7 @@ public:
   // The last run that begins in the preamble holds the first rows.
   void look_at_preamble(std::string_view text) {
     for (Scanner lines(text, '\n'); rules_ && !lines.at_end();)
-      passes(lines.take_line());
-    if (groups_.size() > 1) groups_.erase(groups_.begin(), groups_.end() - 1);
+      passes(lines.take_line(), false);
     outside_ = 0;
   }
 
@@ -406,6 +443,7 @@ public:
   }
 
 private:
+  const CsvFormat& format_;
   const CsvSegments* rules_;
   std::vector<std::map<std::string, std::string>> groups_; // of each run
   bool inside_ = false;
@@ -418,26 +456,26 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
                FaultList& faults) {
   const std::size_t width = table.columns.size(), named = named_columns(table);
   const std::vector<char> is_text = text_columns(table, format);
-  std::size_t again = 0, in_front = 0, delimiters_alone = 0;
+  std::size_t again = 0, in_front = 0, delimiters_alone = 0, remarks = 0;
   // ragged lines just before a repeated header are not faults
   std::vector<RaggedLine> ragged, since_row;
-  Segments segments(format.segments.get());
+  Segments segments(format);
   segments.look_at_preamble(preamble);
   const auto tell = [&] {
     ragged.insert(ragged.end(), since_row.begin(), since_row.end());
     since_row.clear();
   };
   while (!scanner.at_end()) {
+    const std::size_t row = table.line.size();
     if (is_blank(text, scanner.position())) {
       delimiters_alone += scanner.take_line().find_first_of(",;|") != std::string_view::npos;
       continue;
     }
-    if (segments.are_cut() && segments.passes(line_at(text, scanner.position()))) {
+    if (segments.are_cut() && segments.passes(line_at(text, scanner.position()), row > 0)) {
       scanner.take_line();
       continue;
     }
     const std::size_t line = scanner.line();
-    const std::size_t row = table.line.size();
     if (!header_text.empty() && starts_with_line(text, scanner.position(), header_text)) {
       skip_header(scanner, text, format);
       in_front += since_row.size();
@@ -446,15 +484,18 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
       continue;
     }
     const Cells cells = read_cells(table, scanner, format, is_text, named, row);
-    if (cells.filled >= named && cells.filled <= width) {
+    if (cells.filled <= width &&
+        (cells.filled >= named || (format.sheet && is_short_row(table, cells, named, row)))) {
       tell();
       table.line.push_back(line);
       table.interval.push_back(segments.are_cut() ? segments.number() : again);
       continue;
     }
-    since_row.push_back({line, cells.filled});
+    since_row.push_back({line, cells.filled, cells.is_one_text()});
     forget_row(table, row, cells.kept);
   }
+  if (format.sheet && !table.line.empty())
+    remarks = std::erase_if(since_row, [](const RaggedLine& one) { return one.is_one_text; });
   tell();
   report_ragged_lines(ragged, table, header_text.empty() ? "first row" : "header", faults);
   settle_nameless(table, named);
@@ -464,7 +505,8 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
                        delimiters_alone,
                        table.passed_over.below_units,
                        segments.count(),
-                       segments.outside()};
+                       segments.outside(),
+                       remarks};
   if (scanner.unclosed_line() > 0)
     faults.add({table.file, scanner.unclosed_line(), 0},
                "a quotation mark opens here and is never closed");
@@ -475,18 +517,26 @@ std::vector<std::string> notes_of(const CsvPassedOver& lines) {
   if (lines.headers > 0)
     notes.push_back(fmt::format("the header line comes again {} times", lines.headers));
   if (lines.in_front > 0)
-    notes.push_back(fmt::format("{} lines in front of it are not rows", lines.in_front));
+    notes.push_back(
+        fmt::format("{} lines in front of a repeated header are not rows", lines.in_front));
   if (lines.delimiters_alone > 0)
     notes.push_back(
         fmt::format("{} lines hold delimiters alone: they are not rows", lines.delimiters_alone));
   if (lines.below_units > 0)
+    notes.push_back(lines.below_units == 1
+                        ? "a line below the units is not a row: words where numbers follow"
+                        : fmt::format("{} lines below the units are not rows: words where numbers "
+                                      "follow",
+                                      lines.below_units));
+  if (lines.remarks > 0)
     notes.push_back(
-        lines.below_units == 1
-            ? "a line below the units is not a row: texts alone"
-            : fmt::format("{} lines below the units are not rows: texts alone", lines.below_units));
+        fmt::format("{} below the last row {} not read: one text alone",
+                    lines.remarks == 1 ? "a line" : fmt::format("{} lines", lines.remarks),
+                    lines.remarks == 1 ? "is" : "are"));
   if (lines.segments > 0)
-    notes.push_back(fmt::format("{} segments of rows; {} lines outside them are not read",
-                                lines.segments, lines.outside_segments));
+    notes.push_back(
+        fmt::format("a file with {} segments of rows: {} lines outside them are not read",
+                    lines.segments, lines.outside_segments));
   return notes;
 }
 
@@ -563,38 +613,63 @@ bool read_header(CsvTable& table, Scanner& scanner, const CsvFormat& format) {
   return true;
 }
 
-void read_units(CsvTable& table, Scanner& scanner, std::string_view text, FaultList& faults) {
+void read_units(CsvTable& table, Scanner& scanner, std::string_view text, const CsvFormat& format,
+                FaultList& faults) {
   skip_blank_lines(scanner, text);
   const std::size_t line = table.units_line = scanner.line();
   const auto units = read_names(scanner);
-  if (units.size() != table.columns.size())
+  const bool lacks_last = units.size() < table.columns.size() && format.sheet;
+  if (units.size() != table.columns.size() && !lacks_last)
     faults.add({table.file, line, 0}, fmt::format("the units row has {} cells, the header {}",
                                                   units.size(), table.columns.size()));
   for (std::size_t i = 0; i < std::min(units.size(), table.columns.size()); ++i)
     table.columns[i].unit = to_utf8(units[i]);
 }
 
-// Skips lines between the units and the first row that hold neither numbers nor units, as the name
-// of each channel's amplifier.
-void skip_texts_below_units(CsvTable& table, Scanner& scanner, const CsvFormat& format) {
+// True for a word in front of a line whose first column holds numbers in the next two lines, as the
+// zero values of the channels are written: "Nullwert; 0,0; 1,2".
+bool begins_with_word(const CsvTable& table, const std::string& first, Scanner below,
+                      const CsvFormat& format) {
+  if (first.empty() || text_columns(table, format).front() ||
+      !std::isalpha(static_cast<unsigned char>(first[0])))
+    return false;
+  const std::string word = lower_case(first);
+  if (word == "nan" || word == "na" || word == "n/a" || word == "null")
+    return false; // a lost value
+  double ignored = 0;
+  for (int line = 0; line < 2; ++line)
+    if (below.at_end() || !parse_number(read_names(below).front(), format, ignored)) return false;
+  return true;
+}
+
+// Skips lines between the units and the first row that hold no units, and no numbers or a word
+// before them, as the name of each channel's amplifier. A line that begins a segment stays.
+void skip_texts_below_units(CsvTable& table, Scanner& scanner, std::string_view text,
+                            const CsvFormat& format) {
   constexpr std::size_t most = 4;
   Scanner ahead = scanner;
   for (std::size_t lines = 0; lines <= most && !ahead.at_end(); ++lines) {
     const Scanner here = ahead;
+    const std::string_view line = line_at(text, ahead.position());
     const std::vector<std::string> cells = read_names(ahead);
     double ignored = 0;
     const bool has_number = std::any_of(cells.begin(), cells.end(), [&](const std::string& cell) {
       return parse_number(cell, format, ignored);
     });
-    if (has_number) {
+    const bool has_unit = std::any_of(cells.begin(), cells.end(), [&](const std::string& cell) {
+      return !parse_number(cell, format, ignored) &&
+             convert(without_brackets(cell), without_brackets(cell));
+    });
+    const bool begins_segment =
+        format.segments && format.segments->begins.search(text_of_line(line, format));
+    const bool is_row =
+        has_number && (has_unit || !begins_with_word(table, cells.front(), ahead, format));
+    if (begins_segment || is_row) {
       table.passed_over.below_units = lines;
       scanner = here;
       return;
     }
-    if (std::any_of(cells.begin(), cells.end(), [](const std::string& cell) {
-          return cell.empty() || convert(without_brackets(cell), without_brackets(cell));
-        }))
-      return;
+    if (!has_number && (has_unit || std::count(cells.begin(), cells.end(), "") > 0)) return;
   }
 }
 
@@ -603,6 +678,7 @@ std::size_t count_names(std::string_view line, const CsvFormat& format) {
   std::size_t most = 0;
   for (const char delimiter : {',', ';', '\t', '|', ' '}) {
     if (format.delimiter && delimiter != format.delimiter) continue;
+    if (delimiter == ' ' && line.find_first_of("\t;|") != line.npos) continue; // words of a cell
     Scanner scanner(line, delimiter);
     std::size_t count = 0;
     for (const std::string& cell : read_names(scanner))
@@ -612,31 +688,81 @@ std::size_t count_names(std::string_view line, const CsvFormat& format) {
   return most;
 }
 
-// The condition that a line gives: a name, one of \t ; : = or two blanks, or else a comma, and a
-// value.
-std::optional<CsvAbove> condition_in(std::string_view line) {
-  const auto bare = [](std::string_view part) {
-    constexpr std::string_view around = " \t\r\"';:=,";
-    const std::size_t begin = part.find_first_not_of(around);
-    if (begin == part.npos) return std::string_view();
-    return part.substr(begin, part.find_last_not_of(around) + 1 - begin);
-  };
-  std::size_t cut = std::min(line.find_first_of("\t;:="), line.find("  "));
-  if (cut == line.npos) cut = line.find(',');
-  if (cut == line.npos) return std::nullopt;
-  const std::string_view name = bare(line.substr(0, cut)), value = bare(line.substr(cut));
-  if (name.empty() || value.empty()) return std::nullopt;
-  return CsvAbove{to_utf8(name), to_utf8(value)};
+std::string_view bare(std::string_view part, std::string_view around = " \t\r\"';:=,") {
+  const std::size_t begin = part.find_first_not_of(around);
+  if (begin == part.npos) return {};
+  return part.substr(begin, part.find_last_not_of(around) + 1 - begin);
 }
 
-std::vector<CsvAbove> conditions_in(std::string_view preamble) {
+bool has_letter(std::string_view text) {
+  return std::any_of(text.begin(), text.end(),
+                     [](unsigned char c) { return std::isalpha(c) || c >= 0x80; });
+}
+
+// A name and a value, without the quotes of cells and the sign of a comment; nullopt where one of
+// them is empty, or the name is a number.
+std::optional<CsvAbove> condition_of(std::string_view name, std::string_view value) {
+  name = bare(name, " \t\r\"';:=,#%");
+  value = bare(value);
+  if (!has_letter(name) || value.empty()) return std::nullopt;
+  return CsvAbove{to_utf8(name), to_utf8(replace_all(std::string(value), "\"", ""))};
+}
+
+// The sign that separates name and value: one of \t ; : = or two blanks, or else a comma; npos if
+// there is none. A colon between digits is that of a time of day.
+std::size_t end_of_name(std::string_view line) {
+  std::size_t cut = line.find_first_of("\t;:=");
+  const auto is_digit = [&](std::size_t at) {
+    return at < line.size() && std::isdigit(static_cast<unsigned char>(line[at]));
+  };
+  while (cut != line.npos && line[cut] == ':' && cut > 0 && is_digit(cut - 1) && is_digit(cut + 1))
+    cut = line.find_first_of("\t;:=", cut + 1);
+  cut = std::min(cut, line.find("  "));
+  return cut == line.npos ? line.find(',') : cut;
+}
+
+// The conditions in a line of cells. An empty cell between a value and a name separates two of
+// them: "Tool;GS-14;;Oil;X".
+std::vector<CsvAbove> conditions_in_cells(std::string_view line, char separator) {
+  Scanner scanner(line, separator);
+  const std::vector<std::string> cells = read_names(scanner);
+  std::vector<CsvAbove> out;
+  for (std::size_t begin = 0, end = 0; begin < cells.size(); begin = end + 1) {
+    const auto next_begins = [&](std::size_t i) {
+      return i >= begin + 2 && i + 2 < cells.size() && cells[i].empty() &&
+             has_letter(cells[i + 1]) && !cells[i + 2].empty();
+    };
+    end = begin + 1;
+    std::string value;
+    for (; end < cells.size() && !next_begins(end); ++end)
+      value += separator + cells[end];
+    if (auto one = condition_of(cells[begin], value)) out.push_back(std::move(*one));
+  }
+  return out;
+}
+
+std::vector<CsvAbove> conditions_of_line(std::string_view line, const CsvFormat& format) {
+  std::string cell;
+  if (format.sheet) {
+    if (count_cells(line, ',') > 1) return conditions_in_cells(line, ',');
+    line = cell = text_of_line(line, format);
+  }
+  const std::size_t cut = end_of_name(line);
+  if (cut == line.npos) return {};
+  if (line[cut] == '\t' || line[cut] == ';' || line[cut] == ',')
+    return conditions_in_cells(line, line[cut]);
+  if (auto one = condition_of(line.substr(0, cut), line.substr(cut))) return {std::move(*one)};
+  return {};
+}
+
+std::vector<CsvAbove> conditions_in(std::string_view preamble, const CsvFormat& format) {
   constexpr std::size_t most = 200;
   std::vector<CsvAbove> out;
   for (Scanner lines(preamble, '\n'); !lines.at_end() && out.size() < most;)
-    if (auto one = condition_in(lines.take_line());
-        one && std::none_of(out.begin(), out.end(),
-                            [&](const CsvAbove& other) { return other.name == one->name; }))
-      out.push_back(std::move(*one));
+    for (CsvAbove& one : conditions_of_line(lines.take_line(), format))
+      if (std::none_of(out.begin(), out.end(),
+                       [&](const CsvAbove& other) { return other.name == one.name; }))
+        out.push_back(std::move(one));
   return out;
 }
 
@@ -645,10 +771,13 @@ std::vector<CsvAbove> conditions_in(std::string_view preamble) {
 std::size_t worth_as_header(std::string_view line, const CsvFormat& format) {
   const std::size_t names = count_names(line, format);
   if (names != 1) return 2 * names;
-  const auto condition = condition_in(line);
-  const bool gives_value = condition && is_wanted(condition->name, format) &&
-                           (std::isdigit(static_cast<unsigned char>(condition->value[0])) ||
-                            condition->value.find_first_of("\t;,|") == std::string::npos);
+  const std::vector<CsvAbove> conditions = conditions_of_line(line, format);
+  const bool gives_value =
+      std::any_of(conditions.begin(), conditions.end(), [&](const CsvAbove& one) {
+        return is_wanted(one.name, format) &&
+               (std::isdigit(static_cast<unsigned char>(one.value[0])) ||
+                one.value.find_first_of("\t;,|") == std::string::npos);
+      });
   return gives_value ? 1 : 2;
 }
 
@@ -721,7 +850,7 @@ Head read_head(CsvTable& table, std::string_view text, const CsvFormat& format, 
   head.delimiter = format.delimiter ? format.delimiter
                                     : find_delimiter(head.header, line_at(text, lines.position()),
                                                      format.decimal);
-  table.above = conditions_in(text.substr(0, header));
+  table.above = conditions_in(text.substr(0, header), format);
   Scanner scanner(text, head.delimiter);
   while (scanner.position() < header) {
     const std::string_view line = line_at(text, scanner.position());
@@ -743,8 +872,8 @@ Head read_head(CsvTable& table, std::string_view text, const CsvFormat& format, 
     return head;
   }
   if (format.units_row && !scanner.at_end()) {
-    read_units(table, scanner, text, faults);
-    skip_texts_below_units(table, scanner, format);
+    read_units(table, scanner, text, format, faults);
+    skip_texts_below_units(table, scanner, text, format);
   }
   head.end = scanner.position();
   head.end_line = scanner.line();

@@ -35,6 +35,8 @@ struct CsvFormat {
   bool header = true;           // false: no line of names; columns are column_1, column_2, ...
   bool may_lack_header = false; // the same for a file whose header line would be numbers
   std::size_t header_rows = 1;  // lines of names; those of a column are joined by blanks
+  bool sheet =
+      false; // the text of a sheet, in which rows lack the cells that are empty at their end
   std::shared_ptr<const CsvSegments> segments; // none: all lines below the header may be rows
   // Columns whose cells stay text even if they are numbers ("007"): by name, or by number from 1.
   std::vector<std::string> text_columns;
@@ -105,8 +107,9 @@ struct CsvPassedOver {
   std::size_t headers = 0;  // repeated header lines
   std::size_t in_front = 0; // lines just before a repeated header
   std::size_t delimiters_alone = 0;
-  std::size_t below_units = 0; // lines of texts between the units and the first row
+  std::size_t below_units = 0; // lines of words between the units and the first row
   std::size_t segments = 0, outside_segments = 0; // runs, and lines outside them
+  std::size_t remarks = 0;                        // lines of one text below the last row of a sheet
 };
 
 // A line above the header that gives a condition: "Normal load: 5 N", "Probe;C45".

@@ -163,8 +163,10 @@ TEST_F(RigLayouts, LinesOfTextsBelowTheUnitsArePassedAndCounted) {
                          HasSubstr("\nsigma_n_MPa = \"p\" ")));
   const CommandResult read = test::run_frictab({"data", "job/job.toml"}, directory.path());
   EXPECT_EQ(read.exit_code, 0) << read.err;
-  EXPECT_THAT(read.out, AllOf(HasSubstr("read: a line below the units is not a row: texts alone\n"),
-                              HasSubstr("  12  ")));
+  EXPECT_THAT(
+      read.out,
+      AllOf(HasSubstr("read: a line below the units is not a row: words where numbers follow\n"),
+            HasSubstr("  12  ")));
   // Units twice, or a cell without text, may mean something else.
   for (const char* const between : {"s\tMPa\t1\n", "A\t\tB\n"}) {
     directory.write("a.asc", text(between));

@@ -199,8 +199,8 @@ TEST(CsvPieces, CountTextsBelowTheUnitsAsTheFileDoes) {
   FaultList faults;
   const io::CsvTable whole = io::parse_csv(text, "a.csv", format, faults);
   ASSERT_EQ(whole.rows(), 3u);
-  EXPECT_THAT(whole.notes,
-              testing::ElementsAre("2 lines below the units are not rows: texts alone"));
+  EXPECT_THAT(whole.notes, testing::ElementsAre(
+                               "2 lines below the units are not rows: words where numbers follow"));
   for (std::size_t bytes = 1; bytes < text.size(); bytes += 3)
     EXPECT_EQ(whole.notes, in_pieces(text, format, bytes).notes) << bytes;
 }

@@ -230,7 +230,7 @@ TEST_F(LoadFiles, AreCutIntoIntervalsWhereTheHeaderComesAgain) {
   EXPECT_THAT(column(data, "F_R_N"), ElementsAre(1, 2, 3, 4));
   EXPECT_EQ(data.values("sigma_n_MPa")[0], 0.005);
   EXPECT_THAT(data.notes, testing::Contains("the header line comes again 1 times"));
-  EXPECT_THAT(data.notes, testing::Contains("1 lines in front of it are not rows"));
+  EXPECT_THAT(data.notes, testing::Contains("1 lines in front of a repeated header are not rows"));
 }
 
 // ---- headers ----

@@ -108,8 +108,8 @@ TEST_F(LoadTextForms, SegmentsAreIntervalsWithTheirGroups) {
   EXPECT_THAT(column(data, "tau_R_MPa"), ElementsAre(10, 11, 12, 13));
   EXPECT_THAT(column(data, "step"), ElementsAre(1, 1, 2, 2));
   EXPECT_THAT(data.find("oil")->levels, ElementsAre("dry", "oil"));
-  EXPECT_THAT(data.notes,
-              testing::Contains("2 segments of rows; 2 lines outside them are not read"));
+  EXPECT_THAT(data.notes, testing::Contains(
+                              "a file with 2 segments of rows: 2 lines outside them are not read"));
 }
 
 TEST_F(LoadTextForms, SegmentThatBeginsAboveTheHeaderHoldsTheFirstRows) {
@@ -127,6 +127,59 @@ TEST_F(LoadTextForms, ASegmentThatNeverBeginsLeavesNoRows) {
 }
 
 // ---- marks for no value ----
+
+TEST_F(LoadTextForms, ASegmentThatBeginsBelowTheUnitsHoldsItsRows) {
+  options.segments = {R"(^\d+ (?<title>\w+))", "", {"job.toml", 3, 1}};
+  options.units_row = true;
+  const Dataset data =
+      read("sigma_n_MPa,tau_R_MPa\nMPa,MPa\n1 Green\n100,10\n2 Fade\n101,11\n102,12\n");
+  EXPECT_THAT(column(data, "tau_R_MPa"), ElementsAre(10, 11, 12));
+  EXPECT_THAT(data.notes, testing::Contains(
+                              "a file with 2 segments of rows: 0 lines outside them are not read"));
+}
+
+TEST_F(LoadTextForms, ZeroValuesBelowTheUnitsAreNoRow) {
+  options.units_row = true;
+  const Dataset data = read("time_s;sigma_n_MPa;tau_R_MPa\ns;MPa;MPa\nSR=50 Hz;CH 1;CH 2\n"
+                            "Nullwert;0.0;-12.3\n0;100;10\n1;101;11\n");
+  EXPECT_THAT(column(data, "tau_R_MPa"), ElementsAre(10, 11));
+  EXPECT_THAT(data.notes, testing::Contains("2 lines below the units are not rows: words where "
+                                            "numbers follow"));
+  EXPECT_THAT(fault("time_s;sigma_n_MPa;tau_R_MPa\ns;MPa;MPa\nNaN;100;10\n1;101;11\n2;102;12\n"),
+              HasSubstr("NaN"))
+      << "a lost value is reported";
+}
+
+// ---- lines above the rows ----
+
+TEST_F(LoadTextForms, ConditionsAboveTheRowsMayStandBetweenCommas) {
+  options.above = {"Temperature"};
+  options.columns["F_N_N"].names = {"Sled weight"};
+  options.constants["sigma_n_MPa"] = 5;
+  for (const std::string sled : {"Sled weight,1.961,N", R"("Sled weight","1.961","N")"}) {
+    const Dataset data =
+        read(sled + "\n# Temperature,23.0,C\nDate,\"3/4/2026 2:01:15 PM\"\nF_R_N\n1\n2\n");
+    EXPECT_THAT(column(data, "F_N_N"), ElementsAre(1.961, 1.961));
+    EXPECT_THAT(column(data, "Temperature"), ElementsAre(23, 23));
+  }
+}
+
+TEST_F(LoadTextForms, AConditionIsFoundUnderItsWholeNameBesideAColumn) {
+  options.above = {"Normal stress (kPa)"};
+  options.constants["sigma_n_MPa"] = 5;
+  const Dataset data =
+      read("Normal stress (kPa): 50\n\nNormal stress [kPa];tau_R_MPa\n49;1\n51;2\n");
+  EXPECT_THAT(column(data, "Normal stress (kPa)"), ElementsAre(50, 50));
+}
+
+TEST_F(LoadTextForms, AWordOfAFormulaInTheFirstLineIsNotTheHeader) {
+  options.columns["v_rel_mm_s"].formula = "2*15*Frequency";
+  const Dataset data = read("Some Ltd\tTE 77 High Frequency Machine\nFrequency (Hz):\t5\n"
+                            "sigma_n_MPa\ttau_R_MPa\n100\t10\n101\t11\n");
+  EXPECT_THAT(column(data, "v_rel_mm_s"), ElementsAre(150, 150));
+}
+
+// ---- no value ----
 
 TEST_F(LoadTextForms, MarksForNoValueAreEmptyCells) {
   options.missing_values = {"OVER", "-9999"};

@@ -100,6 +100,51 @@ TEST_F(LoadWorkbook, SheetOfTestsIsJoinedAndIsNoTest) {
   EXPECT_EQ(read_book().experiments.size(), 2u);
 }
 
+TEST_F(LoadWorkbook, ARowWithoutItsLastCellsIsPadded) {
+  options.units_row = true;
+  book("a.xlsx", {{"T1", xml_rows("sigma_n_MPa;tau_R_MPa;Ra;Remarks\nMPa;MPa;um\n100;10;1\n"
+                                  "101;11;;worn\n102;12\n")}});
+  const Dataset data = read_book();
+  EXPECT_THAT(column(data, "tau_R_MPa"), ElementsAre(10, 11, 12));
+  EXPECT_THAT(data.find("Remarks")->levels, ElementsAre("", "worn"));
+  EXPECT_THAT(data.notes, testing::Contains("Ra: 2 of 3 rows without a value"));
+}
+
+TEST_F(LoadWorkbook, APlanOfTestsMayLackItsLastCellsAndHaveALegend) {
+  options.columns["experiment"].names = {"Versuch"};
+  options.experiment = "file";
+  book("a.xlsx", {{"Plan", xml_rows("Versuch;v_rel_mm_s;Oil;Bemerkung\nT1;5;MH\nT2;50;RP;new die\n"
+                                    "\nLegend: MH = mineral oil\n")},
+                  {"T1", rows_of(10)},
+                  {"T2", rows_of(20)}});
+  options.tests = "a.xlsx";
+  const Dataset data = read_book();
+  EXPECT_THAT(column(data, "v_rel_mm_s"), ElementsAre(5, 5, 50, 50));
+  EXPECT_THAT(data.notes,
+              testing::Contains("a.xlsx: a line below the last row is not read: one text alone"));
+}
+
+TEST_F(LoadWorkbook, TitlesBetweenRowsAreAFaultThatNamesSegments) {
+  const std::string rows =
+      "sigma_n_MPa;tau_R_MPa;Ra\n1 Green mu\n100;10;1\n2 Fade test\n101;11;1\n";
+  book("a.xlsx", {{"T1", xml_rows(rows)}});
+  EXPECT_THAT(fault_of({"a.xlsx"}),
+              testing::AllOf(HasSubstr("1 cells, the header has 3 (and 1 more line)"),
+                             HasSubstr("Cut the rows at them with data.segments")));
+  options.segments = {R"(^\d+ (?<title>\w+))", "", {"job.toml", 3, 1}};
+  EXPECT_THAT(read_book().find("title")->levels, ElementsAre("Fade", "Green"))
+      << "without the quotes that cells with blanks have as text";
+}
+
+TEST_F(LoadWorkbook, APairOfCellsAfterAnEmptyOneIsAnotherCondition) {
+  options.above = {"Tool no.", "Lubricant"};
+  book("a.xlsx", {{"T1", xml_rows("Tool no.;GS-14;;Lubricant;Zn, soap\nsigma_n_MPa;tau_R_MPa\n"
+                                  "100;10\n101;11\n")}});
+  const Dataset data = read_book();
+  EXPECT_THAT(data.find("Tool no.")->levels, ElementsAre("GS-14"));
+  EXPECT_THAT(data.find("Lubricant")->levels, ElementsAre("Zn, soap"));
+}
+
 TEST_F(LoadWorkbook, SecondWorkbookIsATableOfTests) {
   options.columns["experiment"].names = {"Versuch"};
   options.experiment = "file";
