@@ -44,6 +44,9 @@ void drop_rows(Part& part, const Reading& options) {
 
 namespace {
 
+constexpr const char *empty_cell = "an empty cell",
+                     *no_row_left = "data.missing = \"drop\" leaves no row";
+
 // Drops the rows without a number in this column, unless they are dropped already.
 void drop_without(const Column& column, Part& part, std::vector<char>& keep) {
   std::size_t dropped = 0;
@@ -57,7 +60,7 @@ void drop_without(const Column& column, Part& part, std::vector<char>& keep) {
 
 } // namespace
 
-void drop_missing(Part& part, const Reading& options) {
+void drop_empty_rows(Part& part, const Reading& options) {
   if (options.missing != Missing::drop) return;
   std::set<std::size_t> raw_rows;
   for (const MappedFile::CellFault& cell : part.cell_faults)
@@ -65,11 +68,26 @@ void drop_missing(Part& part, const Reading& options) {
   std::vector<char> keep;
   for (const std::size_t row : part.row)
     keep.push_back(raw_rows.count(row) == 0);
-  if (!raw_rows.empty()) part.data.dropped.push_back({"an empty cell", raw_rows.size()});
+  const auto rows = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), 0));
+  if (rows == 0) return;
+  std::vector<Dataset::Dropped>& dropped = part.data.dropped;
+  const auto known = std::find_if(dropped.begin(), dropped.end(),
+                                  [](const auto& one) { return one.rule == empty_cell; });
+  if (known == dropped.end())
+    dropped.push_back({empty_cell, rows});
+  else
+    known->rows += rows;
+  keep_rows(part, keep, no_row_left);
+}
+
+void drop_missing(Part& part, const Reading& options) {
+  if (options.missing != Missing::drop) return;
+  drop_empty_rows(part, options); // those that formulas found
+  std::vector<char> keep(part.row.size(), 1);
   for (const Column& column : part.data.columns)
     if (options.needed && !find_quantity(column.name) && options.needed(column.name))
       drop_without(column, part, keep);
-  keep_rows(part, keep, "data.missing = \"drop\" leaves no row");
+  keep_rows(part, keep, no_row_left);
 }
 
 // ---- phases ----

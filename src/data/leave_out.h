@@ -10,7 +10,9 @@ namespace frictab::data {
 // Leaves out rows by data.drop.
 void drop_rows(Part& part, const Reading& options);
 
-// Leaves out rows with an empty cell if the job asks for it.
+// Leaves out rows with an empty cell if the job asks for it; the first one alone those that the
+// file itself holds, before anything is computed from neighbouring rows.
+void drop_empty_rows(Part& part, const Reading& options);
 void drop_missing(Part& part, const Reading& options);
 
 // Leaves out rows that are not sliding and keeps them in data.aside; counts all rows in

@@ -34,6 +34,7 @@ namespace {
 void map_part(Part& part, const FilePlan& plan) {
   gather_experiments(part, map_columns(part.raw, plan.options, plan.label, part.faults),
                      plan.label);
+  drop_empty_rows(part, plan.options);
   take_slopes(part, plan.options);
 }
 
@@ -44,6 +45,10 @@ void read_part(Part& part, const FilePlan& plan) {
         end_to_end(read_raw(path_of(plan).string(), plan.name, options, part.faults), options);
     map_part(part, plan);
   });
+}
+
+bool lacks_stress(Part& part, const Reading& options) {
+  return !part.find("sigma_n_MPa") || (options.measured && !part.find("tau_R_MPa"));
 }
 
 void finish_part(Part& part, const Reading& options, const Beside& beside) {
@@ -58,6 +63,7 @@ void finish_part(Part& part, const Reading& options, const Beside& beside) {
   drop_rows(part, options);
   report_odd_cells(part);
   check_experiments(part, options);
+  if (lacks_stress(part, options)) return; // as is reported already
   const std::vector<Phase> phases = take_signs(part, options);
   integrate_distance(part); // over all rows
   leave_out_phases(part, phases, options);

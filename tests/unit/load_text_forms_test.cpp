@@ -181,6 +181,18 @@ TEST_F(LoadTextForms, AWordOfAFormulaInTheFirstLineIsNotTheHeader) {
 
 // ---- no value ----
 
+TEST_F(LoadTextForms, DroppedRowsLeaveTheSlopesOfOthersAlone) {
+  options.missing = data::Missing::drop;
+  options.missing_values = {"Nullwert"};
+  options.columns["v_rel_mm_s"].names = {"x"};
+  options.columns["v_rel_mm_s"].slope_rows = 3;
+  const Dataset data = read("time_s,x,sigma_n_MPa,tau_R_MPa\nNullwert,0,100,10\n0,0,100,10\n"
+                            "1,5,100,10\n2,10,100,10\n3,15,100,10\n");
+  EXPECT_THAT(column(data, "v_rel_mm_s"), ElementsAre(5, 5, 5, 5));
+  ASSERT_EQ(data.dropped.size(), 1u);
+  EXPECT_EQ(data.dropped[0].rows, 1u);
+}
+
 TEST_F(LoadTextForms, MarksForNoValueAreEmptyCells) {
   options.missing_values = {"OVER", "-9999"};
   options.missing = data::Missing::drop;
