@@ -12,6 +12,7 @@
 #include "cli/command.h"
 #include "cli/print.h"
 #include "core/error.h"
+#include "core/os/files.h"
 #include "core/text.h"
 #include "data/file_list.h"
 #include "io/atomic_file.h"
@@ -122,18 +123,23 @@ std::vector<data::GuessedFile> guesses_of(const std::vector<std::string>& files,
   return guesses;
 }
 
-// Keeps the sheets of these names; tables of tests in other workbooks stay.
+// Keeps the sheets of these names, or like them with *; tables of tests in other workbooks stay.
 void keep_sheets(std::vector<data::GuessedFile>& guesses, const std::vector<std::string>& sheets) {
   std::vector<std::string> names;
   for (const data::GuessedFile& guess : guesses)
     if (!guess.sheet.empty()) names.push_back(guess.sheet);
+  const auto is_meant = [](const std::string& name, const std::string& sheet) {
+    return name == sheet || os::is_like(name, sheet);
+  };
   for (const std::string& sheet : sheets)
-    if (std::find(names.begin(), names.end(), sheet) == names.end())
+    if (std::none_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return is_meant(name, sheet); }))
       throw InputError({}, fmt::format("no workbook has a table in a sheet '{}'", sheet),
                        suggest(sheet, names));
   std::erase_if(guesses, [&](const data::GuessedFile& guess) {
     return !sheets.empty() && !guess.sheet.empty() &&
-           std::find(sheets.begin(), sheets.end(), guess.sheet) == sheets.end();
+           std::none_of(sheets.begin(), sheets.end(),
+                        [&](const std::string& sheet) { return is_meant(guess.sheet, sheet); });
   });
 }
 
@@ -190,7 +196,8 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
                  "data files, folders or names with *: the job is made from what they hold")
       ->type_name("FILES")
       ->expected(1, -1);
-  app.add_option("--sheet", options->sheets, "the sheet of a workbook with the rows, or several")
+  app.add_option("--sheet", options->sheets,
+                 "the sheet of a workbook with the rows, or several; names with *")
       ->type_name("NAME")
       ->expected(1, -1);
   app.add_flag("--interactive", options->interactive,

@@ -20,7 +20,8 @@ namespace {
 constexpr std::pair<const char*, const char*> spellings[] = {
     {"-", "1"},       {"C", "degC"},     {"deg C", "degC"}, {"Grad C", "degC"}, {"ºC", "degC"},
     {"F", "degF"},    {"deg F", "degF"}, {"lbs", "lbf"},    {"ksi", "kpsi"},    {"Sekunden", "s"},
-    {"Sekunde", "s"}, {"Sek", "s"},      {"sek", "s"},      {"Sek.", "s"},      {"sec.", "s"}};
+    {"Sekunde", "s"}, {"Sek", "s"},      {"sek", "s"},      {"Sek.", "s"},      {"sec.", "s"},
+    {"Sec", "s"},     {"deg_C", "degC"}, {"deg_F", "degF"}};
 
 // The library's database; one thread at a time may query it.
 class Units {

@@ -54,6 +54,12 @@ bool has_word(const std::string& name, std::initializer_list<std::string_view> w
   });
 }
 
+bool names_sums(const std::string& name) {
+  return has_word(words_of_name(name), {"mean", "average", "avg", "std", "stdev", "mittelwert",
+                                        "mittel", "standardabweichung", "stabw", "moyenne"}) &&
+         name.find_first_of("0123456789") == name.npos;
+}
+
 namespace {
 
 struct Names {
@@ -87,6 +93,7 @@ const std::vector<Names>& known_names() {
         "하중"},
        {"normal force",  "normalkraft",       "normal load",       "prüfkraft",
         "ball load",     "axial load",        "vertical force",    "clamping force",
+        "sled weight",   "dead weight",       "schlittengewicht",  "auflagekraft",
         "axial force",   "axialkraft",        "vertikalkraft",     "anpresskraft",
         "normallast",    "niederhalterkraft", "blankholder force", "effort normal",
         "force normale", "forza normale",     "fuerza normal",     "siła normalna",
@@ -102,15 +109,15 @@ const std::vector<Names>& known_names() {
        {}},
       {"sigma_n_MPa",
        false,
-       {"p", "pressure", "sigma n", "sigman", "σ n", "σn", "σ", "druck", "cpress", "pressung",
-        "fn mpa", "p mpa"},
+       {"p", "pressure", "sigma n", "sigman", "σ n", "σn", "σ", "sigma", "druck", "cpress",
+        "pressung", "fn mpa", "p mpa"},
        {"normal stress", "contact pressure", "surface pressure", "normalspannung", "pressung",
         "kontaktdruck", "pression de contact"},
        {}},
       {"tau_R_MPa",
        false,
        {"tau", "tau r", "taur", "τ r", "τr", "τ", "cshear", "cshear1", "shear", "friction stress"},
-       {"shear stress", "schubspannung", "cisaillement"},
+       {"shear stress", "schubspannung", "reibspannung", "cisaillement"},
        {}},
       {"tau_R_MPa",
        true,
@@ -118,6 +125,7 @@ const std::vector<Names>& known_names() {
        {"coefficient of friction",
         "friction coeff",
         "traction coeff",
+        "adhesion coeff",
         "reibwert",
         "reibzahl",
         "reibungszahl",
@@ -149,7 +157,12 @@ const std::vector<Names>& known_names() {
        {"s", "distance", "distanza", "weg", "slip", "path", "s d"},
        {"sliding distance", "sliding path", "gleitweg", "reibweg"},
        {}},
-      {"T_tool_C", false, {"t tool", "t werkzeug"}, {"tool temp", "werkzeugtemp", "die temp"}, {}},
+      {"T_tool_C",
+       false,
+       {"t tool", "t werkzeug"},
+       {"tool temp", "werkzeugtemp", "die temp", "temp tool", "temperature tool", "temp werkzeug",
+        "temperatur werkzeug", "temperature of tool", "temp die", "temperature die"},
+       {}},
       {"T_contact_C",
        false,
        {"t contact", "temperature", "temperatur", "temp", "t", "温度"},
@@ -185,10 +198,29 @@ std::string of_abaqus(const std::string& name) {
   return velocity ? "v_rel_mm_s" : "";
 }
 
+// "LOAD_N" of "LC01_LOAD_N", as controllers number their channels; "Fn" of a struct "data.Fn".
+std::string without_channel(const std::string& name) {
+  for (const std::string_view group : {"data.", "signals.", "raw."})
+    if (name.starts_with(group)) return name.substr(group.size());
+  const std::size_t end = name.find('_');
+  const std::size_t digits = name.find_first_of("0123456789");
+  const bool is_channel =
+      end != name.npos && digits >= 2 && digits + 2 <= end &&
+      name.find_first_not_of("0123456789", digits) == end &&
+      std::all_of(name.begin(), name.begin() + static_cast<long>(digits), is_capital);
+  return is_channel ? name.substr(end + 1) : name;
+}
+
 // Values of the surroundings, which say nothing about the contact.
 bool is_of_room(const std::string& name) {
   return has_word(name, {"room", "ambient", "air", "raum", "umgebung"}) ||
          name.starts_with("raumtemp") || name.starts_with("umgebungstemp");
+}
+
+// Times of a part of a test, which no clock shows.
+bool is_duration(const std::string& name) {
+  return has_word(name, {"stop", "stopping", "braking", "dwell", "delay", "hold", "holding",
+                         "haltezeit", "bremszeit", "verweilzeit"});
 }
 
 // Wanted or extreme values, scatter, and speeds of rolling, which are taken only if nothing else is
@@ -210,10 +242,10 @@ int likeness(const Names& names, const GuessedColumn& column) {
   if (quantity && !column.unit.empty() && !convert(column.unit, wanted)) return 0;
   const bool is_clock = column.clock && std::string(names.canonical) == "time_s";
   if (quantity && column.text && !is_clock) return 0;
-  const std::string bare = io::read_header_name(column.name).name,
+  const std::string bare = without_channel(io::read_header_name(column.name).name),
                     unit = quantity ? unit_in_name(bare, wanted) : "", name = words_of_name(bare),
                     without_unit = words_of_name(bare.substr(0, bare.size() - unit.size()));
-  if (is_of_room(name)) return 0;
+  if (is_of_room(name) || (std::string(names.canonical) == "time_s" && is_duration(name))) return 0;
   const auto is_whole = [&](const std::string& one) {
     return std::find(names.whole.begin(), names.whole.end(), one) != names.whole.end();
   };
@@ -221,11 +253,14 @@ int likeness(const Names& names, const GuessedColumn& column) {
     return std::any_of(parts.begin(), parts.end(),
                        [&](const std::string& part) { return name.find(part) != name.npos; });
   };
+  const bool is_in_newtons =
+      std::string(names.canonical) == "F_R_N" && convert(column.unit, "N").has_value();
   int found = 0;
   if (is_whole(name) || is_whole(without_unit) ||
       (!names.coefficient && of_abaqus(name) == names.canonical))
     found = 3;
-  else if (has_part(names.part) || (names.coefficient && has_word(name, {"mu", "µ", "μ", "cof"})))
+  else if (has_part(names.part) || (names.coefficient && has_word(name, {"mu", "µ", "μ", "cof"})) ||
+           (is_in_newtons && has_word(name, {"friction", "reibung"})))
     found = 2;
   else if (has_part(names.weak))
     found = 1;

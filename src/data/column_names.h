@@ -16,6 +16,9 @@ std::string words_of_name(const std::string& name);
 // Expects the words of a name.
 bool has_word(const std::string& name, std::initializer_list<std::string_view> words);
 
+// True for the name of a line that sums up others: "Mean", "Mittelwert".
+bool names_sums(const std::string& name);
+
 // Assigns each quantity to the column with the greatest likeness, the first one of equals.
 void name_columns(std::vector<GuessedColumn>& columns);
 

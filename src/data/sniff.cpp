@@ -61,6 +61,9 @@ double worth(const io::CsvTable& table, std::size_t faults, const io::CsvFormat&
   }
   if (!format.units_row) return sum;
   if (2 * units < std::max<std::size_t>(unit_cells, 1)) return -1;
+  // Below units of all columns, other dialects see a row in a line of zero values.
+  if (units == table.columns.size())
+    sum += static_cast<double>(units * table.passed_over.below_units);
   // A units row that covers every column is preferred to a header that is equally good.
   constexpr double more_than_as_good = 0.5;
   return sum + more_than_as_good;
@@ -104,6 +107,7 @@ private:
   // Tries decimal signs and numbers of lines before the table. A sheet has points and commas.
   void attempt_all(io::CsvFormat format, bool workbook) {
     if (workbook) format.delimiter = ',';
+    format.sheet = workbook;
     for (const char decimal : {'.', ','})
       for (format.skip_rows = 0; format.skip_rows < longest_preamble; ++format.skip_rows) {
         format.decimal = decimal;
@@ -211,6 +215,18 @@ GuessedColumn* find_column(std::vector<GuessedColumn>& columns, const std::strin
   return nullptr;
 }
 
+// The duration of each stop or stroke often falls from row to row, as clocks do not.
+void reject_durations(std::vector<GuessedColumn>& columns, const io::CsvTable& table) {
+  GuessedColumn* const clock = find_column(columns, "time_s");
+  if (!clock || clock->text || clock->name == clock->canonical) return;
+  constexpr std::size_t share = 3; // a clock falls only from test to test
+  const std::vector<double>& values = raw_of(*clock, table).numbers;
+  std::size_t falls = 0;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    falls += values[i] < values[i - 1];
+  if (share * falls > values.size()) clock->canonical.clear();
+}
+
 // The clock, where no name says so: a first column that only ascends, without a name but in units
 // of time, or called X as in the reports of Abaqus.
 void name_clock(std::vector<GuessedColumn>& columns, const io::CsvTable& table) {
@@ -267,6 +283,7 @@ std::vector<GuessedColumn> columns_of(const io::CsvTable& table) {
     columns.push_back(std::move(column));
   }
   name_columns(columns);
+  reject_durations(columns, table);
   if (GuessedColumn* const tests = find_column(columns, "experiment")) {
     tests->names = names_in(raw_of(*tests, table));
     const std::set<std::string> cells = set_of(cells_of(raw_of(*tests, table)));
@@ -394,17 +411,52 @@ void take_first_test(GuessedFile& guess) {
   guess.side_by_side = true;
 }
 
+// A radius or diameter of a body in contact among the conditions.
+void take_radius(GuessedFile& guess, const GuessedColumn& column, const ValueAbove& value) {
+  const auto to_mm = convert(column.unit, "mm");
+  const std::string name = words_of_name(column.name);
+  const auto has = [&](const char* part) { return name.find(part) != name.npos; };
+  const bool diameter = has("diameter") || has("durchmesser");
+  if (!value.is_number || !to_mm || (!diameter && !has("radius"))) return;
+  const double radius = (*to_mm)(value.number) / (diameter ? 2 : 1);
+  double& known = has("inner") || has("innen") ? guess.inner_radius_mm : guess.radius_mm;
+  if (known == 0) known = radius;
+}
+
+// A pulling force, where the lines above the rows give the weight on a sled: the only force of such
+// a rig, called Load, is friction.
+void doubt_load(GuessedFile& guess, const io::CsvTable& table) {
+  GuessedColumn* const load = find_column(guess.columns, "F_N_N");
+  if (!load || !has_word(words_of_name(io::read_header_name(load->name).name), {"load", "last"}) ||
+      guess.find("F_R_N") || guess.find("tau_R_MPa"))
+    return;
+  const auto is_of_sled = [](const io::CsvAbove& line) {
+    const std::string name = words_of_name(line.name), value = words_of_name(line.value);
+    return has_word(name, {"sled", "weight", "schlitten", "gewicht"}) ||
+           name.starts_with("schlitten") || has_word(value, {"d1894", "8295", "cof"});
+  };
+  if (std::any_of(table.above.begin(), table.above.end(), is_of_sled)) load->canonical.clear();
+}
+
 // Quantities that rigs hold, and write above the rows.
 void add_conditions(GuessedFile& guess, const io::CsvTable& table) {
   std::vector<GuessedColumn> conditions;
   for (const io::CsvAbove& line : table.above) {
+    const std::string bare = io::read_header_name(line.name).name;
+    if (std::any_of(table.columns.begin(), table.columns.end(), [&](const io::CsvColumn& column) {
+          return io::read_header_name(column.name).name == bare;
+        }))
+      continue; // the rows have it themselves
     const ValueAbove value = read_value_above(line.value, guess.decimal);
     GuessedColumn column;
     column.name = line.name;
     column.unit = value.unit.empty() ? io::read_header_name(line.name).unit : value.unit;
     column.above = true;
     column.text = !value.is_number;
+    column.counts_rows = value.is_number && value.unit.empty() && guess.row_count > 0 &&
+                         value.number == static_cast<double>(guess.row_count);
     column.first_values = line.value;
+    take_radius(guess, column, value);
     conditions.push_back(std::move(column));
   }
   std::vector<GuessedColumn> named = conditions;
@@ -463,6 +515,7 @@ void finish(GuessedFile& guess, const io::CsvTable& table) {
   guess.missing = markers_in(table);
   find_tests_in_columns(guess);
   if (are_side_by_side(table)) take_first_test(guess);
+  doubt_load(guess, table);
   guess.pressure = pressure_of_abaqus(guess);
   check_experiment(guess, table);
   guess.rows = !guess.side_by_side && !guess.intervals && each_row_is_a_test(guess, table);
@@ -477,36 +530,50 @@ std::string_view lines_before(std::string_view text, std::size_t line) {
   return text.substr(0, end);
 }
 
-// The number at the end of a line; 0 if there is none.
+// The last number that stands alone in a line; 0 if there is none. The 2 of mm2 does not.
 double last_number(std::string line, char decimal) {
+  for (const std::string_view unit : {"mm2", "mm^2", "cm2", "cm^2"})
+    line = replace_all(line, unit, "");
   while (!line.empty() && !std::isdigit(static_cast<unsigned char>(line.back())))
     line.pop_back();
-  const std::string number = line.substr(line.find_last_not_of("0123456789.,") + 1);
+  std::string number = line.substr(line.find_last_not_of("0123456789.,") + 1);
+  number.erase(0, number.find_first_not_of(".,")); // the comma of "area,40"
   double value = 0;
   for (const char sign : {decimal, decimal == '.' ? ',' : '.'})
     if (io::read_number(number, sign, value)) return value;
   return 0;
 }
 
-// The area of contact in mm2 that a line of a preamble gives ("Area [mm2]: 78.5", "Kontaktfläche"
-// in any encoding); 0: none does.
+// True for "cm2" and "cm²" in any encoding, but not for "g/cm2".
+bool is_in_cm2(const std::string& line) {
+  const std::size_t at = line.find("cm");
+  if (at == line.npos || at == 0 || line[at - 1] == '/' || at + 2 >= line.size()) return false;
+  const char next = line[at + 2];
+  return next == '2' || next == '^' || (next & 0x80) != 0;
+}
+
+// The area of contact in mm2 that a line of a preamble gives ("Area [mm2]: 78.5", "Kontaktfläche;4;
+// cm2" in any encoding); 0: none does.
 double area_in(std::string_view preamble, char decimal) {
   for (std::size_t begin = 0; begin < preamble.size();) {
     const std::size_t end = std::min(preamble.find('\n', begin), preamble.size());
     const std::string line = lower_case(preamble.substr(begin, end - begin));
     const auto has = [&](const char* text) { return line.find(text) != line.npos; };
-    if ((has("area") || (has("fl") && has("che"))) && has("mm")) return last_number(line, decimal);
+    const double unit = has("mm") ? 1 : is_in_cm2(line) ? 100 : 0;
+    if ((has("area") || (has("fl") && has("che"))) && unit > 0)
+      return unit * last_number(line, decimal);
     begin = end + 1;
   }
   return 0;
 }
 
-// Number of lines below the last row, where one of them holds fewer than half as many numbers as a
-// row: means, remarks.
+// Number of lines below the last row: means, remarks. They hold fewer than half as many numbers as
+// a row, a text where rows begin with a number, or a word for sums.
 std::size_t footer_of(std::string_view text, const io::CsvTable& table,
                       const io::CsvFormat& format) {
   constexpr std::size_t most = 10;
   const auto numeric = std::count_if(table.columns.begin(), table.columns.end(), is_number_column);
+  const bool begins_with_number = is_number_column(table.columns.front());
   std::size_t lines = 0;
   bool has_text = false;
   std::size_t end = text.find_last_not_of(" \t\r\n") + 1;
@@ -518,13 +585,53 @@ std::size_t footer_of(std::string_view text, const io::CsvTable& table,
     const auto numbers = std::count_if(cells.begin(), cells.end(), [&](const std::string& cell) {
       return io::read_number(cell, format.decimal, ignored);
     });
-    if (numbers > 0 && 2 * numbers >= numeric)
+    const std::string first = cells.empty() ? "" : cells.front();
+    const std::string word = lower_case(first);
+    const bool is_text = !first.empty() && word != "nan" && word != "na" && word != "n/a" &&
+                         !io::read_number(first, format.decimal, ignored);
+    const bool sums_up = is_text && (begins_with_number || names_sums(first));
+    if (numbers > 0 && 2 * numbers >= numeric && !sums_up)
       return has_text && 2 * lines < table.rows() ? lines : 0;
     has_text = has_text || line.find_first_not_of(" \t\r,;|") != line.npos;
     ++lines;
     end = begin == 0 ? 0 : begin - 1;
   }
   return 0;
+}
+
+// Parts below repeated headers. A rig that heats, loads and slides writes three, of which the
+// longest has many times the rows of the shortest.
+void take_intervals(GuessedFile& guess, const io::CsvTable& table) {
+  guess.intervals = !table.interval.empty() && table.interval.back() > 0;
+  if (!guess.intervals) return;
+  constexpr std::size_t most = 5, times = 5;
+  std::vector<std::size_t> rows(table.interval.back() + 1);
+  for (const std::size_t interval : table.interval)
+    ++rows[interval];
+  const auto [least, longest] = std::minmax_element(rows.begin(), rows.end());
+  guess.phases = rows.size() <= most && *longest > times * *least;
+}
+
+// Pattern of lines without a delimiter that stand in front of the first row and between others;
+// empty: there are none.
+std::string titles_in(std::string_view text, const io::CsvTable& table) {
+  const char delimiter = table.form.ends_with("tabs") ? '\t' : table.form.back();
+  if (table.line.empty() || table.form.ends_with("blanks")) return "";
+  std::size_t line = 0, titles = 0, first = 0;
+  for (std::size_t begin = 0; begin < text.size() && ++line < table.line.back();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view one = text.substr(begin, end - begin);
+    const bool is_title =
+        line > std::max(table.header_line, table.units_line) && one.find(delimiter) == one.npos &&
+        std::any_of(one.begin(), one.end(),
+                    [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; });
+    titles += is_title;
+    if (is_title && first == 0) first = line;
+    begin = end + 1;
+  }
+  if (titles < 2 || first > table.line.front()) return "";
+  const std::string other = delimiter == '\t' ? "[^\\t]" : fmt::format("[^{}]", delimiter);
+  return fmt::format("^(?<title>{0}*[A-Za-z]{0}*)$", other);
 }
 
 // Guesses from a text; `cells`: the sheet of a workbook that it is from, or nullptr.
@@ -543,6 +650,9 @@ GuessedFile guess_text(std::string_view whole, const std::string& named, const i
     table = io::parse_csv(text, named, format, mixed);
   }
   if (cells) take_cell_units(table, *cells, mixed);
+  const std::string_view rest = whole.substr(text.size());
+  guess.row_count =
+      table.rows() + static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n'));
   guess.decimal = dialects.best.decimal;
   guess.thousands = dialects.best.thousands;
   guess.grouped = dialects.grouped;
@@ -550,11 +660,12 @@ GuessedFile guess_text(std::string_view whole, const std::string& named, const i
   guess.units_row = dialects.best.units_row;
   guess.header = dialects.best.header;
   guess.header_rows = dialects.best.header_rows;
-  guess.intervals = !table.interval.empty() && table.interval.back() > 0;
+  take_intervals(guess, table);
   guess.columns = columns_of(table);
   if (!is_found_by_names(text, guess, table, dialects.best))
     guess.skip_rows = dialects.best.skip_rows;
   guess.area_mm2 = area_in(lines_before(text, table.header_line), guess.decimal);
+  if (!guess.intervals) guess.titles = titles_in(text, table);
   finish(guess, table);
   return guess;
 }
@@ -598,7 +709,7 @@ std::vector<GuessedFile> guess_file(const std::string& path, const std::string& 
   const io::CsvTable table = read_raw(path, named, {}, faults);
   GuessedFile guess;
   guess.file = named;
-  guess.intervals = !table.interval.empty() && table.interval.back() > 0;
+  take_intervals(guess, table);
   guess.columns = columns_of(table);
   finish(guess, table);
   return {guess};
@@ -679,16 +790,32 @@ bool is_measured(const GuessedFile& guess) {
   return guess.find("tau_R_MPa") || guess.find("F_R_N");
 }
 
+// Whether a sheet is a summary: others of its workbook, read alike, have ten times its rows.
+bool sums_up_others(const GuessedFile& sheet, const std::vector<GuessedFile>& all) {
+  const auto is_longer = [&](const GuessedFile& other) {
+    return other.file == sheet.file && other.row_count >= 10 * sheet.row_count;
+  };
+  return sheet.row_count > 0 && std::any_of(all.begin(), all.end(), [&](const GuessedFile& one) {
+           return is_longer(one) &&
+                  std::count_if(all.begin(), all.end(), [&](const GuessedFile& other) {
+                    return is_longer(other) && other.is_read_as(one);
+                  }) > 1;
+         });
+}
+
 // Whether a sheet is read like most sheets of its workbook, among those with friction if there are
 // any.
 bool is_like_most(const GuessedFile& sheet, const std::vector<GuessedFile>& all) {
+  if (sums_up_others(sheet, all)) return false;
   const auto rivals = [&](const GuessedFile& as) {
     return std::count_if(all.begin(), all.end(), [&](const GuessedFile& other) {
       return other.file == as.file && is_measured(other) == is_measured(as) && other.is_read_as(as);
     });
   };
   return std::none_of(all.begin(), all.end(), [&](const GuessedFile& other) {
-    if (other.file != sheet.file || is_measured(other) < is_measured(sheet)) return false;
+    if (other.file != sheet.file || is_measured(other) < is_measured(sheet) ||
+        sums_up_others(other, all))
+      return false;
     return is_measured(other) > is_measured(sheet) || rivals(other) > rivals(sheet);
   });
 }
@@ -718,6 +845,7 @@ GuessedCampaign sort_guesses(std::vector<GuessedFile> guesses) {
     else
       campaign.passed.push_back(guess.sheet);
   }
+  if (campaign.files.size() == 1) campaign.files.front().phases = false; // else it were one test
   for (auto& [file, names] : read)
     names = choice_of(names, tables[file]);
   if (!read.empty() && std::all_of(read.begin(), read.end(), [&](const auto& one) {

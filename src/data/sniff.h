@@ -19,6 +19,7 @@ struct GuessedColumn {
   bool text = false;
   bool clock = false;       // texts that are times of day, or dates with them
   bool above = false;       // a condition above the rows (data/above.h)
+  bool counts_rows = false; // above the rows: the number of rows of its file
   bool as_small = false;    // numbers between 0.01 and 1, as coefficients of friction are
   std::string first_values; // "812.3, 813.1, 815"
   // The cells of a column that may name tests, as texts, if all of them differ.
@@ -42,7 +43,9 @@ struct GuessedFile {
   bool header = true;          // false: columns are named column_1, column_2, ...
   std::size_t header_rows = 1; // lines of names
   bool intervals = false;      // the header line is repeated
+  bool phases = false;         // parts of very different length: of one test each?
   bool rows = false;           // each looks like a test (data/checks.h)
+  std::string titles;          // pattern of lines of one text in front of parts of the rows
   bool side_by_side = false;   // the same columns come again for each test
   // Columns that seem to be friction of a test each: the word before their names, with its
   // separator.
@@ -50,7 +53,10 @@ struct GuessedFile {
   std::string wide_word;
   std::vector<std::string> missing; // numbers that seem to stand for no value: "-9999"
   std::vector<GuessedColumn> columns;
-  double area_mm2 = 0;  // of contact, given above the header; 0: none
+  std::size_t row_count = 0; // of all lines below the header
+  double area_mm2 = 0;       // of contact, given above the header; 0: none
+  // Radius of a body in contact, by a length above the rows; 0: none.
+  double radius_mm = 0, inner_radius_mm = 0;
   std::string pressure; // formula of the normal stress, from a force and the area of contact
   std::string friction; // formula of the friction force, from a torque and its radius
 

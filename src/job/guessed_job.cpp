@@ -61,7 +61,10 @@ std::string dialect_lines(const GuessedFile& file) {
     out += line(fmt::format("header_rows = {}", file.header_rows),
                 "the names of one line alone are not unique");
   if (file.units_row) out += line("units_row = true", "the line below the names holds units");
-  if (file.intervals)
+  if (file.intervals && file.phases)
+    out += line("experiment = \"file\"", "the header line comes again, for parts of very different "
+                                         "length; \"interval\": each is a test");
+  else if (file.intervals)
     out += line("experiment = \"interval\"", "the header line comes again: a test each time");
   if (file.side_by_side)
     out += line("experiment = \"columns\"", "the same columns come again for each test");
@@ -157,6 +160,7 @@ std::set<std::string> above_that_differ(const std::vector<GuessedFile>& files) {
     std::size_t files = 0;
     bool text = false;
     std::set<std::string> values;
+    std::size_t counts_rows = 0; // files
   };
   std::map<std::string, Seen> seen;
   for (const GuessedFile& file : files)
@@ -165,11 +169,12 @@ std::set<std::string> above_that_differ(const std::vector<GuessedFile>& files) {
         Seen& one = seen[column.name];
         ++one.files;
         one.text = one.text || column.text;
+        one.counts_rows += column.counts_rows;
         one.values.insert(column.first_values);
       }
   std::set<std::string> out;
   for (const auto& [name, one] : seen)
-    if (one.files == files.size() && one.values.size() > 1 &&
+    if (one.files == files.size() && one.values.size() > 1 && one.counts_rows < files.size() &&
         (!one.text || 2 * one.values.size() <= files.size()))
       out.insert(name);
   return out;
@@ -192,6 +197,7 @@ public:
     ask_for_units();
     if (has_names()) ask_for_pressure();
     if (has_names()) ask_for_friction();
+    add_titles();
     add_constants();
     ask_for_wide();
     add_rules();
@@ -341,12 +347,16 @@ private:
   void ask_for_pressure() {
     if (!points_.lacks_pressure()) return;
     const GuessedColumn* force = most_.find("F_N_N");
+    const double area = points_.example_area_mm2();
     ask("Where does the contact normal stress come from? None was found.",
         fmt::format("# sigma_n_MPa = \"COLUMN\"\n{}"
                     "# or one value for all rows, in [data.constants] below\n",
-                    line(fmt::format("# sigma_n_MPa = {{ column = {}, area_mm2 = 78.5 }}",
-                                     force ? source_of(*force, most_) : "\"FORCE\""),
-                         "a force over the nominal contact area")));
+                    line(fmt::format("# sigma_n_MPa = {{ column = {}, area_mm2 = {} }}",
+                                     force ? source_of(*force, most_) : "\"FORCE\"",
+                                     area > 0 ? fmt::format("{:.4g}", area) : "78.5"),
+                         area > 0 ? "a force over the nominal contact area: this one by the lines "
+                                    "above the rows"
+                                  : "a force over the nominal contact area")));
   }
 
   void ask_for_friction() {
@@ -355,10 +365,14 @@ private:
         ask("Which normal force belongs to the friction force? None was found.",
             "# F_N_N = \"COLUMN\"\n# or one value for all rows, in [data.constants] below\n");
     } else if (const GuessedColumn* torque = points_.torque()) {
+      const double radius_mm = points_.example_radius_mm();
+      const std::string radius =
+          radius_mm > 0 ? fmt::format("{:.4g}", radius_mm / 1000) : "RADIUS_M";
       ask(torque_question(*torque),
           line(fmt::format("# F_R_N = {{ formula = {} }}",
-                           toml_quoted(force_of_torque(*torque, "RADIUS_M"))),
-               "RADIUS_M: a number, in m"));
+                           toml_quoted(force_of_torque(*torque, radius))),
+               radius_mm > 0 ? "the radius in m, by the lines above the rows"
+                             : "RADIUS_M: a number, in m"));
     } else if (const GuessedColumn* likely = points_.likely_coefficient()) {
       ask(fmt::format("Is {} a coefficient of friction? Its numbers are as small, and nothing else "
                       "is friction.",
@@ -369,12 +383,23 @@ private:
                        "# tau_R_MPa = {{ formula = {} }}",
                        toml_quoted(data::name_in_formulas(likely->name) + "*sigma_f_MPa/3**0.5")),
                    "if it is a friction factor m"));
+    } else if (const GuessedColumn* force = points_.only_force()) {
+      ask(fmt::format("Is {} the friction force? It is the only force left, and nothing else is "
+                      "friction.",
+                      shown(shown_name(*force))),
+          fmt::format("# F_R_N = {{ column = {} }}\n", source_of(*force, most_)));
     } else {
       ask("Where is friction? Neither a shear stress, nor a coefficient, nor a friction force was "
           "found.",
           "# F_R_N = \"COLUMN\"\n# tau_R_MPa = \"COLUMN\"\n"
           "# tau_R_MPa = { column = \"COLUMN\", times = \"sigma_n_MPa\" }\n");
     }
+  }
+
+  void add_titles() {
+    if (!most_.titles.empty())
+      out_.text += "\n[data.segments]\n" + line(fmt::format("begins = '{}'", most_.titles),
+                                                "lines of one text in front of parts of the rows");
   }
 
   // Writes a single section, so that any of its lines can be uncommented.
@@ -432,6 +457,7 @@ private:
     if (file.decimal == '.' && most_.decimal != '.') out += "decimal = \".\"\n";
     if (file.skip_rows == 0 && most_.skip_rows > 0) out += "skip_rows = 0\n";
     if (file.skip_footer == 0 && most_.skip_footer > 0) out += "skip_footer = 0\n";
+    if (file.header && !most_.header) out += "header = true\n";
     if (!file.units_row && most_.units_row) out += "units_row = false\n";
     if (!file.intervals && !file.rows && !file.side_by_side &&
         (most_.intervals || most_.rows || most_.side_by_side))

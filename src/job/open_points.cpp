@@ -1,11 +1,13 @@
 #include "job/open_points.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include <fmt/format.h>
 
 #include "core/text.h"
 #include "core/units.h"
+#include "data/column_names.h"
 #include "data/computed.h"
 #include "data/quantity.h"
 #include "data/scale.h"
@@ -79,6 +81,17 @@ double OpenPoints::common_area() const {
   return same ? area : 0;
 }
 
+double OpenPoints::example_area_mm2() const {
+  if (common_area() > 0) return common_area();
+  const double outer = file_.radius_mm, inner = file_.inner_radius_mm;
+  return inner > 0 && outer > inner ? std::numbers::pi * (outer * outer - inner * inner) : 0;
+}
+
+double OpenPoints::example_radius_mm() const {
+  const double outer = file_.radius_mm, inner = file_.inner_radius_mm;
+  return inner > 0 && outer > 0 ? (outer + inner) / 2 : std::max(outer, inner);
+}
+
 bool OpenPoints::lacks_tests() const {
   return campaign_.files.size() == 1 && !file_.find("experiment") && !file_.intervals &&
          !file_.rows && !file_.side_by_side;
@@ -107,6 +120,20 @@ const GuessedColumn* OpenPoints::likely_coefficient() const {
   for (const GuessedColumn& column : file_.columns) {
     const bool has_unit = !column.unit.empty() && !convert(column.unit, "1");
     if (!column.canonical.empty() || !column.as_small || has_unit) continue;
+    if (found) return nullptr;
+    found = &column;
+  }
+  return found;
+}
+
+const GuessedColumn* OpenPoints::only_force() const {
+  const GuessedColumn* found = nullptr;
+  for (const GuessedColumn& column : file_.columns) {
+    const bool is_normal = data::has_word(data::words_of_name(column.name),
+                                          {"normal", "vertical", "axial", "vertikal"});
+    if (!column.canonical.empty() || column.text || column.above || is_normal ||
+        !convert(column.unit, "N"))
+      continue;
     if (found) return nullptr;
     found = &column;
   }

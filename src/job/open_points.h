@@ -31,6 +31,10 @@ public:
   bool has(const std::string& canonical) const;
   // Area of contact that all files give above their rows, mm2; 0: none.
   double common_area() const;
+  // Area and radius of the bodies in contact by the lengths above the rows, for an example; 0:
+  // none.
+  double example_area_mm2() const;
+  double example_radius_mm() const;
 
   bool lacks_tests() const;        // a single file, without a column of tests
   bool lacks_pressure() const;     // nor is it a force over an area that is given
@@ -41,6 +45,8 @@ public:
   // The only column without a meaning that is as small as coefficients of friction; nullptr: none,
   // or several.
   const data::GuessedColumn* likely_coefficient() const;
+  // The only force without a meaning; nullptr: none, or several.
+  const data::GuessedColumn* only_force() const;
 
 private:
   const data::GuessedCampaign& campaign_;

@@ -523,6 +523,121 @@ TEST_F(InitFrom, TakesTheSheetsThatItIsTold) {
   EXPECT_THAT(none.err, HasSubstr("no workbook has a table in a sheet 'T4'"));
 }
 
+// A sheet whose rows have other names than those of its summary.
+std::string shear_box(double sigma_kPa) {
+  std::string text = "Normal stress (kPa);" + shortest(sigma_kPa) +
+                     "\n\nElapsed time;Shear stress;Normal stress;Remarks\nmin;kPa;kPa\n";
+  for (int i = 0; i < 60; ++i)
+    text +=
+        fmt::format("{};{};{}{}\n", i, 0.5 * sigma_kPa + i % 3, sigma_kPa, i == 0 ? ";start" : "");
+  return text;
+}
+
+TEST_F(InitFrom, TakesTheLongSheetsAndNotTheirSummary) {
+  std::vector<test::XmlSheet> sheets = {
+      {"Summary", test::xml_rows("Normal stress (kPa);Peak shear stress (kPa)\n50;26\n100;52\n"
+                                 "200;101\n400;200\n")}};
+  for (const double sigma : {50, 100, 200, 400})
+    sheets.push_back({shortest(sigma) + " kPa", test::xml_rows(shear_box(sigma))});
+  test::write_workbook(directory.path("box.xlsx"), {sheets});
+  EXPECT_THAT(job_from({"box.xlsx"}),
+              testing::AllOf(HasSubstr("not read: Summary"), HasSubstr("\nunits_row = true "),
+                             Not(HasSubstr("\nabove = "))));
+  EXPECT_EQ(read().tests, "100 kPa 60, 200 kPa 60, 400 kPa 60, 50 kPa 60");
+  ASSERT_EQ(frictab({"init", "two", "--from", "box.xlsx", "--sheet", "?00 kPa"}).exit_code, 0);
+  EXPECT_THAT(directory.read("two/job.toml"), HasSubstr("\nsheet = \"?00 kPa\""));
+}
+
+TEST_F(InitFrom, TakesTheLoadOfASledTestForItsPull) {
+  for (int test = 1; test <= 3; ++test) {
+    std::string text = fmt::format("Sled weight,1.961,N\nMaximum rows,{}\nContact area,40,cm2\n\n"
+                                   "Time,Extension,Load\n(s),(mm),(N)\n",
+                                   20 + test);
+    for (int i = 0; i < 20 + test; ++i)
+      text += fmt::format("{:.1f},{:.2f},{:.3f}\n", 0.1 * i, 0.25 * i, 0.4 + 0.01 * (i % 3));
+    directory.write(fmt::format("s{}.csv", test), text);
+  }
+  ASSERT_EQ(frictab({"init", "--from", "s1.csv", "s2.csv", "s3.csv"}).exit_code, 0);
+  EXPECT_THAT(
+      directory.read("job.toml"),
+      testing::AllOf(HasSubstr("\nF_N_N = \"Sled weight\" "),
+                     HasSubstr("\n# ? Is Load the friction force? It is the only force left"),
+                     HasSubstr("\nsigma_n_MPa = { column = \"Sled weight\", area_mm2 = 4000 }"),
+                     Not(HasSubstr("\nabove = "))))
+      << "a number of rows is no condition";
+}
+
+TEST_F(InitFrom, SeesTheStatisticsBelowTheRows) {
+  for (int test = 1; test <= 2; ++test)
+    directory.write(fmt::format("t{}.csv", test),
+                    coefficient_file(test) + "\nStatistics:\nn = 5;-;MPa\nx;0.12;102\ns;0.01;3\n");
+  EXPECT_THAT(job_from({"t1.csv", "t2.csv"}), HasSubstr("\nskip_footer = 5 "));
+  EXPECT_EQ(read().tests, "t1 30, t2 30");
+}
+
+TEST_F(InitFrom, TakesNoDurationForAClockAndTheToolForTheTool) {
+  for (int test = 1; test <= 2; ++test) {
+    std::string text = "Stop time (s);COF;Pressure (MPa);Temperatur Werkzeug (°C)\n";
+    for (int i = 0; i < 30; ++i)
+      text += fmt::format("{};{};{};{}\n", 5 + i % 4, 0.1 + 0.01 * (i % 3), 10 + i, 40 + i % 5);
+    directory.write(fmt::format("b{}.csv", test), text);
+  }
+  EXPECT_THAT(job_from({"b1.csv", "b2.csv"}),
+              testing::AllOf(Not(HasSubstr("time_s")), HasSubstr("\nT_tool_C = \"Temperatur")));
+}
+
+TEST_F(InitFrom, TakesPartsOfVeryDifferentLengthForPhasesOfATest) {
+  for (int test = 1; test <= 2; ++test) {
+    std::string text;
+    for (const int length : {4, 5, 40}) {
+      text += "Time [s];Shear stress [MPa];Normal stress [MPa]\n";
+      for (int i = 0; i < length; ++i)
+        text += fmt::format("{};{};{}\n", i, 10 + i % 3, 100 + i);
+    }
+    directory.write(fmt::format("h{}.csv", test), text);
+  }
+  ASSERT_EQ(frictab({"init", "--from", "h1.csv", "h2.csv"}).exit_code, 0);
+  EXPECT_THAT(directory.read("job.toml"), HasSubstr("\nexperiment = \"file\" "));
+}
+
+TEST_F(InitFrom, CutsTheRowsAtTitlesBetweenThem) {
+  for (int test = 1; test <= 2; ++test) {
+    std::string text = "Time;COF;Pressure\ns;-;MPa\n";
+    for (int i = 0; i < 30; ++i) {
+      if (i % 10 == 0) text += fmt::format("{} Fade test\n", 1 + i / 10);
+      const Row row = rows(test)[static_cast<std::size_t>(i)];
+      text += fmt::format("{:.1f};{:.4f};{:.1f}\n", row.time_s, row.mu, row.sigma_MPa);
+    }
+    directory.write(fmt::format("d{}.csv", test), text);
+  }
+  EXPECT_THAT(job_from({"d1.csv", "d2.csv"}),
+              HasSubstr("\n[data.segments]\nbegins = '^(?<title>[^;]*[A-Za-z][^;]*)$'"));
+  EXPECT_EQ(read().tests, "d1 30, d2 30");
+}
+
+TEST_F(InitFrom, OffersTheRadiiAboveTheRows) {
+  directory.write("a.csv", "Inner radius;9.5;mm\nOuter radius;12.7;mm\n\n"
+                           "Test;Normal force [kN];Torque [Nm]\n1;1.5;200\n1;1.6;210\n");
+  ASSERT_EQ(frictab({"init", "--from", "a.csv"}).exit_code, 0);
+  EXPECT_THAT(directory.read("job.toml"),
+              testing::AllOf(HasSubstr("area_mm2 = 223.2 }"), HasSubstr("\"Torque/0.0111\"")));
+}
+
+TEST_F(InitFrom, KeepsAPlanWithALegendBelowIt) {
+  std::vector<test::XmlSheet> sheets = {
+      {"Plan", test::xml_rows("Versuch;Geschwindigkeit [mm/s];Oil;Remark\nV01;5;A\nV02;50;B;new\n"
+                              "V03;50;A\n\nLegend: A = mineral oil\n")}};
+  for (int test = 1; test <= 3; ++test) {
+    std::string text = "Time [s];COF;Pressure [MPa]\n";
+    for (const Row& row : rows(test))
+      text += fmt::format("{:.1f};{:.4f};{:.1f}\n", row.time_s, row.mu, row.sigma_MPa);
+    sheets.push_back({fmt::format("V0{}", test), test::xml_rows(text)});
+  }
+  test::write_workbook(directory.path("tests.xlsx"), {sheets});
+  EXPECT_THAT(job_from({"tests.xlsx"}), HasSubstr("\ntests_sheet = \"Plan\"\n"));
+  EXPECT_EQ(read().tests, "V01 30, V02 30, V03 30");
+}
+
 TEST_F(InitFrom, PassesOverAFileThatIsNoTableWithAWord) {
   for (int test = 1; test <= 3; ++test)
     directory.write(fmt::format("rig/{}.txt", test), coefficient_file(test));
