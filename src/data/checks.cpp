@@ -9,7 +9,9 @@
 
 #include "core/text.h"
 #include "data/column_names.h"
+#include "data/computed.h"
 #include "data/quantity.h"
+#include "data/test_table.h"
 
 namespace frictab::data {
 
@@ -29,6 +31,23 @@ void check_needed(Part& part, const DataOptions& options) {
                     "map it in [data.columns], or give it in [data.constants]; the file has: " +
                         join(part.raw_names(), ", "));
 }
+
+namespace {
+
+// Remedy for a path below 0: what its file's column is meant for.
+std::string hint_of_path(const ReadRequest& options) {
+  const auto from = options.columns.find("s_mm");
+  const bool mapped = from != options.columns.end() && !from->second.names.empty();
+  const std::string name = mapped ? from->second.names.front() : "s_mm";
+  return fmt::format(
+      "; of noise before the stroke: {}; of a path to and fro: v_rel_mm_s = {{ "
+      "column = \"{}\", slope_rows = 9 }}",
+      mapped ? fmt::format("s_mm = {{ formula = \"maximum({}, 0)\" }}", name_in_formulas(name))
+             : "data.drop = { s_mm = { below = 0 } }",
+      name);
+}
+
+} // namespace
 
 // Limit in the canonical unit of any quantity, including seconds since 1970: a larger value cannot
 // be a measurement.
@@ -77,10 +96,14 @@ void check_values(Part& part, const ReadRequest& options) {
                  {part.place(i), fmt::format("{} is {}", column.name, column.values[i]),
                   fmt::format("a {} cannot be below {}{}{}", quantity->meaning, quantity->lowest,
                               quantity->unit == "1" ? "" : " " + quantity->unit,
-                              is_load(column.name)
+                              is_load(column.name) && options.experiment == "interval"
+                                  ? "; both signs in one test: are the intervals phases of a test? "
+                                    "data.experiment = \"file\""
+                              : is_load(column.name)
                                   ? "; both signs in one test: a zero that is off, or a channel of "
                                     "something else?"
-                                  : "")});
+                              : column.name == "s_mm" ? hint_of_path(options)
+                                                      : "")});
     }
   }
   causes.tell(part.faults, "row");
@@ -159,6 +182,13 @@ void check_names(Part& part) {
     part.faults.add(part.place(0), "every row is a test of its own, though there is time_s",
                     "is this the right experiment column? Tests of one row each have no time: "
                     "leave it out");
+  const auto is_numbered = [](const std::string& name) { return first_number(name) >= 0; };
+  if (named_by_column && part.whole_file && names_sums(data.experiments.back()) &&
+      std::all_of(data.experiments.begin(), data.experiments.end() - 1, is_numbered))
+    part.faults.add(part.place(data.first_row[data.experiments.size() - 1]),
+                    fmt::format("'{}' sums up the tests above it, and is not one of them",
+                                data.experiments.back()),
+                    "leave it out: data.skip_footer = 1");
 }
 
 // A campaign of one row per test is valid; a single such test among time series is a mistake.

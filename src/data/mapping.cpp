@@ -261,6 +261,8 @@ private:
       double ignored = 0;
       return io::read_number(text, decimal, ignored);
     };
+    if (text.find("±") != text.npos || text.find("+/-") != text.npos || text.starts_with('~'))
+      return "keep the number alone in the cell, or list this text in data.missing_values";
     std::string grouped, pointed;
     double ignored = 0;
     for (const char between : {'.', ',', '\'', ' '})
@@ -348,9 +350,33 @@ private:
                   "times are 14:03:05,120 or with a date, 2026-03-02 14:03:05");
       times.seconds.assign(raw_.rows(), 0);
     }
-    out_.notes.push_back(fmt::format("time_s: clock times, in s since the first, {}", texts[0]));
+    const std::string parts = add_milliseconds(texts, times.seconds);
+    out_.notes.push_back(
+        fmt::format("time_s: clock times{}, in s since the first of its file", parts));
     out_.columns.push_back({"time_s", "s", std::move(times.seconds), {}});
     return true;
+  }
+
+  // Loggers write the milliseconds of a clock in a column of their own. Returns a text on them.
+  std::string add_milliseconds(const std::vector<std::string>& texts,
+                               std::vector<double>& seconds) const {
+    for (std::size_t c = 0; c < raw_.columns.size(); ++c) {
+      const std::vector<double>& ms = raw_.columns[c].numbers;
+      const std::string name = lower_case(headers_[c].name);
+      const bool is_called_so = name == "ms" || name == "msec" || name.starts_with("millise");
+      if (!is_called_so || ms.size() != seconds.size() ||
+          texts[0].find_first_of(".,") != texts[0].npos ||
+          !std::all_of(ms.begin(), ms.end(),
+                       [](double value) { return value >= 0 && value < 1000; }))
+        continue;
+      std::vector<double> finer = seconds;
+      for (std::size_t i = 0; i < finer.size(); ++i)
+        finer[i] += (ms[i] - ms[0]) / 1000;
+      if (!std::is_sorted(finer.begin(), finer.end())) continue; // of something else
+      seconds = std::move(finer);
+      return fmt::format(" with the milliseconds of '{}'", raw_.columns[c].name);
+    }
+    return "";
   }
 
   // Adds a constant of the job, which overrides the file's column; a note reports that the column
@@ -378,9 +404,11 @@ private:
     if (!from.times.empty()) wanted = "1";
     if (from.area_mm2 > 0) wanted = "N";
     if (from.slope_rows > 0) wanted = quantity.unit == "mm/s" ? "mm" : quantity.unit;
-    const char* const where = !from.unit.empty() ? "in the job"
-                              : unit.empty()     ? "assumed, as no unit is given"
-                                                 : "in the file";
+    const char* const where =
+        !from.unit.empty() ? "in the job"
+        : unit.empty()
+            ? says_by_name(raw, wanted) ? "by the end of its name" : "assumed, as no unit is given"
+            : "in the file";
     if (unit.empty()) {
       assume(quantity, raw, wanted);
       unit = wanted;
@@ -390,7 +418,7 @@ private:
       faults_.add(
           from.place.file.empty() ? header() : from.place,
           fmt::format("{}: the unit '{}' does not convert to {}", quantity.name, unit, wanted),
-          units_hint(unit, units_like(wanted)));
+          units_hint(unit, wanted));
       return;
     }
     const double area = from.area_mm2 > 0 ? from.area_mm2 : 1;
@@ -408,14 +436,22 @@ private:
   void assume(const Quantity& quantity, const CsvColumn& raw, const std::string& wanted) {
     const std::string& name = headers_[std::size_t(&raw - raw_.columns.data())].name;
     if (wanted == "1" || options_.find_quantity(name)) return;
-    const std::string own = unit_in_name(name, wanted);
-    const auto says = own.empty() ? std::nullopt : convert(own, wanted);
-    if (says && says->factor == 1 && says->offset == 0) return;
-    out_.assumed.push_back({quantity.name, raw.name, wanted, own});
+    if (!says_by_name(raw, wanted))
+      out_.assumed.push_back({quantity.name, raw.name, wanted, unit_in_name(name, wanted)});
   }
 
-  static std::string units_hint(const std::string& unit, const std::vector<std::string>& known) {
+  // Whether the name of a column ends with this unit.
+  bool says_by_name(const CsvColumn& raw, const std::string& wanted) const {
+    const std::string& name = headers_[std::size_t(&raw - raw_.columns.data())].name;
+    const std::string own = unit_in_name(name, wanted);
+    const auto says = own.empty() ? std::nullopt : convert(own, wanted);
+    return says && says->factor == 1 && says->offset == 0;
+  }
+
+  static std::string units_hint(const std::string& unit, const std::string& wanted) {
+    const std::vector<std::string> known = units_like(wanted);
     const std::string near = nearest_name(unit, known);
+    if (unit == "kg" && convert("kgf", wanted)) return "its weight in N? Give the unit \"kgf\"";
     return (near.empty() ? "" : "did you mean '" + near + "'? ") +
            "units that do: " + join(known, ", ");
   }
@@ -579,8 +615,12 @@ private:
         raw.numbers.begin(), raw.numbers.end(), [](double value) { return !std::isnan(value); }));
     Column column{name, "", {}, {}};
     if (words > 0 && words >= (words + numeric) / 2) { // empty cells count as neither
+      const bool is_filled_once = missing > words && !is_missing(raw.texts[0].text);
       make_categorical(column, raw);
-      if (missing > 0) report_empty_cells(name, missing, ": a level of their own");
+      if (missing > 0)
+        report_empty_cells(name, missing,
+                           is_filled_once ? ": a level of their own; of merged cells? Fill them in"
+                                          : ": a level of their own");
       out_.columns.push_back(std::move(column));
       return;
     }

@@ -102,9 +102,12 @@ TestTable read_test_table(DataOptions& options) {
   DataOptions dialect = options;
   dialect.skip_rows = dialect.skip_footer = 0;
   dialect.units_row = false;
-  if (io::looks_like_workbook(path))
+  std::string named = options.tests;
+  if (io::looks_like_workbook(path)) {
     dialect.sheets = {sheet_of_tests(path.string(), options.tests, options)};
-  io::CsvTable raw = read_raw(path.string(), options.tests, dialect, faults);
+    named += "/" + dialect.sheets.front();
+  }
+  io::CsvTable raw = read_raw(path.string(), named, dialect, faults);
   table.header_line = raw.header_line;
   table.columns = map_columns(raw, ReadRequest(take_over(options, raw)), "", faults);
   FaultsByCause causes;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <set>
 #include <string>
 
@@ -189,6 +190,28 @@ void check_files(const data::DataOptions& options) {
   data::check_rules(all, options);
 }
 
+// The questions that frictab init left open in the job, as "job.toml (lines 6, 13)"; empty: none.
+std::string open_questions(const std::string& job_file) {
+  std::ifstream file(job_file);
+  std::vector<std::size_t> numbers;
+  std::string line;
+  for (std::size_t number = 1; std::getline(file, line); ++number)
+    if (line.starts_with("# ? ")) numbers.push_back(number);
+  if (numbers.empty()) return "";
+  return fmt::format("{} ({} {})", job_file, numbers.size() == 1 ? "line" : "lines",
+                     fmt::join(numbers, ", "));
+}
+
+// Points from the faults that an answer would mend to the questions.
+InputError with_open_questions(const InputError& error, const std::string& questions) {
+  std::vector<Fault> faults = error.faults();
+  for (Fault& fault : faults)
+    if (fault.what.starts_with("there is no column sigma_n_MPa") ||
+        fault.what.starts_with("there is neither tau_R_MPa"))
+      fault.hint = fmt::format("answer the open questions in {}: {}", questions, fault.hint);
+  return InputError(std::move(faults));
+}
+
 } // namespace
 
 const data::Dataset& JobData::judged() const {
@@ -225,9 +248,16 @@ JobData load_job_data(const job::Job& job, FaultList& implausible) {
   options.needed = [names = columns_of_laws(job.models)](const std::string& column) {
     return names.count(column) > 0 || names.count(effects::symbol_of(column)) > 0;
   };
-  JobData data = options.validation.empty()
-                     ? without_validation_files(options, job.calibration.seed, implausible)
-                     : with_validation_files(options, implausible);
+  JobData data;
+  try {
+    data = options.validation.empty()
+               ? without_validation_files(options, job.calibration.seed, implausible)
+               : with_validation_files(options, implausible);
+  } catch (const InputError& error) {
+    const std::string questions = open_questions(options.place.file);
+    if (questions.empty()) throw;
+    throw with_open_questions(error, questions);
+  }
   add_oracle(options, data);
   data.delivers_all = job.calibration.deliver == calibrate::Deliver::all;
   if (data.delivers_all && data.judged_by == calibrate::JudgedBy::validation_files)

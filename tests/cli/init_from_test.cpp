@@ -393,6 +393,8 @@ F_R_N = "FF"                                 # first values: 100.5, 101.5, 99.5;
 [output]
 directory = "out"
 )");
+  EXPECT_THAT(frictab({"data", "job.toml"}).err,
+              HasSubstr("answer the open questions in job.toml (lines 6, 13, 15, 19): "));
   // Its lines answer, once their # is gone.
   std::string job = directory.read("job.toml");
   for (const char* line : {"sigma_n_MPa = 500.0", "F_N_N = 50.0", "sigma_f_MPa = 480.0"})

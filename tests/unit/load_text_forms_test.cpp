@@ -223,6 +223,23 @@ TEST_F(LoadTextForms, ClockTimesAreSecondsSinceTheFirst) {
   EXPECT_EQ(times("3/2/2026 1:00:00 PM", "3/2/2026 1:00:01 PM"), 1);
 }
 
+TEST_F(LoadTextForms, MillisecondsInAColumnOfTheirOwnBelongToTheClock) {
+  const Dataset data = read("time_s;ms;sigma_n_MPa;tau_R_MPa\n10:00:01;900;100;10\n"
+                            "10:00:01;950;100;10\n10:00:02;0;100;10\n");
+  EXPECT_THAT(column(data, "time_s"),
+              ElementsAre(0, testing::DoubleNear(0.05, 1e-9), testing::DoubleNear(0.1, 1e-9)));
+}
+
+TEST_F(LoadTextForms, ALineOfSumsBelowNumberedTestsIsAFault) {
+  options.experiment = "Test";
+  const std::string text =
+      "Test;sigma_n_MPa;tau_R_MPa\n1;100;10\n2;101;11\n3;102;12\n\nMean;101;11\n";
+  EXPECT_THAT(fault(text), testing::AllOf(HasSubstr("a.csv:6: error: 'Mean' sums up the tests"),
+                                          HasSubstr("data.skip_footer = 1")));
+  options.skip_footer = 1;
+  EXPECT_EQ(read(text).experiments.size(), 3u);
+}
+
 TEST_F(LoadTextForms, ATextAmongClockTimesIsAFaultInItsPlace) {
   EXPECT_THAT(fault("time_s;sigma_n_MPa;tau_R_MPa\n14:03:05;100;10\nlater;101;11\n"),
               HasSubstr("a.csv:3:1: error: time_s: 'later' is not a time, as others are"));
