@@ -61,8 +61,7 @@ struct Setting {
 
 bool may_be_set(const data::Column& column) {
   return (data::may_be_cause(column.role) || column.why.starts_with(data::many_texts)) &&
-         !data::find_quantity(column.name) &&
-         column.name != data::origin_column;
+         !data::find_quantity(column.name) && column.name != data::origin_column;
 }
 
 // Step in which a column is written: 1, 0.1, ... 1e-6; 0 for finer ones.

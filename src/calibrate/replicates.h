@@ -17,10 +17,10 @@ namespace frictab::calibrate {
 // direction) agrees if the shares of rows at each level do, to 0.1.
 //
 // Ignored are columns that count or name the tests, columns measured along with friction, and
-// columns that Column::role marks as not being settings, unless they hold a text in every test. Intervals of one recording are not
-// replicates of each other. Returns groups of at least 2, as indices of experiments; each
-// experiment is in at most one group, that of the first experiment it agrees with. Empty if no
-// varying column distinguishes experiments.
+// columns that Column::role marks as not being settings, unless they hold a text in every test.
+// Intervals of one recording are not replicates of each other. Returns groups of at least 2, as
+// indices of experiments; each experiment is in at most one group, that of the first experiment it
+// agrees with. Empty if no varying column distinguishes experiments.
 std::vector<std::vector<std::size_t>> replicate_groups(const data::Dataset& data);
 
 constexpr double replicate_tolerance = 0.01;

@@ -115,8 +115,9 @@ struct DataOptions {
   std::map<std::string, double> constants;
   std::map<std::string, std::string> labels; // text columns for one file
   // Definition of an experiment: "file", "interval" (from one header line to the next), "pause"
-  // (what slides between two pauses, rows at rest or without load; data/signs.h), "row", "columns" (those of equal names side by side are a test each), a column, or "file+COLUMN";
-  // empty: the column `experiment` if there is one, else the file.
+  // (what slides between two pauses, rows at rest or without load; data/signs.h), "row", "columns"
+  // (those of equal names side by side are a test each), a column, or "file+COLUMN"; empty: the
+  // column `experiment` if there is one, else the file.
   std::string experiment;
   // Experiments that are intervals of one recording: "none", those of a "file", those whose "name"
   // differs in its last number, or those of one value of a column; empty: inferred

@@ -17,7 +17,8 @@ using Values = std::span<const double>;
 
 // Shares of the typical load, speed or path of a test.
 constexpr double unloaded_share = 0.05, full_share = 0.9, steady_share = 0.3, ramp_share = 0.15;
-constexpr double moving_share = 0.1, slow = 0.02, nearly_zero = 1e-3, turning_speed = 0.2, turning_path = 0.05;
+constexpr double moving_share = 0.1, slow = 0.02, nearly_zero = 1e-3, turning_speed = 0.2,
+                 turning_path = 0.05;
 // A force that builds up after a reversal: the largest share of the stroke's path for it, and the
 // shares of the later force at which it begins and ends.
 constexpr double longest_turn = 0.2, half_turned = 0.5, turned = 0.9;
@@ -459,7 +460,8 @@ private:
       const bool constant =
           std::all_of(speed.begin(), speed.end(), [&](double v) { return v == speed.front(); });
       const bool is_offset = !wide && std::abs(mean.value) < nearly_zero * typical_,
-                 rubs_less = !runs_up && rubbing > 0 && run.rows() >= mean_rows && is_level(speed) &&
+                 rubs_less = !runs_up && rubbing > 0 && run.rows() >= mean_rows &&
+                             is_level(speed) &&
                              median_of(coefficients(run.begin, run.end, 0)) < half_turned * rubbing;
       if (mean.is_zero() ? mean.value == 0 || run.rows() >= mean_rows
                          : !constant && (is_offset || rubs_less))

@@ -215,7 +215,8 @@ bool names_tests(const Column& column) {
   const bool has_letters =
       !column.levels.empty() &&
       std::all_of(column.levels.begin(), column.levels.end(), [](const std::string& text) {
-        return std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::isalpha(c); });
+        return std::any_of(text.begin(), text.end(),
+                           [](unsigned char c) { return std::isalpha(c); });
       });
   return has_letters && Pattern("^(test|versuch|experiment|specimen) "
                                 "(id|no|nr|number|nummer|name)$",

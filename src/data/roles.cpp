@@ -227,7 +227,8 @@ private:
           (convert(ends, "N") || !unit_in_name(name, "N").empty() ||
            (ends.empty() && fits("(^|_)(load|force|kraft|last|fn|f_n)(_|$)", plain_name(name))));
       const auto slope = slope_along(name, state);
-      if (slope && (is_force || convert(ends, unit) || (ends.empty() && is_other_unit(*slope, levels))))
+      if (slope &&
+          (is_force || convert(ends, unit) || (ends.empty() && is_other_unit(*slope, levels))))
         return {Role::ignore, fmt::format("the set {}, which is measured", state)};
     }
     return {};
@@ -274,15 +275,17 @@ private:
   Given of_text(const std::string& name, const Look& look) {
     const Given named = role_by_name(name, look.within);
     if (named.role == Role::ignore || named.role == Role::order || named.role == Role::outcome ||
-        (named.role == Role::test && fits("^(test|versuch|experiment|specimen)_", plain_name(name))))
+        (named.role == Role::test &&
+         fits("^(test|versuch|experiment|specimen)_", plain_name(name))))
       return named;
     const std::size_t words = look.words.size() - look.words.count("");
     if (look.is_constant()) return {Role::label, "one value in all tests"};
     const std::size_t usable = std::max<std::size_t>(2, units_ / 2);
     if (look.words.size() > usable)
-      return {Role::ignore, fmt::format("{}{} values in {} tests",
-                                        look.filled_tests == look.tests ? many_texts : "free text: ",
-                                        look.words.size(), units_)};
+      return {Role::ignore,
+              fmt::format("{}{} values in {} tests",
+                          look.filled_tests == look.tests ? many_texts : "free text: ",
+                          look.words.size(), units_)};
     if (4 * look.filled_tests < look.tests && 2 * words > look.filled_tests)
       return {Role::ignore,
               fmt::format("free text: a remark in {} of {} tests", look.filled_tests, look.tests)};

@@ -134,8 +134,7 @@ private:
     const std::optional<Middle> of_test = offset(0, friction_.size(), test_rows);
     if (!of_test) return false;
     const double sign = forward > backward ? 1 : -1;
-    const ForceOffset half{sign * of_test->value, of_test->error,
-                           std::abs(forward - backward) / 2,
+    const ForceOffset half{sign * of_test->value, of_test->error, std::abs(forward - backward) / 2,
                            std::abs(finite_median({load_.begin(), load_.end()}))};
     if (!(forward * backward < 0)) {
       if (half.friction > std::max(5 * half.error, matters * std::abs(half.offset)))
@@ -257,9 +256,8 @@ private:
       const std::vector<Piece> pieces = pieces_between(phases_of_test(e).rows, pause_rows);
       const std::size_t count = std::max<std::size_t>(pieces.size(), 1);
       for (std::size_t p = 0; p < count; ++p) {
-        experiments.push_back(pieces.size() < 2
-                                  ? data.experiments[e]
-                                  : fmt::format("{} {}", data.experiments[e], p + 1));
+        experiments.push_back(pieces.size() < 2 ? data.experiments[e]
+                                                : fmt::format("{} {}", data.experiments[e], p + 1));
         filed.push_back(data.filed[e]);
         first_row.push_back(p + 1 < count ? data.first_row[e] + pieces[p].end
                                           : data.first_row[e + 1]);
@@ -278,9 +276,8 @@ private:
     const auto differ = [&](Values all) {
       std::vector<double> middles;
       for (const Piece& piece : pieces)
-        middles.push_back(std::abs(finite_median(
-            rows_where(all, piece.begin, piece.end,
-                       [&](std::size_t i) { return is_fitted(test.rows[i]); }))));
+        middles.push_back(std::abs(finite_median(rows_where(
+            all, piece.begin, piece.end, [&](std::size_t i) { return is_fitted(test.rows[i]); }))));
       const auto [low, high] = std::minmax_element(middles.begin(), middles.end());
       return *high - *low > other_setting * *high;
     };

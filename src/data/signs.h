@@ -31,8 +31,9 @@ void forget_signed(Part& part);
 void turn_loads(Part& part);
 
 // Returns the phases of all rows. Cuts the tests at pauses first if the options say so (5 rows or
-// more at rest or without load); a pause belongs to the next test. Replaces speed and friction by their magnitudes, adds their
-// `direction`, records findings in data.signs, and recomputes tau_R_MPa from forces.
+// more at rest or without load); a pause belongs to the next test. Replaces speed and friction by
+// their magnitudes, adds their `direction`, records findings in data.signs, and recomputes
+// tau_R_MPa from forces.
 std::vector<Phase> take_signs(Part& part, const ReadRequest& options);
 
 // Cause of the difference between the directions of a campaign's tests.

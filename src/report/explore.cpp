@@ -93,8 +93,7 @@ Json tests_json(const std::vector<Part>& parts) {
 }
 
 // Range and median over all tests.
-Json state_json(const std::string& name, const std::vector<Part>& parts,
-                const ReportInput& input) {
+Json state_json(const std::string& name, const std::vector<Part>& parts, const ReportInput& input) {
   std::vector<double> values;
   for (const Part& part : parts)
     if (const auto at = part.columns.find(name); at != part.columns.end())

@@ -144,8 +144,7 @@ public:
       : law_(law), ranges_(ranges), options_(options),
         progress_("grids for " + law.model.name(), 0),
         tolerance_(options.tolerance_MPa.value_or(usual_tolerance_MPa)),
-        limit_(share_of_tolerance * tolerance_),
-        pieces_(law, ranges), tau_R_(law, pieces_.names) {
+        limit_(share_of_tolerance * tolerance_), pieces_(law, ranges), tau_R_(law, pieces_.names) {
     plans_ = plan_axes(law, ranges, options);
     Counts least;
     for (const AxisPlan& plan : plans_)
@@ -246,9 +245,8 @@ private:
 
   // Searches again among as many states as a verification takes.
   double worst_anywhere() {
-    const WorstCase worst =
-        worst_case(tau_R_, TableFunction(best_.table), ranges_,
-                   probe_points(ranges_, best_.table.axes, last_samples));
+    const WorstCase worst = worst_case(tau_R_, TableFunction(best_.table), ranges_,
+                                       probe_points(ranges_, best_.table.axes, last_samples));
     append(peaks_, with_law(tau_R_, worst.peaks));
     return worst.drift_MPa;
   }

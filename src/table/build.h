@@ -48,8 +48,9 @@ std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data
 // tolerance, because the search may miss the very worst state), when the grid no longer changes, or
 // when the target is bracketed to 5 %. Last, each axis gives up cells for as long as the drift
 // stays within the limit. If a last search among ten times as many states finds more than the
-// tolerance, all is done again to a smaller limit. Node counts that the job gives are left as they are. With table.nodes or
-// table.max_bytes the same search finds the grid of smallest drift within the budget.
+// tolerance, all is done again to a smaller limit. Node counts that the job gives are left as they
+// are. With table.nodes or table.max_bytes the same search finds the grid of smallest drift within
+// the budget.
 Table build_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                   const TableOptions& options);
 

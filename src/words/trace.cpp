@@ -134,9 +134,9 @@ bool is_for_product(const TracedEffect& e, const Trace& t) {
 }
 
 Section effect_section(const TracedEffect& e, const Trace& t, Detail detail) {
-  const std::string gain =
-      is_for_product(e, t) ? "kept for its product"
-                           : fmt::format("gains {} MPa on unseen tests", digits(e.gain_MPa));
+  const std::string gain = is_for_product(e, t)
+                               ? "kept for its product"
+                               : fmt::format("gains {} MPa on unseen tests", digits(e.gain_MPa));
   Section section{"", "",
                   fmt::format("+ {}: {}, {}, {}, {}", cause_text(e), e.placed.form->name,
                               site_text(e.placed.acts_on), p_clause(e.p_value), gain)};

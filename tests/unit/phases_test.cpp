@@ -56,9 +56,9 @@ Rig one_way(const Habits& habits, std::uint64_t seed) {
                load = 500 + 500 * random.uniform(), mu = 0.05 + 0.2 * random.uniform();
   Rig rig;
   const auto add = [&](double speed, double force, double friction, Phase phase) {
-    const double scatter =
-        speed == 0 ? habits.rest_noise * v * random.normal() + habits.speed_zero * v
-                   : habits.speed_noise * v * random.normal();
+    const double scatter = speed == 0
+                               ? habits.rest_noise * v * random.normal() + habits.speed_zero * v
+                               : habits.speed_noise * v * random.normal();
     rig.add(read(speed + scatter, habits.step_mm_s),
             force + habits.load_noise * load * random.normal(),
             friction * (1 + 0.02 * random.normal()) + habits.offset_N, phase);

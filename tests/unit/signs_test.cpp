@@ -121,8 +121,8 @@ TEST_F(Signs, PausesPartTestsWhereTheJobSaysSo) {
                                              "or speeds, with pauses between")));
   options.experiment = "pause";
   data = load_dataset(files, options);
-  EXPECT_THAT(data.experiments, testing::ElementsAre("d1 1", "d1 2", "d1 3", "d1 4", "d2 1",
-                                                     "d2 2", "d2 3", "d2 4"));
+  EXPECT_THAT(data.experiments,
+              testing::ElementsAre("d1 1", "d1 2", "d1 3", "d1 4", "d2 1", "d2 2", "d2 3", "d2 4"));
   EXPECT_EQ(data.rows(), 800u);
   EXPECT_THAT(data.notes, Not(Contains(HasSubstr("with pauses between"))));
   EXPECT_NEAR(data.values("sigma_n_MPa")[350], 100, 5); // of d1 4
