@@ -106,12 +106,18 @@ private:
   }
 
   bool may_be_offered(const Cause& cause) const {
-    const bool has_walk = s_.input().options.tool_distance.empty();
     if (goes_with_order(cause, AlongOrder::is_order) ||
-        (!has_walk && goes_with_order(cause, AlongOrder::stretches)))
+        (!has_walk() && goes_with_order(cause, AlongOrder::stretches)))
       return false;
     return cause.is_joint() || !constant_in_experiments(cause, s_.candidates()) ||
            differs_between_tests(s_.candidates().columns[cause.columns[0]]);
+  }
+
+  // A walk would explain declared wear, and a column with which friction steps.
+  bool has_walk() const {
+    return !s_.candidates().order.empty() && s_.input().options.tool_distance.empty() &&
+           std::find(along_order_.begin(), along_order_.end(), AlongOrder::steps) ==
+               along_order_.end();
   }
 
   // The tool's wear may be declared as an effect.
@@ -162,7 +168,7 @@ private:
             add_term(cause, i, shape.basis, true, shape.effect);
       }
     }
-    if (!s_.candidates().order.empty() && s_.input().options.tool_distance.empty()) add_walk();
+    if (has_walk()) add_walk();
   }
 
   struct SharpShape {

@@ -111,7 +111,7 @@ AlongOrder along_order(const Search& search, std::size_t c) {
   const auto z = VectorXd::Map(scores.data(), level.size());
   const VectorXd steps = z.tail(z.size() - 1) - z.head(z.size() - 1);
   return p_of_steps(steps, changes, search.input().seed) <= search.input().options.alpha
-             ? AlongOrder::no
+             ? AlongOrder::steps
              : AlongOrder::stretches;
 }
 

@@ -8,9 +8,9 @@
 namespace frictab::trace {
 
 // How a column goes with the declared order. `stretches`: a text column each of whose levels is one
-// stretch of it, as of batches, unless friction steps where the levels change and hardly elsewhere:
-// a permutation test of the steps between neighbouring tests, at trace.alpha.
-enum class AlongOrder { no, stretches, is_order };
+// stretch of it, as of batches; `steps`: friction also steps where the levels change and hardly
+// elsewhere, by a permutation test of the steps between neighbouring tests at trace.alpha.
+enum class AlongOrder { no, steps, stretches, is_order };
 AlongOrder along_order(const Search& search, std::size_t column);
 // Whether a drift over time would look the same as an effect of that cause: because friction
 // follows the declared order as well; or because none is declared and the cause is a column of the
