@@ -22,21 +22,25 @@ using trace::Trace;
 namespace {
 
 // Tests in the order in which they were made, each with the factor of its material and of the day.
+// `days`: tests are dated only, those of a material on one day.
 Trace traced(std::size_t tests, std::size_t materials, const std::vector<double>& factors,
-             double drift, std::uint64_t seed) {
+             double drift, std::uint64_t seed, bool days = false) {
   test::GainCampaign c = test::GainCampaign::spread(tests, seed);
   c.a = c.b = c.g = 0; // the law is right
   Random random(seed, 5);
   std::vector<double> order, material;
   for (std::size_t e = 0; e < tests; ++e) {
-    order.push_back(double(e + 1));
     material.push_back(double(e * materials / tests));
+    order.push_back(days ? material.back() : double(e + 1));
     const double time = double(e) / double(tests - 1) - 0.5;
     c.gain.push_back(factors[std::size_t(material.back())] * std::exp(drift * time) *
                      std::exp(0.03 * random.normal()));
   }
   Dataset data = c.data();
-  test::add_setting(data, "run_order", order);
+  if (days)
+    test::add_setting(data, "date", order, {"2026-03-02", "2026-03-03", "2026-03-04"});
+  else
+    test::add_setting(data, "run_order", order);
   std::vector<std::string> levels = {"PA66", "POM", "PTFE", "steel"};
   levels.resize(materials);
   test::add_setting(data, "material", material, levels);
@@ -77,6 +81,12 @@ TEST(OrderBlocks, TwoMaterialsOneAfterTheOtherAreALead) {
     EXPECT_TRUE(leads_to_material(t)) << trace_text(t);
     EXPECT_THAT(words::trace_in_short(t), HasSubstr("material"));
   }
+}
+
+TEST(OrderBlocks, AMaterialOnEachDayIsALead) {
+  const Trace t = traced(15, 3, {0.4, 1, 1.6}, 0, 1, true);
+  EXPECT_TRUE(t.effects.empty()) << trace_text(t);
+  EXPECT_TRUE(leads_to_material(t)) << trace_text(t);
 }
 
 TEST(OrderBlocks, ADriftThroughThemIsNoEffectOfMaterials) {

@@ -51,7 +51,9 @@ public:
       }
     }
     result.leftover = leftover(path.left, settings);
-    if (offer_.walk && path.fit.has(*offer_.walk)) {
+    const bool has_stretches = std::find(along_order_.begin(), along_order_.end(),
+                                         AlongOrder::stretches) != along_order_.end();
+    if (offer_.walk && (has_stretches || path.fit.has(*offer_.walk))) {
       JointOffer alone = offer_;
       alone.walk.reset();
       for (const JointStep& step : search_jointly(data, alone, settings).steps)
