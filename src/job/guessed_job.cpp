@@ -154,8 +154,9 @@ std::string columns_lines(const GuessedFile& file, const std::set<std::string>& 
 }
 
 // Conditions that all files give above their rows, with values that differ; texts only where files
-// share them.
-std::set<std::string> above_that_differ(const std::vector<GuessedFile>& files) {
+// share them. The table of tests goes first.
+std::set<std::string> above_that_differ(const data::GuessedCampaign& campaign) {
+  const std::vector<GuessedFile>& files = campaign.files;
   struct Seen {
     std::size_t files = 0;
     bool text = false;
@@ -177,6 +178,9 @@ std::set<std::string> above_that_differ(const std::vector<GuessedFile>& files) {
     if (one.files == files.size() && one.values.size() > 1 && one.counts_rows < files.size() &&
         (!one.text || 2 * one.values.size() <= files.size()))
       out.insert(name);
+  if (campaign.tests)
+    for (const GuessedColumn& column : campaign.tests->columns)
+      out.erase(column.name);
   return out;
 }
 
@@ -185,7 +189,7 @@ public:
   Writer(const data::GuessedCampaign& campaign, const data::GuessedNames& names,
          const std::vector<std::string>& training)
       : campaign_(campaign), files_(campaign.files), points_(campaign), most_(points_.file()),
-        names_(names), training_(training), above_(above_that_differ(campaign.files)) {}
+        names_(names), training_(training), above_(above_that_differ(campaign)) {}
 
   GuessedJob write() {
     add_head();
