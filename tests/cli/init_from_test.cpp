@@ -467,10 +467,11 @@ TEST_F(InitFrom, NumbersColumnsWithoutANameOrWithEqualOnes) {
 
 TEST_F(InitFrom, FindsTheTestsOfAPlanInAWorkbookAndTheAreaAboveTheRows) {
   for (int test = 1; test <= 3; ++test) {
-    std::string text = "Pr\xfc"
-                       "fstand 2\nKontaktfl\xe4"
-                       "che [mm\xb2]: 2,5\n\n"
-                       "Zeit [s];Normalkraft [N];Reibkraft [N]\n";
+    std::string text = fmt::format("Pr\xfc"
+                                   "fstand 2\nCharge: {}\nKontaktfl\xe4"
+                                   "che [mm\xb2]: 2,5\n\n"
+                                   "Zeit [s];Normalkraft [N];Reibkraft [N]\n",
+                                   test == 2 ? "B" : "A");
     for (const Row& row : rows(test))
       text += replace_all(fmt::format("{:.1f};{:.2f};{:.4f}\n", row.time_s, 2.5 * row.sigma_MPa,
                                       2.5 * row.mu * row.sigma_MPa),
@@ -480,10 +481,11 @@ TEST_F(InitFrom, FindsTheTestsOfAPlanInAWorkbookAndTheAreaAboveTheRows) {
   test::write_workbook(
       directory.path("plan.xlsx"),
       {{{"Info", test::xml_rows("Rig 7\n")},
-        {"Plan", test::xml_rows("Versuch;Geschwindigkeit [mm/s]\nVersuch_001_C45;5\n"
-                                "Versuch_002_C45;50\nVersuch_003_C45;50\n")}}});
+        {"Plan", test::xml_rows("Versuch;Geschwindigkeit [mm/s];Charge\nVersuch_001_C45;5;A\n"
+                                "Versuch_002_C45;50;B\nVersuch_003_C45;50;A\n")}}});
   const std::string job = job_from({"V01.csv", "V02.csv", "V03.csv", "plan.xlsx"});
-  EXPECT_THAT(job, testing::AllOf(HasSubstr("\ntests = \"../plan.xlsx\" "),
+  EXPECT_THAT(job, testing::AllOf(Not(HasSubstr("\nabove = ")), // the plan has it
+                                  HasSubstr("\ntests = \"../plan.xlsx\" "),
                                   HasSubstr("\ntests_sheet = \"Plan\"\n"),
                                   HasSubstr("\nexperiment = \"Versuch\" "),
                                   HasSubstr("column = \"Normalkraft\", area_mm2 = 2.5 }")));
