@@ -114,7 +114,8 @@ std::vector<double> centred_ranks(const std::vector<double>& values) {
 }
 
 // Friction over pressure; without a pressure, friction.
-std::vector<double> coefficients(const Dataset& data, std::size_t first, std::size_t rows) {
+std::vector<double> friction_over_pressure(const Dataset& data, std::size_t first,
+                                           std::size_t rows) {
   const auto stress = std::span(data.values("tau_R_MPa")).subspan(first, rows);
   std::vector<double> out(stress.begin(), stress.end());
   if (!data.has("sigma_n_MPa")) return out;
@@ -130,7 +131,7 @@ std::vector<Noise> noises_of(const Dataset& data) {
     const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
     if (rows < noise_rows) continue;
     Noise noise{e, std::span(data.values("tau_R_MPa")).subspan(first, rows), {}, 0};
-    const std::vector<double> mu = coefficients(data, first, rows);
+    const std::vector<double> mu = friction_over_pressure(data, first, rows);
     std::vector<double> differences;
     for (std::size_t i = 1; i + 1 < rows; ++i)
       differences.push_back(mu[i - 1] - 2 * mu[i] + mu[i + 1]);
