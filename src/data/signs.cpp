@@ -535,10 +535,6 @@ void report_rest(Dataset& data) {
       100 * *std::max_element(shares.begin(), shares.end()), without_zero(zero, unit)));
 }
 
-} // namespace
-
-namespace {
-
 DirectionsDiffer why_differ(const std::vector<const ForceOffset*>& all) {
   if (all.empty()) return DirectionsDiffer::nowhere;
   std::vector<double> offsets, coefficients, loads;

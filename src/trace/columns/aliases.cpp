@@ -55,19 +55,10 @@ struct State {
 // small part of what each test runs through.
 bool differs_between_tests(const Dataset& data, const State& state) {
   const auto [low, high] = std::minmax_element(state.means.begin(), state.means.end());
-  std::vector<double> ranges;
-  const auto values = data.values(state.name);
-  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-    const auto [least, most] =
-        std::minmax_element(values.begin() + static_cast<long>(data.first_row[e]),
-                            values.begin() + static_cast<long>(data.first_row[e + 1]));
-    ranges.push_back(*most - *least);
-  }
-  std::nth_element(ranges.begin(), ranges.begin() + static_cast<long>(ranges.size() / 2),
-                   ranges.end());
   const double size = std::max(std::abs(*low), std::abs(*high));
-  return *high - *low > std::max(tuning::same_value_share_of_mean * size,
-                                 tuning::apart_share_of_range * ranges[ranges.size() / 2]);
+  return *high - *low >
+         std::max(tuning::same_value_share_of_mean * size,
+                  tuning::apart_share_of_range * usual_range(data.values(state.name), data));
 }
 
 std::vector<State> states_of(const Dataset& data, const models::Model& model) {

@@ -91,19 +91,9 @@ std::vector<double> quantiles_of(std::vector<double>& all) {
   return at;
 }
 
-// Median of the ranges within experiments, relative to the range over all.
-double usual_reach(Rows values, const Dataset& data) {
-  const auto range = [](Rows part) {
-    const auto [low, high] = std::minmax_element(part.begin(), part.end());
-    return *high - *low;
-  };
-  std::vector<double> own;
-  for (std::size_t e = 0; e < data.experiments.size(); ++e)
-    own.push_back(
-        range(values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])));
-  std::sort(own.begin(), own.end());
-  const double all = range(values);
-  return all > 0 ? own[own.size() / 2] / all : 0;
+double width_of(Rows values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low;
 }
 
 double widest_gap(const std::vector<double>& tested) {
@@ -318,7 +308,8 @@ private:
     column.spread = effects::spread_of(in_parts); // faster here than on unsorted values
     column.within = varies_within(values, training_);
     column.two_values = has_two_values(values);
-    column.reach = usual_reach(values, training_);
+    const double all = width_of(values);
+    column.reach = all > 0 ? usual_range(values, training_) / all : 0;
     column.gap = widest_gap(column.tested);
     column.is_reading = !derived && is_reading(name);
     column.is_order = is_order(name);
@@ -436,6 +427,15 @@ bool varies_within(Rows values, const Dataset& data) {
     if (!is_constant(values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])))
       return true;
   return false;
+}
+
+double usual_range(Rows values, const Dataset& data) {
+  std::vector<double> own;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    own.push_back(
+        width_of(values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])));
+  std::sort(own.begin(), own.end());
+  return own[own.size() / 2];
 }
 
 std::vector<double> test_means(const Dataset& data, Rows values) {

@@ -66,6 +66,8 @@ std::size_t values_of_tests(const data::Column& column, const data::Dataset& dat
 
 // Means over the rows of each test, in which a condensed row counts as those it stands for.
 std::vector<double> test_means(const data::Dataset& data, std::span<const double> values);
+// Median of the ranges within tests.
+double usual_range(std::span<const double> values, const data::Dataset& data);
 // Whether any test has different values.
 bool varies_within(std::span<const double> values, const data::Dataset& data);
 

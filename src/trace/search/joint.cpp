@@ -122,10 +122,9 @@ private:
                along_order_.end();
   }
 
-  // The tool's wear may be declared as an effect.
   bool goes_with_order(const Cause& cause, AlongOrder how) const {
-    if (!cause.is_joint() && s_.candidates().columns[cause.columns[0]].is_wear) return false;
-    return std::any_of(cause.columns.begin(), cause.columns.end(),
+    return !is_declared(s_, cause) &&
+           std::any_of(cause.columns.begin(), cause.columns.end(),
                        [&](std::size_t c) { return along_order_[c] == how; });
   }
 

@@ -48,10 +48,6 @@ double size_of_structure(const Search& search, const MatrixXd& functions) {
   return stats::root_mean_square(explained);
 }
 
-bool is_declared(const Search& search, const Cause& cause) {
-  return !cause.is_joint() && search.candidates().columns[cause.columns[0]].is_wear;
-}
-
 std::vector<double> in_order(const Search& search, const VectorXd& of_tests) {
   const auto rank = ranks(search.candidates().order);
   std::vector<double> values(rank.size());
@@ -89,6 +85,10 @@ double p_of_steps(const VectorXd& steps, const std::vector<std::size_t>& places,
 }
 
 } // namespace
+
+bool is_declared(const Search& search, const Cause& cause) {
+  return !cause.is_joint() && search.candidates().columns[cause.columns[0]].is_wear;
+}
 
 AlongOrder along_order(const Search& search, std::size_t c) {
   const CandidateColumn& column = search.candidates().columns[c];

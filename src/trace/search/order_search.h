@@ -16,6 +16,8 @@ AlongOrder along_order(const Search& search, std::size_t column);
 // follows the declared order as well; or because none is declared and the cause is a column of the
 // room or the calendar, or a reading that drifts from test to test in the order of their names.
 bool may_stand_for_time(const Found& found, const Cause& cause);
+// Whether the cause is the tool's wear, which the job may declare as an effect.
+bool is_declared(const Search& search, const Cause& cause);
 // Returns only the declared wear column of causes near each other, if it is one of them.
 std::vector<Suspect> prefer_declared(const Search& search, std::vector<Suspect> suspects);
 
