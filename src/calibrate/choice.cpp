@@ -122,16 +122,6 @@ void add_split_shares(Choice& choice, Laws laws, std::size_t held, std::uint64_t
   choice.splits = true;
 }
 
-std::string expectation_sentence(const Choice& choice, int decimals) {
-  if (choice.draws == 0) return "";
-  const std::string expected = fmt::format("{:.{}f} MPa", choice.expected_mae_MPa, decimals),
-                    own = fmt::format("{:.{}f} MPa", choice.mae_MPa, decimals);
-  const std::string text = "expected error of the best law on new tests: " + expected;
-  return own == expected
-             ? text
-             : text + "; " + own + " is optimistic, because the same tests picked " + choice.law;
-}
-
 std::string share_sentence(const Choice& choice) {
   constexpr std::size_t most = 4;
   std::vector<Choice::Share> shares = choice.best_in;

@@ -41,8 +41,7 @@ Choice choose_again(std::span<const LawErrors> laws, std::size_t resamples, std:
 void add_split_shares(Choice& choice, std::span<const LawErrors> laws, std::size_t held,
                       std::uint64_t seed);
 
-// Sentences without a full stop at the end; empty if nothing was drawn.
-std::string expectation_sentence(const Choice& choice, int decimals);
+// Sentence without a full stop at the end; empty if nothing was drawn.
 std::string share_sentence(const Choice& choice);
 
 } // namespace frictab::calibrate

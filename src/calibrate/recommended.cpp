@@ -153,6 +153,30 @@ const ModelFit& recommended_fit(const Calibration& calibration) {
   return fit ? *fit : best_fit(calibration);
 }
 
+Expected expected_error(const Calibration& calibration) {
+  const ModelFit& fit = recommended_fit(calibration);
+  const Recommended& r = calibration.recommended;
+  const Metrics& judged = fit.on_all ? fit.on_all->validation : fit.validation;
+  if (!fit.on_all && r.expected_mae_MPa > 0) return {r.expected_mae_MPa, r.expected_interval};
+  return {judged.mae_MPa, judged.mae_interval};
+}
+
+std::string expectation_sentence(const Calibration& calibration, int decimals) {
+  const ModelFit& fit = recommended_fit(calibration);
+  const auto text = [&](double MPa) { return fmt::format("{:.{}f} MPa", MPa, decimals); };
+  const double own = fit.validation.mae_MPa, new_tests = expected_error(calibration).mae_MPa;
+  const std::string expected = text(new_tests);
+  if (calibration.recommended.law.empty() || expected == text(own)) return "";
+  const std::string law = fit.model.law->name;
+  if (fit.on_all)
+    return fmt::format("on new tests {} is expected to err by {}, cross-validated over all tests",
+                       law, expected);
+  return fmt::format("on new tests {} is expected to err by {}: {}", law, expected,
+                     new_tests > own
+                         ? text(own) + " is optimistic, because the same tests chose the law"
+                         : "the choice was repeated on resampled tests");
+}
+
 std::string recommended_sentence(const Calibration& calibration, int decimals) {
   const Recommended& r = calibration.recommended;
   if (r.law.empty()) return "";

@@ -41,6 +41,19 @@ std::size_t best_place(const Calibration& calibration);
 const ModelFit& best_fit(const Calibration& calibration);
 const ModelFit& recommended_fit(const Calibration& calibration);
 
+// Error of the recommended law on new tests: of a law fitted again to all tests, cross-validated
+// over these; else that of the rule that chose it, repeated on resampled tests; else that on the
+// tests that judge it.
+struct Expected {
+  double mae_MPa = 0;
+  Interval interval;
+};
+Expected expected_error(const Calibration& calibration);
+
+// Sentence on why it differs from the error in the ranking, without a full stop; empty where both
+// are printed alike.
+std::string expectation_sentence(const Calibration& calibration, int decimals);
+
 // Sentence without a full stop: "coulomb, the simplest (1 number; polynomial: 55) that ..."; empty
 // if no law is recommended.
 std::string recommended_sentence(const Calibration& calibration, int decimals);

@@ -26,8 +26,8 @@ std::string html_of(const Page& page) {
 
 words::Text synthetic_warning() {
   return words::strong("Synthetic data.") +
-         " Nothing here was measured: the rows come from a simulated tribometer. Use it to check "
-         "the tool, not to choose a friction law.";
+         " Nothing here was measured: the rows come from a simulated tribometer. The answers hold "
+         "for the simulation, not for a friction pair of yours.";
 }
 
 } // namespace frictab::report

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/band.h"
+#include "calibrate/comparison.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/input_columns.h"
 #include "calibrate/metrics.h"
@@ -191,9 +192,37 @@ std::vector<TracedEffect> effects_of(const Found& found, const Delivery& deliver
   return traced;
 }
 
+struct Delivered {
+  Found found;
+  Delivery delivery;
+};
+
+// A finding that is not delivered may have hidden another: the search is repeated without it, and
+// the law that predicts left-out tests better is taken.
+Delivered search_and_deliver(const TraceInput& in) {
+  Found found = search_effects(in);
+  Delivery delivery = deliver(found);
+  if (delivery.against.empty()) return {std::move(found), std::move(delivery)};
+  std::vector<Cause> barred;
+  std::vector<std::string> rejected;
+  for (const auto& [index, against] : delivery.against) {
+    barred.push_back(found.findings[index].rival.causes.back());
+    rejected.push_back(fmt::format("{}: significant (p = {:.3g}), but {}",
+                                   cause_name(barred.back(), found.search.candidates()),
+                                   found.findings[index].p_value, against.why));
+  }
+  Found again = search_effects(in, barred);
+  if (again.findings.empty()) return {std::move(found), std::move(delivery)};
+  Delivery other = deliver(again);
+  if (other.findings.empty() ||
+      !(other.left_out_MPa < (1 - calibrate::same_error) * delivery.left_out_MPa))
+    return {std::move(found), std::move(delivery)};
+  again.rejected.insert(again.rejected.begin(), rejected.begin(), rejected.end());
+  return {std::move(again), std::move(other)};
+}
+
 Trace trace_in_order(const TraceInput& in) {
-  const Found found = search_effects(in);
-  const Delivery delivery = deliver(found);
+  const auto [found, delivery] = search_and_deliver(in);
   const calibrate::Uncertainty uncertainty =
       uncertainty_of(found.search.campaign(), delivery.rival);
   Trace trace = what_was_tried(found);

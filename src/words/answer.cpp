@@ -29,15 +29,23 @@ bool is_calibrated(const Answers& answers) {
   return answers.calibration && !answers.calibration->fits.empty();
 }
 
-// "2 of 14 laws are not ruled out as best"; empty: nothing was compared, or one law is left.
+// Candidates that may be as good as the law to take; empty: nothing was compared, or none is left.
 std::string others_text(const Calibration& calibration) {
-  const std::size_t possible = calibrate::possibly_best(calibration.comparisons).size();
+  constexpr std::size_t shown = 3;
+  std::vector<std::string> possible = calibrate::possibly_best(calibration.comparisons);
   const auto candidates =
       static_cast<std::size_t>(std::count_if(calibration.fits.begin(), calibration.fits.end(),
                                              [](const ModelFit& fit) { return !fit.reference; }));
-  return possible < 2 ? ""
-                      : fmt::format("; {} of {} laws are not ruled out as best (95 %)", possible,
-                                    candidates);
+  if (possible.size() > 1 && possible.size() == candidates)
+    return candidates == 2
+               ? "; these tests cannot separate the two laws"
+               : fmt::format("; these tests cannot separate any of the {} laws", candidates);
+  std::erase(possible, calibration.recommended.law);
+  std::erase(possible, calibrate::best_fit(calibration).model.law->name);
+  if (possible.empty()) return "";
+  return fmt::format("; {} may be as good", possible.size() > shown
+                                                ? fmt::format("{} others", possible.size())
+                                                : join(possible, ", "));
 }
 
 // The effects of a traced law: "with Ra [um], oil added".
@@ -46,14 +54,24 @@ std::string added_text(const std::string& law, const Answers& answers) {
   for (const trace::Trace& t : answers.traces) {
     if (t.extended_model != law) continue;
     if (t.effects.empty()) return "without what follows the order of tests";
-    if (t.effects.size() > shown || !(t.improvement.interval.low > 0))
-      return "with " + count_of(t.effects.size(), "effect") + " added";
     std::vector<std::string> causes;
     for (const trace::TracedEffect& effect : t.effects)
       causes.push_back(cause_text(effect));
-    return "with " + join(causes, ", ") + " added";
+    return "with " +
+           (causes.size() > shown ? count_of(causes.size(), "effect") : join(causes, ", ")) +
+           " added";
   }
   return "with effects added";
+}
+
+// Warns of a law with more fitted numbers than there are tests.
+std::string many_numbers(const ModelFit& fit, const Calibration& calibration) {
+  const std::size_t numbers = fit.network ? fit.network->weights
+                                          : calibrate::numbers_of(fit, calibration.fits),
+                    tests = fit.training.n_experiments;
+  return numbers > tests
+             ? fmt::format("; careful, {} numbers fitted to {}", numbers, count_of(tests, "test"))
+             : "";
 }
 
 Text take_text(const Answers& answers) {
@@ -64,68 +82,56 @@ Text take_text(const Answers& answers) {
   if (recommended.empty())
     return strong(best_law) + ", which fits best; one test cannot judge laws";
   Text text = strong(recommended);
-  const models::Law& law = *calibrate::recommended_fit(calibration).model.law;
+  const ModelFit& fit = calibrate::recommended_fit(calibration);
+  const models::Law& law = *fit.model.law;
   if (!law.base.empty())
     text += fmt::format(" ({} {})", law.base, added_text(recommended, answers));
   if (recommended == best_law)
-    text += ", the best law";
+    text += ", the law with the lowest error";
   else
-    text += fmt::format(", the simplest law not worse than the best one, {} ({} MPa)", best_law,
-                        fixed(best.validation.mae_MPa, error_decimals(calibration)));
-  return text + others_text(calibration);
+    text += fmt::format(", the simplest law that is not clearly worse than {}, the best ({} MPa)",
+                        best_law, fixed(best.validation.mae_MPa, error_decimals(calibration)));
+  return text + others_text(calibration) + many_numbers(fit, calibration);
 }
 
-struct Expected {
-  double mae_MPa = 0;
-  calibrate::Interval interval;
-  std::string from;
-};
-
-// Why the expected error differs from that of the ranking; empty: it does not, as printed.
-std::string choice_text(const Calibration& calibration) {
-  const int decimals = error_decimals(calibration);
-  const double expected = calibration.recommended.expected_mae_MPa,
-               own = calibrate::recommended_fit(calibration).validation.mae_MPa;
-  if (fixed(expected, decimals) == fixed(own, decimals)) return "";
-  return expected < own ? "the choice repeated on resampled tests"
-                        : fmt::format("more than the {} MPa of the ranking, whose tests picked the "
-                                      "law",
-                                      fixed(own, decimals));
-}
-
-// Errors of laws that were fitted again to all tests are cross-validated over these.
-Expected expected_error(const Calibration& calibration) {
-  const ModelFit& fit = calibrate::recommended_fit(calibration);
-  if (fit.on_all) {
-    const calibrate::Metrics& m = fit.on_all->validation;
-    return {m.mae_MPa, m.mae_interval, "cross-validated over all tests"};
-  }
-  const calibrate::Recommended& r = calibration.recommended;
-  if (r.expected_mae_MPa > 0)
-    return {r.expected_mae_MPa, r.expected_interval, choice_text(calibration)};
-  return {fit.validation.mae_MPa, fit.validation.mae_interval, ""};
+// "7.3 % of the mean stress"; empty: not known.
+std::string share_text(const Calibration& calibration, double MPa) {
+  return fmt::format("{} %", short_figures(100 * MPa / calibration.mean_stress_MPa, 2));
 }
 
 Text expect_text(const Calibration& calibration) {
+  constexpr double smallest_read_MPa = 0.1; // below, a share of the stress is easier to read
   const int decimals = error_decimals(calibration);
-  const Expected expected = expected_error(calibration);
+  const calibrate::Expected expected = calibrate::expected_error(calibration);
   const std::string mae = fixed(expected.mae_MPa, decimals) + " MPa";
   if (calibration.judged_by == calibrate::JudgedBy::fit)
     return "unknown for new tests; " + strong(mae) + " on the test that it is fitted to";
-  Text text = strong(mae) + " mean absolute error of " + symbol("tau_R") + " on new tests";
-  if (calibration.mean_stress_MPa > 0)
-    text += fmt::format(", {} % of the mean stress",
-                        short_figures(100 * expected.mae_MPa / calibration.mean_stress_MPa, 2));
-  if (std::isfinite(expected.interval.high))
-    text += fmt::format(" (95 %: {})", interval_text(expected.interval, decimals));
-  if (!expected.from.empty()) text += ", " + expected.from;
+  const bool has_share = calibration.mean_stress_MPa > 0;
+  const bool share_first = has_share && expected.mae_MPa < smallest_read_MPa;
+  const bool has_interval = std::isfinite(expected.interval.high);
+  const std::string share = has_share ? share_text(calibration, expected.mae_MPa) : "";
+  Text text;
+  if (share_first) {
+    text = "an error of " + strong(share) + " of the mean stress on new tests";
+    if (has_interval)
+      text += fmt::format(" (95 %: {} to {})", share_text(calibration, expected.interval.low),
+                          share_text(calibration, expected.interval.high));
+    text += ", " + mae;
+  } else {
+    text = "an error of " + strong(mae) + " on new tests";
+    if (has_interval)
+      text += fmt::format(" (95 %: {})", interval_text(expected.interval, decimals));
+    if (has_share) text += ", " + share + " of the mean stress";
+  }
   if (!calibration.noise_floors.empty()) {
     const calibrate::NoiseFloor& floor = calibration.noise_floors.front();
-    text += fmt::format("; {}{} MPa of it is scatter that no law can predict",
+    const double scatter = std::min(floor.mae_MPa, expected.mae_MPa); // expected may be lower
+    text += fmt::format("; {}{} of it is scatter that no better law removes",
                         floor.lower_bound        ? "at least "
                         : floor.measured_MPa > 0 ? "at most "
                                                  : "",
-                        fixed(floor.mae_MPa, decimals));
+                        share_first ? share_text(calibration, scatter)
+                                    : fixed(scatter, decimals) + " MPa");
   }
   return text;
 }
@@ -142,17 +148,25 @@ std::vector<std::pair<std::string, Range>> valid_ranges(const Calibration& calib
   return found;
 }
 
-// Share of a table that is far from the tests: of the law to take, if it was tabulated.
-std::string far_text(const Answers& answers) {
+// Share of a table that is near the tests: of the law to take, if it was tabulated.
+std::string near_text(const Answers& answers) {
   for (const table::Table& table : answers.tables)
     if (table.model == calibrate::recommended_fit(*answers.calibration).model.law->name &&
-        table.record.share_far.value_or(0) >= 0.005)
-      return fmt::format("; {:.0f} % of its table is far from any test",
-                         100 * *table.record.share_far);
+        table.record.share_far.value_or(0) >= 0.005) {
+      const double near = 100 * (1 - *table.record.share_far);
+      return fmt::format("; within it {} of the table is near a test",
+                         near < 0.5 ? "hardly any" : fmt::format("only {:.0f} %", near));
+    }
   return "";
 }
 
-// "sigma_N 500 to 2,105 MPa, Ra [um] 0.2 to 3".
+// "dry, leaf, sand"; "12 levels".
+std::string levels_text(const std::vector<std::string>& levels) {
+  constexpr std::size_t shown = 4;
+  return levels.size() > shown ? count_of(levels.size(), "level") : join(levels, ", ");
+}
+
+// "sigma_N 500 to 2,105 MPa, Ra [um] 0.2 to 3, oil: A, B".
 Text valid_text(const Answers& answers) {
   Text text;
   for (const auto& [name, range] : valid_ranges(*answers.calibration)) {
@@ -162,7 +176,14 @@ Text valid_text(const Answers& answers) {
     text += fmt::format(" {} to {}", short_figures(range.first, 3), short_figures(range.second, 3));
     if (quantity && quantity->unit != "1") text += " " + quantity->unit;
   }
-  if (!text.empty()) text += far_text(answers);
+  const ModelFit& fit = calibrate::recommended_fit(*answers.calibration).delivered();
+  const std::vector<std::string> inputs = models::inputs(*fit.model.law, fit.model.conventions);
+  for (const auto& [input, levels] : fit.model.law->levels) {
+    if (std::find(inputs.begin(), inputs.end(), input) == inputs.end()) continue;
+    if (!text.empty()) text += ", ";
+    text += column_name(input, answers.traces) + ": " + levels_text(levels);
+  }
+  if (!text.empty()) text += near_text(answers);
   return text;
 }
 
@@ -173,11 +194,18 @@ struct Next {
   std::string command;
 };
 
-void add_tests_of(const trace::Trace& t, std::vector<std::string>& tests) {
+// Tests that would settle an effect; those that probably would not are worth less than the others.
+void add_tests_of(const trace::Trace& t, std::vector<std::string>& tests,
+                  std::vector<std::string>& unlikely) {
+  constexpr double even_chance = 0.5;
+  const auto add = [&](const trace::Design& design) {
+    if (!design.tests.empty())
+      (design.probability < even_chance ? unlikely : tests).push_back(design_in_short(design));
+  };
   for (const trace::TracedEffect& effect : t.effects)
-    if (!effect.design.tests.empty()) tests.push_back(design_in_short(effect.design));
+    add(effect.design);
   for (const trace::Lead& lead : t.leads)
-    if (!lead.design.tests.empty()) tests.push_back(design_in_short(lead.design));
+    add(lead.design);
   for (const trace::Alias& alias : t.cannot_tell)
     tests.push_back(alias.text);
 }
@@ -185,16 +213,18 @@ void add_tests_of(const trace::Trace& t, std::vector<std::string>& tests) {
 Next next_of(const Answers& answers) {
   constexpr std::size_t shown = 2; // of each kind: the line stays a line
   Next next;
+  std::vector<std::string> unlikely;
   for (const trace::Trace& t : answers.traces)
-    add_tests_of(t, next.tests);
+    add_tests_of(t, next.tests, unlikely);
   if (is_calibrated(answers)) {
     const Calibration& c = *answers.calibration;
     for (const auto& open : calibrate::recommended_fit(c).delivered().determination.not_determined)
       next.tests.push_back(open.text);
     const std::string advice = calibrate::noise_floor_advice(c);
     if (!advice.empty())
-      next.tests.push_back(advice + ": their scatter shows how good a law can be");
+      next.tests.push_back(advice + ": the scatter shows how much a better law could gain");
   }
+  next.tests.insert(next.tests.end(), unlikely.begin(), unlikely.end());
   next.checks.insert(next.checks.begin(), answers.cautions.begin(), answers.cautions.end());
   next.tests.resize(std::min(next.tests.size(), shown));
   next.checks.resize(std::min(next.checks.size(), shown));
@@ -211,6 +241,9 @@ std::string next_text(const Answers& answers) {
   if (!next.command.empty()) parts.push_back(next.command + " makes tables of the law to take");
   if (parts.empty() && answers.verification)
     return "use a routine of export/ in your FE code; README.md in its folder shows how";
+  if (parts.size() > 1)
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      parts[i] = fmt::format("({}) {}", i + 1, parts[i]);
   return join(parts, "; ");
 }
 
@@ -243,7 +276,7 @@ Section in_short(const Answers& answers) {
   for (const trace::Trace& trace : answers.traces)
     add("effects", trace_in_short(trace));
   if (is_calibrated(answers)) add("tested", valid_text(answers));
-  if (answers.verification) add("drift", drift_in_short(*answers.verification));
+  if (answers.verification) add("FE files", drift_in_short(*answers.verification));
   add("next", next_text(answers));
   section.add(std::move(list));
   return section;
@@ -280,7 +313,7 @@ void add_answers(Json& json, const Answers& answers) {
     json["recommended"] = c.recommended.law.empty() ? Json() : Json(c.recommended.law);
     json["best"] = calibrate::best_fit(c).model.law->name;
     const bool judged = c.judged_by != calibrate::JudgedBy::fit;
-    const Expected expected = expected_error(c);
+    const calibrate::Expected expected = calibrate::expected_error(c);
     json["expected_error_MPa"] = judged ? Json(expected.mae_MPa) : Json();
     json["expected_error_95"] = judged ? interval_json(expected.interval) : Json();
     json["valid"] = Json::object();

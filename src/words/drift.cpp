@@ -348,7 +348,7 @@ Text drift_in_short(const Verification& verification) {
       fmt::format("tables within {} MPa of their law {}", drift_figures(drift.value_MPa),
                   drift.proven ? "at every state (proven)" : "as found (not proven)");
   if (count > 0)
-    text += fmt::format(", {} compiled and run within {} MPa", count_of(count, "routine"),
+    text += fmt::format(", {}, compiled and run, within {} MPa", count_of(count, "routine"),
                         drift_figures(routines));
   text += fmt::format("; {} MPa allowed", verify::allowed_text(verification));
   const auto changed =

@@ -199,11 +199,9 @@ Section ranking(const Calibration& c, Detail detail) {
     section.say(sentence(family + (named || calibrate::possibly_best(c.comparisons).size() == 1
                                        ? ""
                                        : "; names with -v")));
-  if (c.choice.draws > 0) {
-    section.say(sentence(calibrate::expectation_sentence(c.choice, decimals)));
-    section.say(sentence(calibrate::share_sentence(c.choice)));
-  }
+  section.say(sentence(calibrate::share_sentence(c.choice)));
   section.say(sentence(calibrate::recommended_sentence(c, decimals)));
+  section.say(sentence(calibrate::expectation_sentence(c, decimals)));
   section.say(sentence(literature_clause(c)));
   section.say(sentence(calibrate::delivery_sentence(c, decimals)));
   section.add(remarks_on(c));

@@ -212,13 +212,24 @@ std::string unconfirmed_text(const Lead& lead) {
   return text + ")";
 }
 
+// The first lead that tests can settle; empty: none, or it is among those not confirmed.
+std::string suspect(const Trace& t) {
+  const auto lead = std::find_if(t.leads.begin(), t.leads.end(), [](const Lead& one) {
+    return !one.significant && !one.design.tests.empty();
+  });
+  return lead == t.leads.end() ? "" : lead_name(*lead);
+}
+
 // Findings that are not confirmed, or that nothing was found; with the remaining structure.
 std::string nothing_text(const Trace& t) {
   if (t.least_p_value > t.alpha) return "no effect that so few tests can prove";
   std::string text = not_confirmed(t);
+  if (const std::string name = suspect(t); text.empty() && !name.empty())
+    text = "no missing effect proven; suspect: " + name;
   if (text.empty()) text = "no missing effect found";
   if (!t.repeatability && t.noise_floor.n_experiments > 1)
-    text += fmt::format("; unexplained scatter between tests {:.2g} %", 100 * t.scatter_between);
+    text += fmt::format("; for unknown reasons whole tests lie {:.2g} % off the law",
+                        100 * t.scatter_between);
   return text;
 }
 
@@ -367,32 +378,54 @@ std::string tests_in_short(const trace::Design& d) {
   return join(groups, "; ");
 }
 
+// "whether the effect of T_contact_C depends on psi", "whether Ra_um has an effect".
+std::string question_of(const trace::Design& d) {
+  constexpr const char* times = " x ";
+  if (d.settles.size() > 1) return "to decide between " + join(d.settles, ", ");
+  const std::string& name = d.settles.front();
+  const std::size_t at = name.find(times);
+  if (at == std::string::npos) return "to see whether " + name + " has an effect";
+  return fmt::format("to see whether the effect of {} depends on {}", name.substr(0, at),
+                     name.substr(at + std::string_view(times).size()));
+}
+
 std::string design_in_short(const trace::Design& d) {
-  return fmt::format("run {}, otherwise like {}, to decide {} ({:.0f} % chance of a clear answer)",
-                     tests_in_short(d), d.like,
-                     d.settles.size() == 1 ? "whether " + d.settles.front() + " has an effect"
-                                           : "between " + join(d.settles, ", "),
-                     100 * d.probability);
+  std::string chance = fmt::format("{:.0f} % chance of a clear answer", 100 * d.probability);
+  if (d.tests_needed > static_cast<double>(d.tests.size()))
+    chance += fmt::format("; about {:.0f} such tests give 80 %", d.tests_needed);
+  return fmt::format("run {}, otherwise like {}, {} ({})", tests_in_short(d), d.like,
+                     question_of(d), chance);
+}
+
+// "150.0 -> 16.9 MPa on unseen tests, which saves 133.1 (95 %: 80.9 to 185.1)".
+std::string gained_in_short(const Trace& t) {
+  const double after = t.after.validation.mae_MPa;
+  const int decimals =
+      after > 0 ? std::max(0, 2 - static_cast<int>(std::floor(std::log10(after)))) : 2;
+  return fmt::format("{} -> {} MPa on unseen tests, which saves {} (95 %: {})",
+                     fixed(t.before.validation.mae_MPa, decimals), fixed(after, decimals),
+                     fixed(t.improvement.value_MPa, decimals),
+                     interval_text(t.improvement.interval, decimals));
 }
 
 std::string trace_in_short(const Trace& t) {
+  constexpr std::size_t shown = 5;
   std::string aliases;
   for (const trace::Alias& alias : t.cannot_tell)
     aliases += fmt::format("; {} cannot be distinguished from {}", alias.column, alias.state);
   if (t.effects.empty()) return fmt::format("{}: {}{}", t.model, headline(t), aliases);
-  const calibrate::Difference& gain = t.improvement;
-  const std::string errors =
-      fmt::format("{} -> {} MPa on tests unseen by the search (95 % interval of the gain: {})",
-                  digits(t.before.validation.mae_MPa), digits(t.after.validation.mae_MPa),
-                  interval(gain.interval));
-  if (!(gain.interval.low > 0))
-    return fmt::format("{}: {} added that may gain nothing, {}{}", t.model,
-                       count_of(t.effects.size(), "effect"), errors, aliases);
   std::vector<std::string> causes;
   for (const TracedEffect& effect : t.effects)
     causes.push_back(cause_text(effect));
-  return fmt::format("{} added to {}: {}; {}{}", join(causes, ", "), t.model, errors,
-                     t.remaining.structure ? "structure is left" : "no other effect found",
+  const std::string named =
+      causes.size() > shown ? count_of(causes.size(), "effect") : join(causes, ", ");
+  const std::string open = suspect(t);
+  return fmt::format("{} added to {}{}: {}; {}{}", named, t.model,
+                     t.improvement.interval.low > 0 ? "" : ", though the gain is not certain",
+                     gained_in_short(t),
+                     t.remaining.structure ? "structure is left"
+                     : open.empty()        ? "no other effect found"
+                                           : "suspect: " + open,
                      aliases);
 }
 

@@ -18,12 +18,11 @@ Section trace(const trace::Trace& trace, Detail detail);
 Section detectable_effects(const trace::Trace& trace);
 
 // Tests that settle an effect, in one line: "run 2 tests with humidity_pct = 20; 2 with
-// humidity_pct = 80, otherwise like V07, to decide whether humidity_pct has an effect (85 % chance
+// humidity_pct = 80, otherwise like V07, to see whether humidity_pct has an effect (85 % chance
 // of a clear answer)".
 std::string design_in_short(const trace::Design& design);
 
-// The missing effects and the gain of adding them, in one line. Names no effect whose gain on
-// unseen tests may be zero.
+// The missing effects and the gain of adding them, in one line.
 std::string trace_in_short(const trace::Trace& trace);
 
 // Findings that are not delivered: "not confirmed: v_rel_mm_s (p = 0.001, would take 15.0 to about

@@ -140,7 +140,7 @@ TEST_F(Judgement, WithoutOracleAndRepeatsSaysWhatWouldGiveTheFloor) {
   const std::string out = calibrate({}, {two_laws});
   EXPECT_THAT(out, testing::ContainsRegex("  noise floor +> [0-9.]+ .*scatter within experiments "
                                           "only, .*\n  Noise floor known as a lower bound only: "
-                                          "repeat 3 or more tests at identical settings\\.\n"));
+                                          "run one setting at least 3 times\\.\n"));
   EXPECT_EQ(calibration().at("noise_floor").at("lower_bound"), true);
   EXPECT_THAT(directory.read("data/out/benchmark.md"), HasSubstr("\n|  | noise floor | \\> "));
 }
@@ -174,9 +174,7 @@ TEST_F(Judgement, OfFewTestsEachIsLeftOutInTurnAndTheTextSaysSo) {
   EXPECT_THAT(out,
               testing::StartsWith("Data:\n  640 rows of 16 experiments, each experiment judged by "
                                   "laws fitted without it - SYNTHETIC data\n"));
-  EXPECT_THAT(out, testing::ContainsRegex(
-                       "  Expected error of the best law on new tests: [0-9.]+ MPa\\.\n"
-                       "  Of 1,000 resamples of the tests 100 % choose log_coulomb\\.\n"));
+  EXPECT_THAT(out, HasSubstr("  Of 1,000 resamples of the tests 100 % choose log_coulomb.\n"));
   const auto json = calibration();
   EXPECT_EQ(json.at("judged_by"), "leave_one_out");
   EXPECT_EQ(json.at("validation_experiments").size(), 16U);

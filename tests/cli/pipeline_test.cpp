@@ -84,7 +84,7 @@ TEST_F(MainJob, RunWritesEveryFileOfTheContractAndSaysNothingOnStderr) {
   EXPECT_EQ(result.err, "");
   for (const char* part : {"SYNTHETIC data", "Laws by mean absolute error", "Tables:",
                            "Drift from the law", "Wrote ", "\nIn short (synthetic data):\n  take: ",
-                           "\n  expect: ", "\n  effects: ", "\n  tested: ", "\n  drift: "})
+                           "\n  expect: ", "\n  effects: ", "\n  tested: ", "\n  FE files: "})
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   EXPECT_TRUE(result.out.ends_with("\nnext: open " + directory.path("out") + "/report.html\n"));
   EXPECT_EQ(result.out.find('\x1b'), std::string::npos) << "colours in a pipe";

@@ -241,7 +241,7 @@ TEST(NoiseFloor, IsTakenFromTheMostTrustworthySourceAndSaidAsWhatItIs) {
             fmt::format("noise floor above {:.2f} MPa: scatter within experiments only, scatter "
                         "between experiments not included",
                         c.noise_floors[0].mae_MPa));
-  EXPECT_EQ(calibrate::noise_floor_advice(c), "repeat 3 or more tests at identical settings");
+  EXPECT_EQ(calibrate::noise_floor_advice(c), "run one setting at least 3 times");
   c.noise_floors.clear();
   EXPECT_EQ(calibrate::noise_floor_sentence(c, 2),
             "noise floor unknown: no repeated tests, and experiments "

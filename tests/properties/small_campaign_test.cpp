@@ -204,7 +204,6 @@ TEST(Choice, OfALawThatIsClearlyBestCostsNothing) {
 TEST(Choice, IsNotMadeOfOneLawOrOneTest) {
   EXPECT_EQ(calibrate::choose_again(equal_laws(1, 12, 1), 500, 1).draws, 0U);
   EXPECT_EQ(calibrate::choose_again(equal_laws(3, 1, 1), 500, 1).draws, 0U);
-  EXPECT_EQ(calibrate::expectation_sentence({}, 2), "");
   EXPECT_EQ(calibrate::share_sentence({}), "");
 }
 

@@ -71,6 +71,7 @@ public:
     if (!d_.findings.empty() && !by_validation() && d_.improvement.value_MPa <= 0)
       take_all_back({fmt::format("left-out tests are predicted {:.3g} MPa worse with it",
                                  -d_.improvement.value_MPa)});
+    d_.left_out_MPa = left_out_MPa();
     return std::move(d_);
   }
 
@@ -99,10 +100,21 @@ private:
     judged_ = d_.findings;
     weights_ = d_.nested.better_weights(true);
     take(d_.findings);
+    if (d_.findings.empty() || d_.findings == judged_) return;
+    take(d_.findings); // some vanished where all rows weigh alike
+    judge_by_folds();
   }
 
   double nested_mae(const LeftOut& errors) const {
     return calibrate::metrics(errors.sums, 0, in_.seed).mae_MPa;
+  }
+
+  double left_out_MPa() const {
+    if (d_.nested.folds == 0) return 0;
+    if (d_.findings.empty())
+      return nested_mae(d_.nested.weighted[d_.nested.better_weights(false)].none);
+    const bool fewer = judged_ != d_.findings; // the validation tests were against some
+    return nested_mae((fewer ? judge_->errors(d_.rival) : d_.nested).weighted[weights_].all);
   }
 
   // Gain of a finding on left-out tests.

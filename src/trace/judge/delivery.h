@@ -28,6 +28,7 @@ struct Delivery {
   std::vector<double> gain_MPa;         // of each: MAE on the unseen tests without it minus with it
   Rival baseline;                       // the law without them
   NestedErrors nested;                  // folds = 0: nothing was found
+  double left_out_MPa = 0;              // MAE of the law on left-out tests
   std::vector<stats::ErrorSums> unseen; // of the rival, per unseen test
   // As in Trace.
   std::string unseen_by = "validation";

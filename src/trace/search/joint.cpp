@@ -24,8 +24,8 @@ using Eigen::VectorXd;
 
 class Campaigner {
 public:
-  explicit Campaigner(const Search& search)
-      : s_(search), modes_(search.blocks()), maker_(search.candidates()),
+  Campaigner(const Search& search, std::span<const Cause> barred)
+      : s_(search), barred_(barred), modes_(search.blocks()), maker_(search.candidates()),
         floor_(search.last().predicted.cwiseMax(tuning::smallest_share_of_tau *
                                                 search.tau_scale_MPa())) {}
 
@@ -108,6 +108,7 @@ private:
   }
 
   bool may_be_offered(const Cause& cause) const {
+    if (std::find(barred_.begin(), barred_.end(), cause) != barred_.end()) return false;
     if (goes_with_order(cause, AlongOrder::is_order) ||
         (!has_walk() && goes_with_order(cause, AlongOrder::stretches)))
       return false;
@@ -332,6 +333,7 @@ private:
   }
 
   const Search& s_;
+  const std::span<const Cause> barred_;
   const Modes modes_;
   const TermMaker maker_;
   const VectorXd floor_;
@@ -354,8 +356,8 @@ private:
 
 } // namespace
 
-JointResult find_jointly(const Search& search) {
-  return Campaigner(search).find();
+JointResult find_jointly(const Search& search, std::span<const Cause> barred) {
+  return Campaigner(search, barred).find();
 }
 
 } // namespace frictab::trace

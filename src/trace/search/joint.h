@@ -25,6 +25,7 @@ struct JointResult {
   bool pays = false;            // improves predictions of left-out tests
 };
 
-JointResult find_jointly(const Search& search);
+// `barred`: causes that are not offered.
+JointResult find_jointly(const Search& search, std::span<const Cause> barred);
 
 } // namespace frictab::trace

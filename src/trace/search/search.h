@@ -133,7 +133,7 @@ struct Found {
   OrderStructure order = {};
 };
 
-// Runs the whole search.
-Found search_effects(const TraceInput& input);
+// Runs the whole search, without the barred causes.
+Found search_effects(const TraceInput& input, std::span<const Cause> barred = {});
 
 } // namespace frictab::trace

@@ -181,9 +181,10 @@ private:
 
 } // namespace
 
-Found search_effects(const TraceInput& input) {
+Found search_effects(const TraceInput& input, std::span<const Cause> barred) {
   Found found{Search(input)};
-  if (!found.search.negligible()) found = Adder(found.search, find_jointly(found.search)).result();
+  if (!found.search.negligible())
+    found = Adder(found.search, find_jointly(found.search, barred)).result();
   return without_drift(std::move(found));
 }
 
