@@ -19,6 +19,7 @@
 #include "calibrate/input_columns.h"
 #include "calibrate/metrics.h"
 #include "calibrate/noise_floor.h"
+#include "calibrate/recommended.h"
 #include "calibrate/refit.h"
 #include "calibrate/row_errors.h"
 #include "core/parallel.h"
@@ -223,13 +224,20 @@ std::size_t units_held_out(const CalibrationInput& input) {
   return std::set(held.begin(), held.end()).size();
 }
 
+// Smallest number of held-out units that judge laws by themselves: with fewer, each test of the
+// campaign is predicted by laws fitted without its part.
+constexpr std::size_t many_held_out = 50;
+// The number of parts falls from ten to that of the split, so that their fits cost as much.
+constexpr std::size_t most_parts = 10, parts_times_units = 300;
+
 // Draws the split repeatedly, and predicts each experiment by laws fitted without its fold.
 void add_other_splits(Calibration& calibration, const models::Conventions& conventions,
                       const CalibrationInput& input) {
   if (!input.undivided || calibration.choice.draws == 0) return;
   const data::Units units = data::units_of(*input.undivided);
   const std::size_t held = units_held_out(input);
-  const std::size_t folds = std::max<std::size_t>(2, units.count / held);
+  const std::size_t folds = std::max(
+      {std::size_t{2}, units.count / held, std::min(most_parts, parts_times_units / units.count)});
   std::vector<const models::Law*> laws;
   for (const ModelFit& fit : calibration.fits)
     if (!fit.reference) laws.push_back(input.models.laws.find(fit.model.law->name));
@@ -239,6 +247,13 @@ void add_other_splits(Calibration& calibration, const models::Conventions& conve
   std::vector<LawErrors> errors;
   for (std::size_t i = 0; i < laws.size(); ++i)
     errors.push_back({laws[i]->name, stats::by_recording(sums_of(cross.errors[i]))});
+  if (held < many_held_out && !input.undivided->condensed) {
+    calibration.all_experiments = input.undivided->experiments;
+    for (ModelFit& fit : calibration.fits)
+      for (std::size_t i = 0; i < laws.size(); ++i)
+        if (laws[i]->name == fit.model.law->name) fit.over_all = cross.errors[i];
+    add_recommended(calibration, input);
+  }
   add_split_shares(calibration.choice, errors, held, input.options.seed);
 }
 

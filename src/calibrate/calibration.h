@@ -75,6 +75,9 @@ struct ModelFit {
   // In leave-one-out: the error of each experiment by the law fitted without it, in file order.
   std::vector<ExperimentError> unseen;
   std::vector<models::Model> without; // that law, per experiment; kept out of files
+  // For held_out, where the held-out tests are few: the error of each experiment of training and
+  // validation by the law fitted without its part, in the order of Calibration::all_experiments.
+  std::vector<ExperimentError> over_all;
   // For condensed data judged on other experiments: errors on the rows of all training experiments,
   // then of all validation experiments (row_errors.h); kept out of files.
   std::vector<ExperimentError> on_rows;
@@ -114,6 +117,7 @@ struct Calibration {
   bool synthetic = false;                          // as declared by the data
   std::string data_hash;                           // 16 hex digits, training and validation
   std::vector<std::string> validation_experiments; // by name, in file order
+  std::vector<std::string> all_experiments;        // of ModelFit::over_all; else empty
   Comparisons comparisons;                         // of all pairs, on the validation experiments
   std::vector<Influence> influence;     // by law in ranking order, then by size of the shift
   Choice choice;                        // optimism of the best law's error, due to its selection

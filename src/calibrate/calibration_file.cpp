@@ -358,11 +358,15 @@ static void describe(Fields& f, Calibration& c) {
   }
   if (f.has("recordings", true)) f("recordings", c.recordings);
   f("validation_experiments", c.validation_experiments);
+  f.unless_default("experiments_left_out_in_turn", c.all_experiments);
   if (f.has("mean_stress_MPa", true)) // not in files of 0.2
     f.known("mean_stress_MPa", c.mean_stress_MPa);
   f.within("noise_floor", [&](Fields& floors) { describe_noise_floors(floors, c.noise_floors); });
   f.list("models", c.fits, [&](Fields& one, ModelFit& fit) {
     describe_fit(one, fit, Part::calibrated, c.validation_experiments);
+    if (one.has("by_experiment_left_out_in_turn", !fit.over_all.empty()))
+      one.within("by_experiment_left_out_in_turn",
+                 [&](Fields& list) { describe_unseen(list, fit.over_all, c.all_experiments); });
   });
   if (f.has("influence", true)) f("influence", c.influence);
   f("left_out", c.left_out);

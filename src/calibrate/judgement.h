@@ -96,6 +96,8 @@ struct Recommended {
   std::size_t numbers_of_best = 0;
   double behind_MPa = 0;    // MAE on unseen tests minus that of the best law
   double std_error_MPa = 0; // of that difference, paired by experiment
+  // Number of tests, left out in turn, over which this was decided; 0: those that judge the laws.
+  std::size_t tests = 0;
   // On new tests, for a law chosen by this rule; 95 % over tests.
   double expected_mae_MPa = 0;
   Interval expected_interval;

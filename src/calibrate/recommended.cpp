@@ -98,12 +98,13 @@ Recommended recommend(std::span<const LawErrors> laws, std::span<const std::size
   JudgedLaws judged(laws);
   const std::vector<double> once(experiments, 1.0);
   judged.judge(once);
-  const Place place = experiments < 2 ? Place{} : simplest_near(judged, 0, numbers);
+  const std::size_t best = experiments < 2 ? 0 : best_of(laws, once);
+  const Place place = experiments < 2 ? Place{} : simplest_near(judged, best, numbers);
   Recommended out;
   out.law = laws[place.law].law;
-  out.best = laws.front().law;
+  out.best = laws[best].law;
   out.numbers = numbers[place.law];
-  out.numbers_of_best = numbers.front();
+  out.numbers_of_best = numbers[best];
   out.behind_MPa = place.behind_MPa;
   out.std_error_MPa = place.std_error_MPa;
   out.expected_mae_MPa = judged.mae_MPa(place.law);
@@ -118,6 +119,19 @@ Recommended recommend(std::span<const LawErrors> laws, std::span<const std::size
   return out;
 }
 
+namespace {
+
+// Errors of the tests left out in turn, with the recordings that files do not contain.
+std::vector<stats::ErrorSums> over_all_sums(const ModelFit& fit, const CalibrationInput& input) {
+  std::vector<stats::ErrorSums> sums = sums_of(fit.over_all);
+  if (input.undivided && input.undivided->recording.size() == sums.size())
+    for (std::size_t e = 0; e < sums.size(); ++e)
+      sums[e].recording = input.undivided->recording[e];
+  return stats::by_recording(sums);
+}
+
+} // namespace
+
 void add_recommended(Calibration& calibration, const CalibrationInput& input,
                      const std::vector<std::string>& overruled) {
   calibration.recommended = {};
@@ -130,12 +144,18 @@ void add_recommended(Calibration& calibration, const CalibrationInput& input,
     fits.push_back(&fit);
     numbers.push_back(numbers_of(fit, calibration.fits));
   }
+  const std::size_t tests = calibration.all_experiments.size();
+  const bool over_all = tests > 0 && std::all_of(fits.begin(), fits.end(), [&](const auto* fit) {
+                          return fit->over_all.size() == tests;
+                        });
   std::vector<LawErrors> laws(fits.size());
   parallel_for(laws.size(), [&](std::size_t i) {
     laws[i] = {fits[i]->model.law->name,
-               stats::by_recording(unseen_sums(*fits[i], input.validation))};
+               over_all ? over_all_sums(*fits[i], input)
+                        : stats::by_recording(unseen_sums(*fits[i], input.validation))};
   });
   calibration.recommended = recommend(laws, numbers, input.options.bootstrap, input.options.seed);
+  if (over_all) calibration.recommended.tests = tests;
 }
 
 std::size_t best_place(const Calibration& calibration) {
@@ -171,6 +191,11 @@ std::string expectation_sentence(const Calibration& calibration, int decimals) {
   if (fit.on_all)
     return fmt::format("on new tests {} is expected to err by {}, cross-validated over all tests",
                        law, expected);
+  if (const std::size_t tests = calibration.recommended.tests; tests > 0)
+    return fmt::format(
+        "on new tests {} is expected to err by {}, by all {} tests left out in turn; "
+        "the {} above are of the {} held out, which are few",
+        law, expected, tests, text(own), fit.validation.n_experiments);
   return fmt::format("on new tests {} is expected to err by {}: {}", law, expected,
                      new_tests > own
                          ? text(own) + " is optimistic, because the same tests chose the law"
@@ -181,14 +206,15 @@ std::string recommended_sentence(const Calibration& calibration, int decimals) {
   const Recommended& r = calibration.recommended;
   if (r.law.empty()) return "";
   if (r.law == r.best)
-    return fmt::format("recommended: {}, which is the best; no simpler law is within one standard "
-                       "error of it",
-                       r.law);
-  const double mae = recommended_fit(calibration).validation.mae_MPa;
-  return fmt::format("recommended: {} ({:.{}f} MPa), the simplest law that is not worse than {} by "
-                     "more than one standard error ({:+.{}f} +- {:.{}f} MPa; {} against {})",
-                     r.law, mae, decimals, r.best, r.behind_MPa, decimals, r.std_error_MPa,
-                     decimals, numbers_text(r.numbers), thousands(r.numbers_of_best));
+    return fmt::format(
+        "recommended: {}, which is the best{}; no simpler law is within one standard "
+        "error of it",
+        r.law, r.tests > 0 ? fmt::format(" over all {} tests", r.tests) : "");
+  return fmt::format("recommended: {}, the simplest law that is not worse than {} by more than one "
+                     "standard error ({:+.{}f} +- {:.{}f} MPa{}; {} against {})",
+                     r.law, r.best, r.behind_MPa, decimals, r.std_error_MPa, decimals,
+                     r.tests > 0 ? fmt::format(" over all {} tests", r.tests) : "",
+                     numbers_text(r.numbers), thousands(r.numbers_of_best));
 }
 
 } // namespace frictab::calibrate

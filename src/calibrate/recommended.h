@@ -20,8 +20,8 @@ inline constexpr const char* reference_words = "reference, not a candidate";
 // effects has those of the law that it extends, which is among `fits`, and its own.
 std::size_t numbers_of(const ModelFit& fit, std::span<const ModelFit> fits);
 
-// Recommends one of `laws` (the best first; `numbers` has one entry per law): the one with the
-// fewest numbers among those whose MAE exceeds that of the first by at most one standard error of
+// Recommends one of `laws` (in ranking order; `numbers` has one entry per law): the one with the
+// fewest numbers among those whose MAE exceeds that of the best by at most one standard error of
 // the difference, paired by experiment (one-standard-error rule: Breiman, Friedman, Olshen and
 // Stone 1984, 3.4.3); among equally simple ones that with the smallest MAE. Errors that count as
 // equal (same_error) are not worse. With fewer than 2 experiments, returns the first. With
@@ -31,7 +31,8 @@ Recommended recommend(std::span<const LawErrors> laws, std::span<const std::size
                       std::size_t resamples = 0, std::uint64_t seed = 1);
 
 // Fills calibration.recommended from its candidates in their order, without those named in
-// `overruled`; leaves it empty if no test judges the laws.
+// `overruled`; leaves it empty if no test judges the laws. Where all candidates have errors of all
+// tests, left out in turn (ModelFit::over_all), these decide instead of the few held out.
 void add_recommended(Calibration& calibration, const CalibrationInput& input,
                      const std::vector<std::string>& overruled = {});
 

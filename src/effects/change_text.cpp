@@ -23,7 +23,8 @@ constexpr double no_base = 0.05;
 
 class ChangeText {
 public:
-  explicit ChangeText(const PlacedEffect& effect) : e_(effect), program_(factor_program(effect)) {}
+  ChangeText(const PlacedEffect& effect, std::span<const PlacedEffect> law)
+      : e_(effect), program_(factor_program(effect)), law_(law) {}
 
   std::string run() const {
     if (e_.inputs.size() == 1) {
@@ -130,13 +131,36 @@ private:
     return what() + " against " + names[0] + ": " + join(changes, ", ") + more;
   }
 
+  // Adds what the same law's effects of this input alone do at the same site: a product changes
+  // them.
+  void add_own_effects(std::size_t input, Curve& curve) const {
+    for (const PlacedEffect& other : law_) {
+      if (other.inputs.size() != 1 || other.acts_on != e_.acts_on ||
+          other.inputs[0].column != e_.inputs[input].column)
+        continue;
+      const Curve own = ChangeText(other, {}).along_places(curve.size(), e_.inputs[input]);
+      for (std::size_t i = 0; i < curve.size(); ++i)
+        curve[i] = e_.acts_on == ActsOn::tau ? curve[i] + own[i] : curve[i] * own[i];
+    }
+  }
+
+  // Evaluates the only input over the range of another.
+  Curve along_places(std::size_t count, const EffectInput& range) const {
+    std::vector<double> x(count);
+    for (std::size_t i = 0; i < count; ++i)
+      x[i] = range.low +
+             (range.high - range.low) * static_cast<double>(i) / static_cast<double>(count - 1);
+    return factors({x});
+  }
+
   // Describes the change along `input` at each level or at both ends of `other`.
   std::string of_two(std::size_t input, std::size_t other) const {
     const auto from_to = [&](double value) {
       std::vector<double> at;
       for (std::size_t i = 0; i < e_.inputs.size(); ++i)
         at.push_back(i == other ? value : middle(i));
-      const Curve curve = along(input, at);
+      Curve curve = along(input, at);
+      add_own_effects(input, curve);
       return change(curve.front(), curve.back());
     };
     std::vector<std::string> changes;
@@ -153,12 +177,13 @@ private:
 
   const PlacedEffect& e_;
   const expr::Program program_;
+  const std::span<const PlacedEffect> law_;
 };
 
 } // namespace
 
-std::string change_text(const PlacedEffect& effect) {
-  return ChangeText(effect).run();
+std::string change_text(const PlacedEffect& effect, std::span<const PlacedEffect> law) {
+  return ChangeText(effect, law).run();
 }
 
 } // namespace frictab::effects

@@ -40,7 +40,8 @@ bool put_before_its_law(std::vector<ModelFit>& fits, const trace::Trace& trace) 
                         [&](const ModelFit& fit) { return fit.model.name() == name; });
   };
   const auto traced = with_name(trace.extended_model), own = with_name(trace.model);
-  if (trace.unseen == "validation" || traced == fits.end() || traced < own) return false;
+  if (trace.unseen == "validation" || trace.effects.empty() || traced == fits.end() || traced < own)
+    return false;
   traced->remarks.push_back(fmt::format(
       "stands before {} by the {} left-out tests of its trace, {:.4g} MPa there against {:.4g}: "
       "the validation tests are {}",
@@ -80,6 +81,7 @@ void add_traced_laws(Calibration& calibration, std::vector<trace::Trace>& traces
     if (!trace.extended.model.law) continue;
     ModelFit fit = trace.extended;
     fit.unseen = in_order_of(calibration.validation_experiments, fit.unseen);
+    fit.over_all = in_order_of(calibration.all_experiments, fit.over_all);
     calibration.fits.push_back(std::move(fit));
   }
   std::stable_sort(calibration.fits.begin(), calibration.fits.end(),
@@ -87,9 +89,12 @@ void add_traced_laws(Calibration& calibration, std::vector<trace::Trace>& traces
                      return a.validation.mae_MPa < b.validation.mae_MPa;
                    });
   calibrate::add_comparisons(calibration, input);
-  std::vector<std::string> overruled; // laws ranked after their extension by the left-out tests
+  // Laws without an effect that is proven, or ranked after their extension by the left-out tests.
+  std::vector<std::string> overruled;
   for (const trace::Trace& trace : traces)
-    if (put_before_its_law(calibration.fits, trace)) overruled.push_back(trace.model);
+    if (put_before_its_law(calibration.fits, trace) ||
+        (!trace.effects.empty() && trace.improvement.interval.low > 0))
+      overruled.push_back(trace.model);
   calibrate::add_recommended(calibration, input, overruled);
 }
 

@@ -49,6 +49,12 @@ Trace what_was_tried(const Found& found) {
   if (!search.candidates().constant.empty())
     trace.notes.push_back("never varied, so its influence is unknown: " +
                           join(search.candidates().constant, ", "));
+  std::vector<std::string> texts;
+  for (const CandidateColumn& column : search.candidates().columns)
+    if (!column.levels.empty() && column.between) texts.push_back(column.name);
+  if (texts.size() > 1)
+    trace.notes.push_back(
+        fmt::format("products of the texts {}{}", join(texts, ", "), not_searched));
   if (search.one_factor())
     trace.notes.push_back("the tests change one state at a time: what several do together no test "
                           "shows, nor what a law with effects is worth there");
@@ -82,6 +88,9 @@ void judge(calibrate::ModelFit& fit, const TraceInput& in, const Delivery& deliv
           calibrate::error_of(in.validation.experiments[i], true, sums.back(), no_value));
     }
     fit.validation = calibrate::metrics(sums, in.bootstrap, in.seed);
+    for (std::size_t e = 0; e < in.training.experiments.size(); ++e)
+      fit.over_all.push_back(
+          calibrate::error_of(in.training.experiments[e], true, delivery.unseen[e], no_value));
     fit.band = calibrate::check_band(fit.model, {}, in.training.subset({}));
   } else if (in.validation.experiments.empty()) {
     fit.validation = delivery.after.validation;
@@ -233,7 +242,7 @@ Trace trace_in_order(const TraceInput& in) {
   trace.as_calibrated = {in.fit.training, in.fit.validation};
   trace.before = delivery.before;
   trace.after = delivery.after;
-  if (found.order.found && trace.effects.empty())
+  if (found.order.found && trace.effects.empty() && in.searched.empty())
     trace.after = {trace.extended.training, trace.extended.validation};
   trace.improvement = delivery.improvement;
   trace.over_calibrated = delivery.over_calibrated;

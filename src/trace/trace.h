@@ -106,12 +106,19 @@ const char* verdict_name(Verdict verdict);
 // Structure along the order of tests that no recorded column explains.
 struct OrderStructure {
   bool found = false;
-  std::string column;    // column that gives the order; empty: none declared
-  double p_value = 1;    // of the null hypothesis "no structure"
-  double size_MPa = 0;   // root mean square over the training rows
-  double share = 0;      // the same, relative to tau_R
+  std::string column;  // column that gives the order; empty: none declared
+  double p_value = 1;  // of the null hypothesis "no structure"
+  double size_MPa = 0; // root mean square over the training rows
+  double share = 0;    // the same, relative to tau_R
+  // Relative change of friction from the first test to the last, or at a step; 0: it has no
+  // direction.
+  double change = 0;
+  std::string step;      // "D13 and D14": tests between which friction steps; empty: it does not
   std::string reference; // in the delivered law, the place that documents it
 };
+
+// "friction falls by 15 % between tests D13 and D14 (run_order)"; needs structure.
+std::string order_text(const OrderStructure& order);
 
 // Smallest effect of a column that would have been detected.
 struct Detectable {

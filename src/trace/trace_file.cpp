@@ -226,6 +226,8 @@ static void describe(Fields& f, OrderStructure& o) {
   f("p_value", o.p_value);
   f("size_MPa", o.size_MPa);
   f("share", o.share);
+  f.unless_default("change", o.change); // not in files of 0.2.0
+  f.unless_default("step_between", o.step);
   f.only_written("order_confounded", o.found);
   f("law_holds_it_at", o.reference);
 }

@@ -406,6 +406,9 @@ inline constexpr std::size_t order_permutations = 999;
 // Level of the test along the order in units of trace.alpha. Measured as a whole, with earlier
 // searches: structure in 4 of 1000 campaigns that lack nothing, at trace.alpha = 0.02.
 inline constexpr double order_share_of_alpha = 0.5;
+// A structure along the order has a direction if a step or a line leaves less than this share of
+// the squares of the tests' gains; half the range of a random walk is explained by a line.
+inline constexpr double most_left_by_direction = 0.7;
 // Cosines over the order whose squares the test adds up. Chosen, not measured.
 inline constexpr int order_test_waves = 4;
 // Tests below which their order is not tested. Chosen, not measured.

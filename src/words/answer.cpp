@@ -41,7 +41,7 @@ std::string others_text(const Calibration& calibration) {
                ? "; these tests cannot separate the two laws"
                : fmt::format("; these tests cannot separate any of the {} laws", candidates);
   std::erase(possible, calibration.recommended.law);
-  std::erase(possible, calibrate::best_fit(calibration).model.law->name);
+  std::erase(possible, calibration.recommended.best);
   if (possible.empty()) return "";
   return fmt::format("; {} may be as good", possible.size() > shown
                                                 ? fmt::format("{} others", possible.size())
@@ -76,8 +76,9 @@ std::string many_numbers(const ModelFit& fit, const Calibration& calibration) {
 
 Text take_text(const Answers& answers) {
   const Calibration& calibration = *answers.calibration;
-  const ModelFit& best = calibrate::best_fit(calibration);
-  const std::string& best_law = best.model.law->name;
+  const std::string& best_law = calibration.recommended.best.empty()
+                                    ? calibrate::best_fit(calibration).model.law->name
+                                    : calibration.recommended.best;
   const std::string& recommended = calibration.recommended.law;
   if (recommended.empty())
     return strong(best_law) + ", which fits best; one test cannot judge laws";
@@ -89,8 +90,7 @@ Text take_text(const Answers& answers) {
   if (recommended == best_law)
     text += ", the law with the lowest error";
   else
-    text += fmt::format(", the simplest law that is not clearly worse than {}, the best ({} MPa)",
-                        best_law, fixed(best.validation.mae_MPa, error_decimals(calibration)));
+    text += fmt::format(", the simplest law that is not clearly worse than {}, the best", best_law);
   return text + others_text(calibration) + many_numbers(fit, calibration);
 }
 
@@ -202,6 +202,9 @@ void add_tests_of(const trace::Trace& t, std::vector<std::string>& tests,
     if (!design.tests.empty())
       (design.probability < even_chance ? unlikely : tests).push_back(design_in_short(design));
   };
+  if (t.order.found)
+    tests.push_back("repeat one of the first tests: if its friction does not come back, the force "
+                    "cell, the tool or the material has changed");
   for (const trace::TracedEffect& effect : t.effects)
     add(effect.design);
   for (const trace::Lead& lead : t.leads)
@@ -219,7 +222,8 @@ Next next_of(const Answers& answers) {
   if (is_calibrated(answers)) {
     const Calibration& c = *answers.calibration;
     for (const auto& open : calibrate::recommended_fit(c).delivered().determination.not_determined)
-      next.tests.push_back(open.text);
+      if (open.text.find(" would settle ") != std::string::npos) // by tests
+        next.tests.push_back(open.text);
     const std::string advice = calibrate::noise_floor_advice(c);
     if (!advice.empty())
       next.tests.push_back(advice + ": the scatter shows how much a better law could gain");

@@ -8,6 +8,7 @@
 
 #include "core/text.h"
 #include "data/derived.h"
+#include "data/quantity.h"
 #include "effects/change_text.h"
 #include "trace/columns/candidates.h"
 #include "trace/tuning.h"
@@ -121,9 +122,9 @@ void add_design(Section& section, const trace::Design& d) {
   section.add(std::move(table));
 }
 
-// The column of an effect in a product stays, whether or not it gains anything by itself.
-bool is_for_product(const TracedEffect& e, const Trace& t) {
-  return e.gain_MPa <= 0 && e.placed.inputs.size() == 1 &&
+// Whether another effect is a product with the effect's only column.
+bool is_in_product(const TracedEffect& e, const Trace& t) {
+  return e.placed.inputs.size() == 1 &&
          std::any_of(t.effects.begin(), t.effects.end(), [&](const TracedEffect& other) {
            const auto& inputs = other.placed.inputs;
            return inputs.size() > 1 &&
@@ -133,14 +134,27 @@ bool is_for_product(const TracedEffect& e, const Trace& t) {
          });
 }
 
+// Whether the effect corrects how the law follows a state.
+bool follows_state(const TracedEffect& e) {
+  const data::Quantity* state = data::find_quantity(e.placed.inputs[0].column);
+  return e.placed.inputs.size() == 1 && state && state->state;
+}
+
 Section effect_section(const TracedEffect& e, const Trace& t, Detail detail) {
-  const std::string gain = is_for_product(e, t)
+  const bool differs = is_in_product(e, t);
+  const std::string gain = differs && e.gain_MPa <= 0
                                ? "kept for its product"
                                : fmt::format("gains {} MPa on unseen tests", digits(e.gain_MPa));
   Section section{"", "",
                   fmt::format("+ {}: {}, {}, {}, {}", cause_text(e), e.placed.form->name,
                               site_text(e.placed.acts_on), p_clause(e.p_value), gain)};
-  section.say(effects::change_text(e.placed));
+  std::vector<effects::PlacedEffect> law;
+  for (const TracedEffect& other : t.effects)
+    law.push_back(other.placed);
+  section.say(effects::change_text(e.placed, law) + (differs ? ", but see its product"
+                                                     : follows_state(e)
+                                                         ? ", on top of the law's own"
+                                                         : ""));
   const Text formula = emphasis(effects::formula_text(e.placed)) + ": " + parameters_of(e);
   section.say(formula, "", detail == Detail::verbose ? Shown::everywhere : Shown::on_pages);
   std::vector<std::string> same, less;
@@ -152,8 +166,9 @@ Section effect_section(const TracedEffect& e, const Trace& t, Detail detail) {
     section.say("explain less: " + join(less, ", "), "",
                 detail == Detail::verbose ? Shown::everywhere : Shown::on_pages);
   if (e.order_confounded)
-    section.say("may stand for time: a drift over the tests would look the same; name their order "
-                "([trace] order), or run tests at both ends of it in turn");
+    section.say("may stand for time: a drift over the tests would look the same; " +
+                std::string(t.order.column.empty() ? "name their order ([trace] order), or " : "") +
+                "run tests at both ends of it in turn");
   if (belongs_to_the_experiment(e))
     section.say(fmt::format("no simulation has {}: it is a property or constant of routines; "
                             "[trace] ignore leaves it out",
@@ -170,6 +185,10 @@ std::string unseen_text(const Trace& t) {
                        "fitted with the same weights",
                        tests);
   if (t.unseen == "nothing") return "unseen: nothing, there is one test";
+  if (t.effects.empty() && t.validation_searched)
+    return fmt::format("unseen: the {} tests to validate, each predicted by a fit without it ({} "
+                       "folds); before is the calibrated law",
+                       tests, t.nested.folds);
   if (t.unseen == "leave_one_out")
     return fmt::format("unseen: each of the {} tests predicted by the law calibrated without it",
                        tests);
@@ -245,7 +264,8 @@ std::string headline(const Trace& t) {
     break;
   }
   const std::string found = not_confirmed(t);
-  return "unexplained structure" + (found.empty() ? "" : "; " + found);
+  return (t.order.found ? trace::order_text(t.order) : "unexplained structure") +
+         (found.empty() ? "" : "; " + found);
 }
 
 const char* result_of(Verdict verdict) {
@@ -423,9 +443,10 @@ std::string trace_in_short(const Trace& t) {
   return fmt::format("{} added to {}{}: {}; {}{}", named, t.model,
                      t.improvement.interval.low > 0 ? "" : ", though the gain is not certain",
                      gained_in_short(t),
-                     t.remaining.structure ? "structure is left"
-                     : open.empty()        ? "no other effect found"
-                                           : "suspect: " + open,
+                     t.order.found           ? trace::order_text(t.order)
+                     : t.remaining.structure ? "structure is left"
+                     : open.empty()          ? "no other effect found"
+                                             : "suspect: " + open,
                      aliases);
 }
 

@@ -247,6 +247,30 @@ TEST_F(Judgement, OfFewTestsAShareIsHeldOutWhereTheJobSaysSo) {
   EXPECT_THAT(directory.read("data/out/benchmark.md"), HasSubstr(", held out by seed 3. "));
 }
 
+TEST_F(Judgement, WhatToTakeAndExpectIsDecidedOverAllTestsWhereFewAreHeldOut) {
+  design = "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=40;validation=0";
+  const std::string out = calibrate({"--no-bystanders"}, {two_laws, "data.holdout=0.25"});
+  const auto json = calibration();
+  EXPECT_EQ(json.at("experiments_left_out_in_turn").size(), 16u);
+  EXPECT_EQ(json.at("recommendation").at("tests_left_out_in_turn"), 16);
+  double rows = 0, sum = 0;
+  for (const auto& model : json.at("models")) {
+    if (model.at("name") != json.at("recommended")) continue;
+    const auto& errors = model.at("by_experiment_left_out_in_turn");
+    ASSERT_EQ(errors.at("mae_MPa").size(), 16u);
+    for (std::size_t e = 0; e < 16; ++e) {
+      rows += errors.at("n_rows").at(e).get<double>();
+      sum += errors.at("n_rows").at(e).get<double>() * errors.at("mae_MPa").at(e).get<double>();
+    }
+  }
+  EXPECT_EQ(rows, 640);
+  EXPECT_NEAR(json.at("recommendation").at("expected_mae_MPa").get<double>(), sum / rows,
+              0.02 * sum / rows);
+  EXPECT_THAT(out, testing::ContainsRegex("On new tests log_coulomb is expected to err by [0-9.]+ "
+                                          "MPa, by all 16 tests left out in turn; the [0-9.]+ MPa "
+                                          "above are of the 4 held out, which are few\\."));
+}
+
 TEST_F(Judgement, ConditionalUseStandsApartFromTheRanking) {
   const std::string out = calibrate({}, {two_laws, "calibration.condition_on_mm=2"});
   ASSERT_EQ(exit_code, 0) << error;

@@ -63,21 +63,19 @@ TEST(FirstBox, NamesTheBestLawBesideASimplerOne) {
   Box box;
   box.sample.calibration.recommended.law = box.name(1);
   box.may_be_best(2);
-  EXPECT_THAT(box.text(),
-              HasSubstr(fmt::format(
-                  "take: {}, the simplest law that is not clearly worse than {}, the "
-                  "best ({} MPa)\n",
-                  box.name(1), box.name(0), words::fixed(box.fit(0).validation.mae_MPa, 2))));
+  box.sample.calibration.recommended.best = box.name(0);
+  EXPECT_THAT(box.text(), HasSubstr(fmt::format("take: {}, the simplest law that is not clearly "
+                                                "worse than {}, the best\n",
+                                                box.name(1), box.name(0))));
 }
 
 TEST(FirstBox, WarnsOfMoreFittedNumbersThanTests) {
   Box box;
   EXPECT_THAT(box.text(), Not(HasSubstr("careful")));
-  box.fit(0).training.n_experiments = 1;
-  const std::size_t numbers = box.fit(0).model.law->parameters.size();
-  ASSERT_GT(numbers, 1U);
+  box.fit(0).polynomial.emplace().terms.resize(13);
+  constexpr std::size_t numbers = 13; // fitted to 12 tests
   EXPECT_THAT(box.text(),
-              HasSubstr(fmt::format("; careful, {} numbers fitted to 1 test", numbers)));
+              HasSubstr(fmt::format("; careful, {} numbers fitted to 12 tests", numbers)));
 }
 
 TEST(FirstBox, GivesSmallErrorsAsAShareOfTheStressFirst) {
@@ -124,7 +122,7 @@ TEST(FirstBox, PutsTestsThatWouldProbablySettleNothingLast) {
       HasSubstr("next: (1) run one setting at least 3 times: the scatter shows how much a "
                 "better law could gain; (2) run 2 tests with oil = A, otherwise like E3, to "
                 "see whether the effect of oil depends on psi (38 % chance of a clear "
-                "answer; about 15 such tests give 80 %)\n"));
+                "answer; about 15 such tests give 80 %)"));
   t.leads[0].design = design_of("oil", 0.9, 2);
   EXPECT_THAT(box.text(), HasSubstr("next: (1) run 2 tests with oil = A, otherwise like E3, to see "
                                     "whether oil has an effect (90 % chance of a clear answer); "

@@ -58,6 +58,20 @@ TEST(ChangeText, OfTwoQuantitiesIsTheChangeByTheFirstAtTheEndsOfTheSecond) {
             "friction with v from 0 to 10: +0 % at s_mm = 0, +50 % at 20");
 }
 
+// v alone: 1 - 0.5 at the end of its range; as a whole 0.5 at s = 0 and 0.75 at s = 20.
+TEST(ChangeText, OfAProductIsThatOfTheWholeLaw) {
+  const PlacedEffect product =
+      effect_of("product", {{"v", {}, 0, 10}, {"s_mm", {}, 0, 20}}, {0.5, 0, 10, 0, 20});
+  PlacedEffect own = effect_of("linear", {{"v", {}, 0, 10}}, {-0.5, 0, 10});
+  const std::vector<PlacedEffect> law = {own, product};
+  EXPECT_EQ(change_text(own, law), "friction -50 % from 0 to 10");
+  EXPECT_EQ(change_text(product, law),
+            "friction with v from 0 to 10: -50 % at s_mm = 0, -25 % at 20");
+  own.acts_on = effects::ActsOn::m; // another part of the law
+  const std::vector<PlacedEffect> apart = {own, product};
+  EXPECT_EQ(change_text(product, apart), change_text(product));
+}
+
 TEST(ChangeText, OfWhatIsAddedIsInMPa) {
   PlacedEffect effect = effect_of("linear", {{"p", {}, 0, 2}}, {0.1, 1, 1});
   effect.acts_on = effects::ActsOn::tau;

@@ -80,6 +80,10 @@ TEST(OrderBlocks, TwoMaterialsOneAfterTheOtherAreALead) {
     EXPECT_TRUE(t.effects.empty()) << trace_text(t);
     EXPECT_TRUE(leads_to_material(t)) << trace_text(t);
     EXPECT_THAT(words::trace_in_short(t), HasSubstr("material"));
+    EXPECT_THAT(trace_text(t), HasSubstr("friction against PA66: POM +"));
+    EXPECT_EQ(t.order.step, "t06 and t07");
+    EXPECT_NEAR(t.order.change, 0.4, 0.08);
+    EXPECT_THAT(words::trace_in_short(t), HasSubstr("% between tests t06 and t07 (run_order)"));
   }
 }
 
@@ -94,6 +98,8 @@ TEST(OrderBlocks, ADriftThroughThemIsNoEffectOfMaterials) {
     for (const std::size_t materials : {2, 4}) {
       const Trace t = traced(16, materials, {1, 1, 1, 1}, 0.5, seed);
       EXPECT_TRUE(t.effects.empty()) << trace_text(t);
+      EXPECT_EQ(t.order.step, "");
+      EXPECT_NEAR(t.order.change, std::expm1(0.5), 0.15);
     }
 }
 

@@ -9,8 +9,10 @@
 #include "calibrate/metrics.h"
 #include "core/error.h"
 #include "core/no_value.h"
+#include "core/text.h"
 #include "trace/advise/design.h"
 #include "trace/advise/followers.h"
+#include "trace/search/order_search.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
@@ -102,6 +104,42 @@ void add_undelivered(Trace& trace, const Found& found, const Delivery& delivery)
 
 // --- causes that the order of tests explains as well --------------------------------------------
 
+// Friction by level, against the first, or over the range of a number: of whole tests, by the law
+// without effects.
+std::string size_between(const Search& search, const Cause& cause) {
+  const CandidateColumn& column = search.candidates().columns[cause.columns[0]];
+  const VectorXd ln = search.campaign()
+                          .measured
+                          .cwiseQuotient(search.base().predicted.cwiseMax(
+                              tuning::smallest_share_of_tau * search.tau_scale_MPa()))
+                          .array()
+                          .max(tuning::smallest_gain_ratio)
+                          .log();
+  const VectorXd y = search.blocks().experiment_means(ln).col(0),
+                 x = search.blocks().experiment_means(column.values).col(0);
+  if (column.levels.empty()) {
+    const VectorXd centred = x.array() - x.mean();
+    const double change = centred.dot(y) / centred.squaredNorm() * (x.maxCoeff() - x.minCoeff());
+    return fmt::format("friction {:+.2g} % from {:.4g} to {:.4g}", 100 * std::expm1(change),
+                       x.minCoeff(), x.maxCoeff());
+  }
+  constexpr std::size_t most_shown = 4;
+  std::vector<double> sum(column.levels.size()), tests(column.levels.size());
+  for (Index e = 0; e < x.size(); ++e) {
+    sum[static_cast<std::size_t>(x(e))] += y(e);
+    ++tests[static_cast<std::size_t>(x(e))];
+  }
+  const auto first = static_cast<std::size_t>(
+      std::find_if(tests.begin(), tests.end(), [](double n) { return n > 0; }) - tests.begin());
+  std::vector<std::string> changes;
+  for (std::size_t l = first + 1; l < tests.size() && changes.size() < most_shown; ++l)
+    if (tests[l] > 0)
+      changes.push_back(
+          fmt::format("{} {:+.2g} %", column.levels[l],
+                      100 * std::expm1(sum[l] / tests[l] - sum[first] / tests[first])));
+  return "friction against " + column.levels[first] + ": " + join(changes, ", ");
+}
+
 void add_confounded(Trace& trace, const Found& found) {
   for (const auto& [cause, p_value] : found.confounded) {
     Lead lead = lead_of(cause, found.search.candidates());
@@ -109,9 +147,13 @@ void add_confounded(Trace& trace, const Found& found) {
     lead.between = true;
     lead.p_value = p_value;
     lead.significant = true;
-    lead.why = fmt::format("p = {:.2g}, but a drift over the order of tests ({}) explains it as "
-                           "well",
-                           p_value, found.order.column);
+    const bool in_stretches = along_order(found.search, cause.columns[0]) != AlongOrder::no;
+    lead.why =
+        fmt::format("p = {:.2g}; {}, but {} ({})", p_value, size_between(found.search, cause),
+                    in_stretches ? "it changed along the order of tests and never back, and so may "
+                                   "anything else have done"
+                                 : "a drift over the order of tests explains it as well",
+                    found.order.column);
     if (trace.leads.empty())
       lead.design = design_in_turn(found.search, cause, trace.scatter_between);
     // without the limit on the number of leads

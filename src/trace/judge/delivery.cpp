@@ -233,8 +233,27 @@ private:
     drop_contradicted();
   }
 
+  // Compares the law without what follows the order of tests with the calibrated one, on the
+  // validation tests that were searched: neither was fitted to them.
+  void compare_without_order() {
+    const std::vector<stats::ErrorSums>& all = d_.nested.weighted[weights_].none.sums;
+    d_.unseen_by = "nested_cross_validation";
+    d_.check.folds = d_.nested.folds;
+    d_.unseen = all;
+    std::vector<stats::ErrorSums> with;
+    for (const std::size_t test : in_.searched)
+      with.push_back(all[test]);
+    const std::vector<stats::ErrorSums> without = calibrated_on_validation();
+    d_.before = {errors(in_.training, d_.baseline),
+                 calibrate::metrics(without, in_.bootstrap, in_.seed)};
+    d_.after = {errors(in_.training, d_.rival), calibrate::metrics(with, in_.bootstrap, in_.seed)};
+    d_.improvement = gained(with, without);
+  }
+
   // Compares errors on the validation tests or on left-out ones.
   void compare_errors() {
+    if (d_.findings.empty() && !in_.searched.empty() && f_.order.found && d_.nested.folds > 0)
+      return compare_without_order();
     const bool nested = !by_validation() && d_.nested.folds > 0;
     if (nested)
       d_.unseen_by = "nested_cross_validation";

@@ -45,9 +45,10 @@ std::string scatter_sentence(const Trace& t) {
 }
 
 std::string order_sentence(const OrderStructure& order) {
-  return fmt::format("friction follows the order of tests ({}), {:.2g} MPa or {} root mean square: "
-                     "drift, wear or batch; the law holds it at {}",
-                     order.column, order.size_MPa, percent(order.share), order.reference);
+  return fmt::format(
+      "{}, {:.2g} MPa or {} root mean square: drift, wear or batch; the law holds it "
+      "at {}",
+      order_text(order), order.size_MPa, percent(order.share), order.reference);
 }
 
 std::string worlds_sentence(const ValidationShift& worlds) {
@@ -74,6 +75,16 @@ Verdict verdict_of(const Trace& t) {
 }
 
 } // namespace
+
+std::string order_text(const OrderStructure& order) {
+  if (order.change == 0)
+    return fmt::format("friction follows the order of tests ({})", order.column);
+  return fmt::format("friction {} by {:.2g} % {} ({})", order.change < 0 ? "falls" : "rises",
+                     100 * std::abs(order.change),
+                     order.step.empty() ? "from the first test to the last"
+                                        : "between tests " + order.step,
+                     order.column);
+}
 
 void add_verdict(Trace& t, const Found& found, bool contradicted) {
   const bool excess = scatters_more(t);

@@ -56,6 +56,52 @@ std::vector<double> in_order(const Search& search, const VectorXd& of_tests) {
   return values;
 }
 
+// Logarithm of measured over calculated friction of each test, in the order of tests.
+std::vector<double> gains_in_order(const Search& search) {
+  const VectorXd& law = search.last().predicted;
+  const VectorXd ratio = search.residual().cwiseQuotient(
+      law.cwiseMax(tuning::smallest_share_of_tau * search.tau_scale_MPa()));
+  const VectorXd mean = search.blocks().experiment_means(ratio).col(0);
+  return in_order(search, mean.array().max(tuning::smallest_gain_ratio - 1).log1p().matrix());
+}
+
+// Adds to a structure whether friction steps between two tests or rises or falls from the first to
+// the last; neither where both explain little.
+void add_direction(OrderStructure& order, const Search& search) {
+  const std::vector<double> gains = gains_in_order(search);
+  const auto n = static_cast<Index>(gains.size());
+  const auto y = VectorXd::Map(gains.data(), n);
+  const auto squares = [](const auto& x) { return (x.array() - x.mean()).square().sum(); };
+  const VectorXd x = VectorXd::LinSpaced(n, 0, 1);
+  const double all = squares(y);
+  const double slope = (x.array() - x.mean()).matrix().dot(y) / squares(x);
+  const double by_line = all - slope * slope * squares(x);
+  double by_step = all;
+  Index after = 0;
+  for (Index k = 2; k + 2 <= n; ++k)
+    if (const double left = squares(y.head(k)) + squares(y.tail(n - k)); left < by_step) {
+      by_step = left;
+      after = k;
+    }
+  // The place of a step is a third number that is fitted (Bayesian information criterion).
+  const double count = static_cast<double>(n);
+  if (after > 0 && by_step < by_line * std::exp(-std::log(count) / count) &&
+      by_step < tuning::most_left_by_direction * all) {
+    std::vector<double> number(gains.size());
+    std::iota(number.begin(), number.end(), 0.0);
+    const std::vector<double> test =
+        in_order(search, VectorXd::Map(number.data(), n)); // position in the order -> test
+    const auto name = [&](Index place) {
+      return search.input()
+          .training.experiments[static_cast<std::size_t>(test[static_cast<std::size_t>(place)])];
+    };
+    order.change = std::expm1(y.tail(n - after).mean() - y.head(after).mean());
+    order.step = name(after - 1) + " and " + name(after);
+  } else if (by_line < tuning::most_left_by_direction * all) {
+    order.change = std::expm1(slope);
+  }
+}
+
 // Places between neighbouring tests of the order at which the level changes.
 std::vector<std::size_t> changes_of(const std::vector<double>& levels) {
   std::vector<std::size_t> changes;
@@ -204,6 +250,7 @@ Found without_drift(Found found) {
     }
   }
   found.order.found = true;
+  add_direction(found.order, search);
   found.order.reference = "the mean of the campaign's tests";
   found.order.size_MPa = size_of_structure(search, functions);
   found.order.share = found.order.size_MPa / search.tau_scale_MPa();
