@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -123,6 +124,52 @@ std::vector<data::GuessedFile> guesses_of(const std::vector<std::string>& files,
   return guesses;
 }
 
+// Whether names of files and folders contain this folder, or a file in it.
+bool is_named(const fs::path& folder, const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    const fs::path one = fs::path(name).lexically_normal();
+    return (one / "").lexically_normal() == (folder / "").lexically_normal() ||
+           one.parent_path() == folder;
+  });
+}
+
+// Adds a line for folders inside the ones to read, unless a run of frictab wrote them.
+void add_folders_not_looked_into(const std::vector<std::string>& from,
+                                 std::vector<std::string>& passed) {
+  constexpr std::size_t most = 8;
+  std::vector<std::string> found, counted;
+  const auto files_of = [](const fs::path& folder) {
+    std::size_t files = 0;
+    bool is_of_run = false;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(
+             folder, fs::directory_options::skip_permission_denied, error)) {
+      files += entry.is_regular_file(error) && !entry.path().filename().string().starts_with('.');
+      is_of_run = is_of_run || entry.path().filename() == "stages.json";
+    }
+    return is_of_run ? 0 : files;
+  };
+  for (const std::string& folder : from) {
+    std::error_code error;
+    std::set<fs::path> inside;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+      if (entry.is_directory(error) && !entry.path().filename().string().starts_with('.'))
+        inside.insert(entry.path().lexically_normal());
+    for (const fs::path& one : inside)
+      if (const std::size_t files = files_of(one); files > 0 && !is_named(one, from)) {
+        found.push_back(one.string());
+        counted.push_back(
+            fmt::format("{} ({} file{})", one.string(), files, files == 1 ? "" : "s"));
+      }
+  }
+  if (found.empty()) return;
+  if (found.size() > most) counted.resize(most);
+  passed.push_back(fmt::format("not looked into: {}{}; if they have data, name them too: "
+                               "frictab init --force --from {} {}",
+                               join(counted, ", "), found.size() > most ? ", ..." : "",
+                               join(from, " "), found.size() > most ? "FOLDER" : join(found, " ")));
+}
+
 // Keeps the sheets of these names, or like them with *; tables of tests in other workbooks stay.
 void keep_sheets(std::vector<data::GuessedFile>& guesses, const std::vector<std::string>& sheets) {
   std::vector<std::string> names;
@@ -167,6 +214,8 @@ job::GuessedJob guess_from(const Options& options, const std::vector<std::string
     names.push_back(guess.sheet.empty() ? guess.file : guess.file + "/" + guess.sheet);
   }
   if (campaign.tests) campaign.tests->file = relative_to(campaign.tests->file, directory);
+  for (data::LeftFile& left : campaign.left)
+    left.file = relative_to(left.file, directory);
   return job::guessed_job(campaign, data::guess_names(names), training_names(of_rows, directory));
 }
 
@@ -177,6 +226,9 @@ int init_from(const Options& options, const CommonOptions& common) {
     files.push_back(fs::path(file).lexically_normal().string());
   std::vector<std::string> passed;
   const job::GuessedJob guessed = guess_from(options, files, directory, passed);
+  for (const std::string& left : guessed.left)
+    passed.push_back("not read: " + left);
+  add_folders_not_looked_into(options.from, passed);
   write_job(directory, common.force, guessed.text);
   const std::string file = (fs::path(directory) / "job.toml").lexically_normal().string();
   print_out("{}\n", file);

@@ -76,9 +76,11 @@ const std::vector<Names>& known_names() {
   static const std::vector<Names> all = {
       {"experiment",
        false,
-       {"experiment", "test", "versuch", "versuch nr", "versuchsnummer", "versuchsnr", "run",
-        "probe", "specimen", "sample", "test id", "test no", "test nr", "test name", "id",
-        "specimen id", "sample id", "probe nr", "probennummer"},
+       {"experiment",  "test",      "versuch",       "versuch nr",   "versuchsnummer",
+        "versuchsnr",  "run",       "probe",         "specimen",     "sample",
+        "test id",     "test no",   "test nr",       "test name",    "id",
+        "specimen id", "sample id", "probe nr",      "probennummer", "run id",
+        "run no",      "run nr",    "experiment id", "trial",        "trial id"},
        {},
        {}},
       {"time_s",
@@ -101,7 +103,7 @@ const std::vector<Names>& known_names() {
        {}},
       {"F_R_N",
        false,
-       {"f r", "fr", "ff", "fx", "ft", "friction", "reibung"},
+       {"f r", "fr", "ff", "f f", "fx", "ft", "friction", "reibung"},
        {"friction force", "frictional force", "reibkraft", "reibungskraft", "tangential",
         "lateral force", "tangentiel", "attrito", "fuerza de fricci", "atrito", "siła tarcia",
         "třecí", "Třecí", "friktionskraft", "wrijvingskracht", "sürtünme kuvveti", "Сила трения",
@@ -211,10 +213,62 @@ std::string without_channel(const std::string& name) {
   return is_channel ? name.substr(end + 1) : name;
 }
 
+bool has_any(const std::string& name, std::initializer_list<std::string_view> parts) {
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](std::string_view part) { return name.find(part) != name.npos; });
+}
+
 // Values of the surroundings, which say nothing about the contact.
 bool is_of_room(const std::string& name) {
-  return has_word(name, {"room", "ambient", "air", "raum", "umgebung"}) ||
-         name.starts_with("raumtemp") || name.starts_with("umgebungstemp");
+  return has_word(name, {"room", "ambient", "air", "raum", "umgebung", "lab", "labor", "laboratory",
+                         "hall", "halle", "climate", "klima", "environment"}) ||
+         has_any(name, {"raumtemp", "umgebungstemp", "labortemp", "hallentemp", "lufttemp"});
+}
+
+// Wanted values.
+bool is_set(const std::string& name) {
+  return has_word(name, {"soll", "sollwert", "set", "setpoint", "target", "nominal", "nom",
+                         "demand", "command", "consigne"});
+}
+
+// Temperatures of another body than the one in contact, or of another time than the row's.
+bool is_beside_contact(const std::string& name) {
+  const bool at_end =
+      has_word(name, {"end", "final", "ende", "after", "nach", "start", "initial"}) ||
+      has_any(name, {"endtemp", "starttemp"});
+  const bool of_another =
+      has_word(name, {"oil",     "öl",     "Öl",        "oel",   "sump",    "sumpf",    "bath",
+                      "bad",     "pot",    "lubricant", "fluid", "coolant", "emulsion", "water",
+                      "wasser",  "inlet",  "outlet",    "tank",  "furnace", "ofen",     "oven",
+                      "chamber", "kammer", "heater",    "motor", "bearing"}) ||
+      has_any(name, {"öltemp", "Öltemp", "oeltemp", "sumpftemp", "badtemp", "ofentemp",
+                     "kammertemp", "lagertemp", "wassertemp", "schmierstofftemp"});
+  return at_end || (of_another && !has_any(name, {"contact", "kontakt"}));
+}
+
+// Units of a speed of rotation, as the words of names, and their factors in a formula for a speed
+// in mm/s at a radius in mm.
+struct TurnUnit {
+  const char* words;
+  const char* factor;
+};
+constexpr TurnUnit turn_units[] = {
+    {"rpm", "2*pi/60"},    {"upm", "2*pi/60"},      {"rev min", "2*pi/60"}, {"u min", "2*pi/60"},
+    {"1 min", "2*pi/60"},  {"min 1", "2*pi/60"},    {"min⁻¹", "2*pi/60"},   {"r min", "2*pi/60"},
+    {"tr min", "2*pi/60"}, {"giri min", "2*pi/60"}, {"rps", "2*pi"},        {"rev s", "2*pi"},
+    {"u s", "2*pi"},       {"rad s", ""},           {"deg s", "pi/180"},
+};
+
+const TurnUnit* turn_unit_in(const std::string& words) {
+  for (const TurnUnit& unit : turn_units)
+    if (has_word(words, {unit.words})) return &unit;
+  return nullptr;
+}
+
+// Speeds of rotation, without regard to their unit.
+bool names_rotation(const std::string& name) {
+  return has_word(name, {"rotation", "rotational", "rotary", "spindle", "angular", "spindel"}) ||
+         has_any(name, {"drehzahl", "drehgeschw", "winkelgeschw", "rotationsgeschw"});
 }
 
 // Times of a part of a test, which no clock shows.
@@ -226,11 +280,21 @@ bool is_duration(const std::string& name) {
 // Wanted or extreme values, scatter, and speeds of rolling, which are taken only if nothing else is
 // there.
 bool is_second_choice(const std::string& name) {
-  return has_word(name,
-                  {"soll",     "sollwert", "set",        "setpoint", "target",    "nominal",
-                   "demand",   "command",  "consigne",   "max",      "maximum",   "min",
-                   "minimum",  "std",      "sd",         "stdev",    "deviation", "abweichung",
-                   "streuung", "rolling",  "entrainment"});
+  return is_set(name) ||
+         has_word(name, {"max", "maximum", "min", "minimum", "std", "sd", "stdev", "deviation",
+                         "abweichung", "streuung", "rolling", "entrainment"});
+}
+
+// The name without the words for wanted values: "v" of "v set".
+std::string without_set(const std::string& name) {
+  std::string out;
+  for (std::size_t begin = 0; begin <= name.size();) {
+    const std::size_t end = std::min(name.find(' ', begin), name.size());
+    const std::string word = name.substr(begin, end - begin);
+    if (!is_set(word)) out += (out.empty() ? "" : " ") + word;
+    begin = end + 1;
+  }
+  return out;
 }
 
 // 4: the canonical name; 3: a complete name; 2: part of one; 1: a weak part, or a second choice; 0:
@@ -245,7 +309,11 @@ int likeness(const Names& names, const GuessedColumn& column) {
   const std::string bare = without_channel(io::read_header_name(column.name).name),
                     unit = quantity ? unit_in_name(bare, wanted) : "", name = words_of_name(bare),
                     without_unit = words_of_name(bare.substr(0, bare.size() - unit.size()));
-  if (is_of_room(name) || (std::string(names.canonical) == "time_s" && is_duration(name))) return 0;
+  const std::string_view canonical = names.canonical;
+  if (is_of_room(name) || (canonical == "time_s" && is_duration(name))) return 0;
+  if (canonical == "v_rel_mm_s" && column.unit.empty() &&
+      (names_rotation(name) || turn_unit_in(name)))
+    return 0;
   const auto is_whole = [&](const std::string& one) {
     return std::find(names.whole.begin(), names.whole.end(), one) != names.whole.end();
   };
@@ -253,11 +321,11 @@ int likeness(const Names& names, const GuessedColumn& column) {
     return std::any_of(parts.begin(), parts.end(),
                        [&](const std::string& part) { return name.find(part) != name.npos; });
   };
-  const bool is_in_newtons =
-      std::string(names.canonical) == "F_R_N" && convert(column.unit, "N").has_value();
+  const bool is_in_newtons = canonical == "F_R_N" && convert(column.unit, "N").has_value();
   int found = 0;
   if (is_whole(name) || is_whole(without_unit) ||
-      (!names.coefficient && of_abaqus(name) == names.canonical))
+      (quantity && canonical != "time_s" && is_set(name) && is_whole(without_set(without_unit))) ||
+      (!names.coefficient && of_abaqus(name) == canonical))
     found = 3;
   else if (has_part(names.part) || (names.coefficient && has_word(name, {"mu", "µ", "μ", "cof"})) ||
            (is_in_newtons && has_word(name, {"friction", "reibung"})))
@@ -268,20 +336,59 @@ int likeness(const Names& names, const GuessedColumn& column) {
   return is_clock ? std::min(found, 2) : found; // seconds go before a clock
 }
 
+// Marks temperatures that are, by their names, not those of a contact: of another body, of another
+// time, set, or of the air, whose humidity stands next to them.
+void doubt_temperatures(std::vector<GuessedColumn>& columns) {
+  const auto words = [](const GuessedColumn& column) {
+    return words_of_name(io::read_header_name(column.name).name);
+  };
+  const bool has_humidity =
+      std::any_of(columns.begin(), columns.end(), [&](const GuessedColumn& column) {
+        return has_any(words(column), {"humid", "feucht"}) || has_word(words(column), {"rh"});
+      });
+  for (GuessedColumn& column : columns) {
+    int most = 0;
+    for (const Names& names : known_names())
+      if (std::string_view(names.canonical).starts_with("T_"))
+        most = std::max(most, likeness(names, column));
+    const std::string name = words(column);
+    const bool is_plain = name == "temp" || name == "temperature" || name == "temperatur";
+    column.beside_contact =
+        most > 0 && most < 4 &&
+        (is_beside_contact(name) || is_second_choice(name) || (is_plain && has_humidity));
+  }
+}
+
 } // namespace
 
 void name_columns(std::vector<GuessedColumn>& columns) {
+  doubt_temperatures(columns);
   for (int least = 4; least >= 1; --least)
     for (const Names& names : known_names()) {
       const auto taken = [&](const GuessedColumn& c) { return c.canonical == names.canonical; };
       if (std::any_of(columns.begin(), columns.end(), taken)) continue;
       for (GuessedColumn& column : columns)
-        if (column.canonical.empty() && likeness(names, column) >= least) {
+        if (column.canonical.empty() && !column.beside_contact &&
+            likeness(names, column) >= least) {
           column.canonical = names.canonical;
           column.coefficient = names.coefficient;
           break;
         }
     }
+}
+
+std::string turn_factor(const GuessedColumn& column) {
+  if (!column.canonical.empty() || column.text || column.above) return "";
+  const std::string name = words_of_name(column.name);
+  if (has_any(name, {"strok", "hub", "cycl", "zykl", "freq"})) return "";
+  const TurnUnit* const unit =
+      turn_unit_in(column.unit.empty() ? name : words_of_name(column.unit));
+  if (unit) return *unit->factor == 0 ? "1" : unit->factor;
+  return column.unit.empty() && names_rotation(name) ? turn_units->factor : "";
+}
+
+bool names_wanted(const GuessedColumn& column) {
+  return is_set(words_of_name(column.name));
 }
 
 } // namespace frictab::data

@@ -42,12 +42,35 @@ bool is_number_column(const io::CsvColumn& column) {
   return all > empty && 10 * texts <= all - empty;
 }
 
+// Whether texts differ only in their digits, as S01 to S06 do: names of tests, though siemens is a
+// unit.
+bool are_numbered(const std::vector<std::string>& texts) {
+  constexpr std::size_t least = 3;
+  std::set<std::string> letters;
+  for (std::string text : texts) {
+    std::erase_if(text, [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
+    letters.insert(text);
+  }
+  return texts.size() >= least && letters.size() == 1 &&
+         std::set<std::string>(texts.begin(), texts.end()).size() == texts.size();
+}
+
+// Whether rows without a line of names may be a table: numbers in several rows, in most columns. A
+// sentence has neither.
+bool may_lack_names(const io::CsvTable& table) {
+  const auto numbers = std::count_if(table.columns.begin(), table.columns.end(), is_number_column);
+  return table.rows() > 1 && 2 * static_cast<std::size_t>(numbers) >= table.columns.size();
+}
+
 // Score of a dialect: numeric cells minus a penalty for text and faults.
 double worth(const io::CsvTable& table, std::size_t faults, const io::CsvFormat& format) {
+  if (!format.header && !may_lack_names(table)) return -1;
   double sum = -10.0 * static_cast<double>(faults);
   std::size_t units = 0, unit_cells = 0;
+  std::vector<std::string> below_no_name;
   for (const io::CsvColumn& column : table.columns) {
     double ignored = 0;
+    if (column.name.empty() && !column.unit.empty()) below_no_name.push_back(column.unit);
     const bool named = column.name.empty() ? format.units_row && !column.unit.empty()
                                            : !io::read_number(column.name, '.', ignored) &&
                                                  !io::read_number(column.name, ',', ignored);
@@ -60,7 +83,7 @@ double worth(const io::CsvTable& table, std::size_t faults, const io::CsvFormat&
     units += !io::read_number(unit, '.', ignored) && convert(unit, unit).has_value();
   }
   if (!format.units_row) return sum;
-  if (2 * units < std::max<std::size_t>(unit_cells, 1)) return -1;
+  if (2 * units < std::max<std::size_t>(unit_cells, 1) || are_numbered(below_no_name)) return -1;
   // Below units of all columns, other dialects see a row in a line of zero values.
   if (units == table.columns.size())
     sum += static_cast<double>(units * table.passed_over.below_units);
@@ -262,6 +285,58 @@ void name_coefficient(std::vector<GuessedColumn>& columns, const io::CsvTable& t
   friction->coefficient = true;
 }
 
+// Whether a column of numbers is named as tests are.
+bool is_named_as_id(const GuessedColumn& column) {
+  return has_word(words_of_name(column.name),
+                  {"id", "no", "nr", "number", "nummer", "run", "test", "versuch", "specimen",
+                   "sample", "probe", "experiment", "trial", "exp", "pack", "lauf", "messung"});
+}
+
+bool are_whole(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](double value) { return value == std::floor(value); });
+}
+
+// Rejects a column that numbers the rows as the name of a test.
+void check_experiment(std::vector<GuessedColumn>& columns, const io::CsvTable& table) {
+  GuessedColumn* const tests = find_column(columns, "experiment");
+  if (!tests || !find_column(columns, "time_s")) return;
+  const io::CsvColumn& raw = raw_of(*tests, table);
+  if (raw.texts.empty() &&
+      std::set<double>(raw.numbers.begin(), raw.numbers.end()).size() == raw.numbers.size())
+    tests->canonical.clear();
+}
+
+// The rows at which the values fall, as those of a clock do where the next test begins.
+std::vector<std::size_t> falls_of(const std::vector<double>& values) {
+  std::vector<std::size_t> falls;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] < values[i - 1]) falls.push_back(i);
+  return falls;
+}
+
+// The column of tests by its cells, where no name gives it: the first one that changes where the
+// clock or the path begins again and nowhere else, and never comes back to a value.
+void find_tests_by_blocks(std::vector<GuessedColumn>& columns, const io::CsvTable& table) {
+  if (find_column(columns, "experiment")) return;
+  const GuessedColumn* const time = find_column(columns, "time_s");
+  const GuessedColumn* const counter = time ? time : find_column(columns, "s_mm");
+  if (!counter || counter->text) return;
+  const std::vector<std::size_t> begins = falls_of(raw_of(*counter, table).numbers);
+  for (GuessedColumn& column : columns) {
+    if (begins.empty() || !column.canonical.empty() || column.clock) continue;
+    const io::CsvColumn& raw = raw_of(column, table);
+    if (!column.text && !(is_named_as_id(column) && are_whole(raw.numbers))) continue;
+    const std::vector<std::string> cells = cells_of(raw);
+    std::vector<std::size_t> changes;
+    for (std::size_t i = 1; i < cells.size(); ++i)
+      if (cells[i] != cells[i - 1]) changes.push_back(i);
+    if (changes != begins || set_of(cells).size() != begins.size() + 1) continue;
+    column.canonical = "experiment";
+    return;
+  }
+}
+
 std::vector<GuessedColumn> columns_of(const io::CsvTable& table) {
   std::vector<GuessedColumn> columns;
   std::map<std::string, std::size_t> alike;
@@ -279,17 +354,20 @@ std::vector<GuessedColumn> columns_of(const io::CsvTable& table) {
     column.text = !is_number_column(raw);
     column.clock = column.text && is_clock_column(raw);
     column.first_values = first_values(raw);
-    if (column.text) column.names = names_in(raw);
+    if (column.text || (is_named_as_id(column) && are_whole(raw.numbers)))
+      column.names = names_in(raw);
     columns.push_back(std::move(column));
   }
   name_columns(columns);
   reject_durations(columns, table);
+  name_clock(columns, table);
+  check_experiment(columns, table);
+  find_tests_by_blocks(columns, table);
   if (GuessedColumn* const tests = find_column(columns, "experiment")) {
     tests->names = names_in(raw_of(*tests, table));
     const std::set<std::string> cells = set_of(cells_of(raw_of(*tests, table)));
     if (tests->names.empty()) tests->tests.assign(cells.begin(), cells.end());
   }
-  name_clock(columns, table);
   name_coefficient(columns, table);
   return columns;
 }
@@ -334,17 +412,6 @@ bool each_row_is_a_test(const GuessedFile& guess, const io::CsvTable& table) {
   return rows_look_like_tests(settings, table.rows());
 }
 
-// Rejects a column that numbers the rows as the name of a test.
-void check_experiment(GuessedFile& guess, const io::CsvTable& table) {
-  for (GuessedColumn& column : guess.columns) {
-    if (column.canonical != "experiment") continue;
-    for (const io::CsvColumn& raw : table.columns)
-      if (raw.name == column.name && raw.texts.empty() && guess.find("time_s") &&
-          std::set<double>(raw.numbers.begin(), raw.numbers.end()).size() == raw.numbers.size())
-        column.canonical.clear();
-  }
-}
-
 } // namespace
 
 const GuessedColumn* GuessedFile::find(const std::string& canonical) const {
@@ -361,7 +428,7 @@ bool GuessedFile::is_read_as(const GuessedFile& other) const {
         names.insert(column.canonical + "=" + column.name + "/" + column.unit);
     return names;
   };
-  return (any_decimal || decimal == other.decimal) &&
+  return (any_decimal || own_decimal || decimal == other.decimal) &&
          (thousands == 0 || thousands == other.thousands) && units_row == other.units_row &&
          skip_footer == other.skip_footer && header == other.header &&
          header_rows == other.header_rows && intervals == other.intervals && rows == other.rows &&
@@ -416,7 +483,8 @@ void take_radius(GuessedFile& guess, const GuessedColumn& column, const ValueAbo
   const auto to_mm = convert(column.unit, "mm");
   const std::string name = words_of_name(column.name);
   const auto has = [&](const char* part) { return name.find(part) != name.npos; };
-  const bool diameter = has("diameter") || has("durchmesser");
+  const bool diameter =
+      has("diameter") || has("durchmesser") || has_word(name, {"dia", "diam", "ø", "Ø"});
   if (!value.is_number || !to_mm || (!diameter && !has("radius"))) return;
   const double radius = (*to_mm)(value.number) / (diameter ? 2 : 1);
   double& known = has("inner") || has("innen") ? guess.inner_radius_mm : guess.radius_mm;
@@ -471,6 +539,15 @@ void add_conditions(GuessedFile& guess, const io::CsvTable& table) {
   }
 }
 
+std::string as_pattern(const std::string& text) {
+  std::string out;
+  for (const char c : text)
+    out += std::string_view(".^$*+?()[{|\\").find(c) == std::string_view::npos
+               ? std::string(1, c)
+               : std::string("\\") + c;
+  return out;
+}
+
 // Finds columns called "mu T1 10MPa", "mu T2 20MPa": a word for friction, and a test's own name.
 void find_tests_in_columns(GuessedFile& guess) {
   std::map<std::string, std::vector<std::string>> columns; // by their first word
@@ -485,7 +562,7 @@ void find_tests_in_columns(GuessedFile& guess) {
   }
   for (auto& [word, names] : columns)
     if (names.size() >= 3 && names.size() > guess.wide.size()) {
-      guess.wide_word = word;
+      guess.wide_pattern = "^" + as_pattern(word) + "(?<experiment>.+)";
       guess.wide = std::move(names);
     }
 }
@@ -511,13 +588,30 @@ std::vector<std::string> markers_in(const io::CsvTable& table) {
   return {found.begin(), found.end()};
 }
 
+// A number for what each row has of the quantities; nothing of less than two of them.
+std::set<std::size_t> rows_of(const GuessedFile& guess, const io::CsvTable& table) {
+  std::vector<std::string> rows(table.rows());
+  std::size_t quantities = 0;
+  for (const GuessedColumn& column : guess.columns) {
+    if (!find_quantity(column.canonical) || column.text) continue;
+    ++quantities;
+    const std::vector<double>& values = raw_of(column, table).numbers;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i] += fmt::format("{} {};", column.canonical, shortest(values[i]));
+  }
+  std::set<std::size_t> seen;
+  for (const std::string& row : rows)
+    if (quantities > 1) seen.insert(std::hash<std::string>()(row));
+  return seen;
+}
+
 void finish(GuessedFile& guess, const io::CsvTable& table) {
   guess.missing = markers_in(table);
   find_tests_in_columns(guess);
   if (are_side_by_side(table)) take_first_test(guess);
   doubt_load(guess, table);
   guess.pressure = pressure_of_abaqus(guess);
-  check_experiment(guess, table);
+  guess.rows_seen = rows_of(guess, table);
   guess.rows = !guess.side_by_side && !guess.intervals && each_row_is_a_test(guess, table);
   add_conditions(guess, table);
 }
@@ -657,6 +751,7 @@ GuessedFile guess_text(std::string_view whole, const std::string& named, const i
   guess.thousands = dialects.best.thousands;
   guess.grouped = dialects.grouped;
   guess.any_decimal = dialects.any_decimal;
+  guess.own_decimal = cells != nullptr;
   guess.units_row = dialects.best.units_row;
   guess.header = dialects.best.header;
   guess.header_rows = dialects.best.header_rows;
@@ -709,6 +804,7 @@ std::vector<GuessedFile> guess_file(const std::string& path, const std::string& 
   const io::CsvTable table = read_raw(path, named, {}, faults);
   GuessedFile guess;
   guess.file = named;
+  guess.own_decimal = true;
   take_intervals(guess, table);
   guess.columns = columns_of(table);
   finish(guess, table);
@@ -762,32 +858,88 @@ bool are_numbered_alike(const std::vector<std::string>& names, std::size_t own,
 
 namespace {
 
-std::optional<GuessedFile> take_table_of_tests(std::vector<GuessedFile>& files) {
-  for (std::size_t i = 0; i < files.size(); ++i)
-    for (std::size_t c = 0; c < files[i].columns.size(); ++c) {
-      const GuessedColumn& column = files[i].columns[c];
-      if (column.names.empty()) continue;
-      if (!names_tests(column.names, i, files) &&
-          (files.size() < 3 || !are_numbered_alike(column.names, i, files)))
-        continue;
-      GuessedFile table = std::move(files[i]);
-      files.erase(files.begin() + static_cast<std::ptrdiff_t>(i));
-      for (GuessedColumn& other : table.columns)
-        if (other.canonical == "experiment") other.canonical.clear();
-      table.columns[c].canonical = "experiment";
-      return table;
-    }
+bool is_measured(const GuessedFile& guess) {
+  return guess.find("tau_R_MPa") || guess.find("F_R_N");
+}
+
+// The column whose cells are the names of the tests in the other files; nothing: there is none.
+std::optional<std::size_t> names_of_tests_in(const std::vector<GuessedFile>& files,
+                                             std::size_t own) {
+  for (std::size_t c = 0; c < files[own].columns.size(); ++c) {
+    const GuessedColumn& column = files[own].columns[c];
+    // A column of numbers in a recording may count its rows.
+    if (!column.text && column.canonical != "experiment" &&
+        (files[own].find("time_s") || is_measured(files[own])))
+      continue;
+    if (!column.names.empty() &&
+        (names_tests(column.names, own, files) ||
+         (files.size() > 2 && are_numbered_alike(column.names, own, files))))
+      return c;
+  }
   return std::nullopt;
 }
 
-// Leaves quantities that the rows have to the rows.
-void leave_measured(GuessedFile& tests, const GuessedFile& rows) {
-  for (GuessedColumn& column : tests.columns)
-    if (column.canonical != "experiment" && rows.find(column.canonical)) column.canonical.clear();
+GuessedFile as_table_of_tests(GuessedFile table, std::size_t names) {
+  for (GuessedColumn& other : table.columns)
+    if (other.canonical == "experiment") other.canonical.clear();
+  table.columns[names].canonical = "experiment";
+  return table;
 }
 
-bool is_measured(const GuessedFile& guess) {
-  return guess.find("tau_R_MPa") || guess.find("F_R_N");
+// The table of tests among the files, or else among those that are left.
+std::optional<GuessedFile> take_table_of_tests(std::vector<GuessedFile>& files,
+                                               std::vector<GuessedFile>& left) {
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (const auto names = names_of_tests_in(files, i)) {
+      GuessedFile table = as_table_of_tests(std::move(files[i]), *names);
+      files.erase(files.begin() + static_cast<std::ptrdiff_t>(i));
+      return table;
+    }
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const bool in_parts = !files.empty() && files.front().intervals;
+    files.push_back(left[i]);
+    const auto names = names_of_tests_in(files, files.size() - 1);
+    files.pop_back();
+    if (!names || (in_parts && !left[i].columns[*names].text)) continue;
+    GuessedFile table = as_table_of_tests(std::move(left[i]), *names);
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
+    return table;
+  }
+  return std::nullopt;
+}
+
+// Takes the table whose names of tests are columns of another file: a column per test.
+std::optional<GuessedFile> find_names_of_columns(std::vector<GuessedFile>& files,
+                                                 std::vector<GuessedFile>& left) {
+  constexpr std::size_t least = 3;
+  for (std::vector<GuessedFile>* const from : {&left, &files})
+    for (std::size_t i = 0; i < from->size(); ++i)
+      for (std::size_t c = 0; c < (*from)[i].columns.size(); ++c) {
+        const std::set<std::string> known = set_of((*from)[i].columns[c].names);
+        for (GuessedFile& file : files) {
+          std::vector<std::string> wide, digits;
+          for (const GuessedColumn& column : file.columns)
+            if (!column.text && !column.above && column.canonical.empty() &&
+                known.count(column.name) > 0)
+              wide.push_back(column.name);
+          if (wide.size() < least || 2 * wide.size() < known.size()) continue;
+          const std::string letters = wide[0].substr(0, wide[0].find_first_of("0123456789"));
+          const bool numbered = std::all_of(wide.begin(), wide.end(), [&](const auto& name) {
+            return name.starts_with(letters) && name.size() > letters.size() &&
+                   name.find_first_not_of("0123456789", letters.size()) == name.npos;
+          });
+          for (const std::string& name : wide)
+            digits.push_back(as_pattern(name));
+          file.wide_pattern = fmt::format(
+              "^(?<experiment>{})$", numbered ? as_pattern(letters) + "\\d+" : join(digits, "|"));
+          file.wide = std::move(wide);
+          file.wide_known = true;
+          GuessedFile table = as_table_of_tests(std::move((*from)[i]), c);
+          from->erase(from->begin() + static_cast<std::ptrdiff_t>(i));
+          return table;
+        }
+      }
+  return std::nullopt;
 }
 
 // Whether a sheet is a summary: others of its workbook, read alike, have ten times its rows.
@@ -828,12 +980,121 @@ std::vector<std::string> choice_of(const std::vector<std::string>& read, std::si
 
 } // namespace
 
+std::size_t most_common(const std::vector<GuessedFile>& files) {
+  const auto rank = [&](const GuessedFile& file) {
+    return std::pair(
+        std::count_if(files.begin(), files.end(),
+                      [&](const GuessedFile& other) { return other.is_read_as(file); }),
+        (file.find("time_s") ? 1 : 0) + (is_measured(file) ? 1 : 0));
+  };
+  const auto most =
+      std::max_element(files.begin(), files.end(), [&](const GuessedFile& a, const GuessedFile& b) {
+        return rank(a) < rank(b);
+      });
+  return static_cast<std::size_t>(most - files.begin());
+}
+
+namespace {
+
+// The part of a recording that most files have and this one has not; empty: it has all.
+std::string lacks(const GuessedFile& file, const GuessedFile& most) {
+  if (most.find("time_s") && !file.find("time_s")) return "column for time_s";
+  if (is_measured(most) && !is_measured(file)) return "friction";
+  const auto has_meaning = [](const GuessedColumn& column) {
+    return !column.canonical.empty() && column.canonical != "experiment";
+  };
+  return std::any_of(most.columns.begin(), most.columns.end(), has_meaning) &&
+                 std::none_of(file.columns.begin(), file.columns.end(), has_meaning)
+             ? "quantity"
+             : "";
+}
+
+// Takes files that are no recordings as most are.
+std::vector<GuessedFile> take_others(std::vector<GuessedFile>& files) {
+  const GuessedFile most = files[most_common(files)];
+  std::vector<GuessedFile> kept, others;
+  for (GuessedFile& file : files)
+    (file.sheet.empty() && !lacks(file, most).empty() ? others : kept).push_back(std::move(file));
+  files = std::move(kept);
+  return others;
+}
+
+// The name of a file without words that tell its versions apart: "T2" of "T2_old" and "T2_v3".
+std::string without_version(const std::string& label) {
+  std::string out;
+  for (std::size_t begin = 0; begin <= label.size();) {
+    const std::size_t end = std::min(label.find_first_of("_-. ()", begin), label.size());
+    const std::string word = lower_case(label.substr(begin, end - begin));
+    const bool is_number =
+        !word.empty() && word.find_first_not_of("0123456789", word[0] == 'v') == word.npos;
+    const bool is_version =
+        (is_number && (word[0] == 'v' || (begin > 0 && label[begin - 1] == '('))) ||
+        has_word(word, {"alt", "old", "copy", "kopie", "neu", "new", "final", "backup", "bak",
+                        "orig", "original", "raw", "korr", "corr", "corrected", "fixed"});
+    if (!is_version && !word.empty()) out += " " + word;
+    begin = end + 1;
+  }
+  return out.empty() ? label : out;
+}
+
+// Whether two files are versions of one: the same tests, and nearly the same rows.
+bool are_versions(const GuessedFile& a, const GuessedFile& b) {
+  constexpr double share = 0.8;
+  constexpr std::size_t least = 5;
+  const auto shared = [](const auto& one, const auto& other) {
+    return static_cast<double>(
+        std::count_if(one.begin(), one.end(), [&](const auto& x) { return other.count(x) > 0; }));
+  };
+  const auto tests = [](const GuessedFile& file) {
+    const GuessedColumn* const column = file.find("experiment");
+    return column && !column->tests.empty() ? set_of(column->tests)
+                                            : std::set{without_version(file.label())};
+  };
+  const auto same = [&](const auto& one, const auto& other, double part) {
+    return shared(one, other) >= part * static_cast<double>(std::min(one.size(), other.size()));
+  };
+  return std::min(a.rows_seen.size(), b.rows_seen.size()) >= least &&
+         same(tests(a), tests(b), share) && same(a.rows_seen, b.rows_seen, share);
+}
+
+// Leaves the shorter one of two versions of a file, or the earlier name.
+void leave_versions(std::vector<GuessedFile>& files, std::vector<LeftFile>& left) {
+  for (std::size_t i = 0; i < files.size();) {
+    const auto newer = std::find_if(files.begin(), files.end(), [&](const GuessedFile& other) {
+      return &other != &files[i] && files[i].sheet.empty() && other.sheet.empty() &&
+             std::pair(files[i].row_count, files[i].file) <
+                 std::pair(other.row_count, other.file) &&
+             are_versions(files[i], other);
+    });
+    if (newer == files.end()) {
+      ++i;
+      continue;
+    }
+    left.push_back(
+        {files[i].file, "it has the tests and rows of " +
+                            std::filesystem::path(newer->file).filename().string() +
+                            " again; if it is the better one, name it in training instead"});
+    files.erase(files.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+LeftFile left_file(const GuessedFile& file, const GuessedFile& most) {
+  const std::string part = lacks(file, most);
+  return {file.file, fmt::format("it has no {}, which most files have", part), true};
+}
+
+} // namespace
+
 GuessedCampaign sort_guesses(std::vector<GuessedFile> guesses) {
   GuessedCampaign campaign;
   for (GuessedFile& guess : guesses)
     std::move(guess.passed.begin(), guess.passed.end(), std::back_inserter(campaign.passed));
-  campaign.tests = take_table_of_tests(guesses);
-  if (campaign.tests && !guesses.empty()) leave_measured(*campaign.tests, guesses.front());
+  std::vector<GuessedFile> others = take_others(guesses);
+  leave_versions(guesses, campaign.left);
+  campaign.tests = take_table_of_tests(guesses, others);
+  if (!campaign.tests) campaign.tests = find_names_of_columns(guesses, others);
+  for (const GuessedFile& other : others)
+    campaign.left.push_back(left_file(other, guesses[most_common(guesses)]));
   std::map<std::string, std::vector<std::string>> read; // by workbook
   std::map<std::string, std::size_t> tables;
   for (const GuessedFile& guess : guesses) {
@@ -896,15 +1157,6 @@ CutName cut(const std::string& file) {
   }
   name.tokens.push_back(token);
   return name;
-}
-
-std::string as_pattern(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += std::string_view(".^$*+?()[{|\\").find(c) == std::string_view::npos
-               ? std::string(1, c)
-               : std::string("\\") + c;
-  return out;
 }
 
 // Sorts numbers by size, texts alphabetically; limited to one line.

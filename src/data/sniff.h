@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,12 @@ struct GuessedColumn {
   std::string canonical;     // a quantity, or experiment; else empty
   bool coefficient = false;  // of friction: tau_R_MPa is this times sigma_n_MPa
   bool text = false;
-  bool clock = false;       // texts that are times of day, or dates with them
-  bool above = false;       // a condition above the rows (data/above.h)
-  bool counts_rows = false; // above the rows: the number of rows of its file
-  bool as_small = false;    // numbers between 0.01 and 1, as coefficients of friction are
-  std::string first_values; // "812.3, 813.1, 815"
+  bool clock = false;          // texts that are times of day, or dates with them
+  bool above = false;          // a condition above the rows (data/above.h)
+  bool counts_rows = false;    // above the rows: the number of rows of its file
+  bool beside_contact = false; // a temperature that its name gives to another body or time
+  bool as_small = false;       // numbers between 0.01 and 1, as coefficients of friction are
+  std::string first_values;    // "812.3, 813.1, 815"
   // The cells of a column that may name tests, as texts, if all of them differ.
   std::vector<std::string> names;
   std::vector<std::string> tests; // in rows with several tests: their names, the first ones
@@ -36,6 +38,7 @@ struct GuessedFile {
   char decimal = '.';
   char thousands = 0;
   bool any_decimal = false; // only whole numbers, which either sign reads
+  bool own_decimal = false; // the format of the file has its sign
   double grouped = 0;       // a number whose point may stand between groups of digits; 0: none
   std::size_t skip_footer = 0;
   std::size_t skip_rows = 0; // 0 also if the names identify the header line
@@ -47,10 +50,10 @@ struct GuessedFile {
   bool rows = false;           // each looks like a test (data/checks.h)
   std::string titles;          // pattern of lines of one text in front of parts of the rows
   bool side_by_side = false;   // the same columns come again for each test
-  // Columns that seem to be friction of a test each: the word before their names, with its
-  // separator.
+  // Columns that seem to be friction of a test each, and a regular expression for them.
   std::vector<std::string> wide;
-  std::string wide_word;
+  std::string wide_pattern;
+  bool wide_known = false;          // a table of tests has these names
   std::vector<std::string> missing; // numbers that seem to stand for no value: "-9999"
   std::vector<GuessedColumn> columns;
   std::size_t row_count = 0; // of all lines below the header
@@ -59,6 +62,7 @@ struct GuessedFile {
   double radius_mm = 0, inner_radius_mm = 0;
   std::string pressure; // formula of the normal stress, from a force and the area of contact
   std::string friction; // formula of the friction force, from a torque and its radius
+  std::set<std::size_t> rows_seen; // a number for the quantities of each row, equal for equal rows
 
   const GuessedColumn* find(const std::string& canonical) const; // nullptr if there is none
   // True if the keys that read the other file read this one as well.
@@ -82,18 +86,30 @@ struct GuessedNames {
 // per file, and per sheet of a workbook that is a table. Throws InputError if there is none.
 std::vector<GuessedFile> guess_file(const std::string& path, const std::string& named);
 
+// A file that is not proposed for reading.
+struct LeftFile {
+  std::string file;
+  std::string why; // "it has no column for time_s, which most files have"
+  bool may_list_tests = false;
+};
+
 struct GuessedCampaign {
   std::vector<GuessedFile> files;   // rows of tests
   std::optional<GuessedFile> tests; // one row per test: its column experiment has their labels
   // Sheets of one workbook, or equal for all of them: names or "*"; empty: no choice is needed.
   std::vector<std::string> sheets;
   std::vector<std::string> passed;              // names of sheets that are not read
+  std::vector<LeftFile> left = {};              // tables of something else, older versions
   std::map<std::string, double> constants = {}; // by canonical name, as the user answered
 };
 
+// Index of the file that most files are read like; of equals, the first with a clock and friction.
+std::size_t most_common(const std::vector<GuessedFile>& files);
+
 // Sorts guesses: the table of tests is found by a column whose texts are the labels of at least
-// half of the others, or have their numbers; sheets of a workbook that are read in another way than
-// most are passed.
+// half of the others, or have their numbers; files without the clock or the friction that most
+// files have are left, and so are older versions of a file; sheets of a workbook that are read in
+// another way than most are passed.
 GuessedCampaign sort_guesses(std::vector<GuessedFile> guesses);
 
 // Finds folders that differ, and parts of the files' own names between _ - and blanks: numbers

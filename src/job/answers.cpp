@@ -35,7 +35,7 @@ std::string no_number(const std::string& answer) {
 class Interview {
 public:
   Interview(data::GuessedCampaign campaign, const AskUser& ask)
-      : campaign_(std::move(campaign)), ask_(ask), most_(most_common(campaign_.files)) {
+      : campaign_(std::move(campaign)), ask_(ask), most_(data::most_common(campaign_.files)) {
     for (std::size_t f = 0; f < campaign_.files.size(); ++f)
       if (campaign_.files[f].is_read_as(campaign_.files[most_])) alike_.push_back(f);
   }

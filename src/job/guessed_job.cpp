@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/column_names.h"
 #include "data/computed.h"
 #include "data/quantity.h"
 #include "data/scale.h"
@@ -31,7 +32,7 @@ std::string line(const std::string& text, const std::string& comment) {
 std::string shown(const std::string& text) {
   std::string out;
   for (const char c : text)
-    out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    out += static_cast<unsigned char>(c) < ' ' || c == '\x7f' ? ' ' : c;
   return out;
 }
 
@@ -43,11 +44,13 @@ std::string toml_texts(const std::vector<std::string>& texts) {
   return quoted.size() == 1 ? quoted[0] : "[" + join(quoted, ", ") + "]";
 }
 
+// Whether the file is read only with its own decimal sign, which has to be named.
+bool needs_decimal(const GuessedFile& file) {
+  return !file.own_decimal && !file.any_decimal;
+}
+
 std::string dialect_lines(const GuessedFile& file) {
   std::string out;
-  if (file.decimal != '.')
-    out += line(fmt::format("decimal = {}", toml_quoted(std::string(1, file.decimal))),
-                "more cells are numbers than with a point");
   if (file.thousands != 0)
     out += line(fmt::format("thousands = {}", toml_quoted(std::string(1, file.thousands))),
                 "digits stand in groups of three");
@@ -66,7 +69,7 @@ std::string dialect_lines(const GuessedFile& file) {
                                          "length; \"interval\": each is a test");
   else if (file.intervals)
     out += line("experiment = \"interval\"", "the header line comes again: a test each time");
-  if (file.side_by_side)
+  else if (file.side_by_side)
     out += line("experiment = \"columns\"", "the same columns come again for each test");
   if (file.rows)
     out += line("experiment = \"row\"", "settings change from row to row: each row is a test");
@@ -130,6 +133,9 @@ std::string columns_lines(const GuessedFile& file, const std::set<std::string>& 
       continue;
     else if (column.canonical.empty() && column.above)
       above.push_back(shown(column.name));
+    else if (file.wide_known &&
+             std::find(file.wide.begin(), file.wide.end(), column.name) != file.wide.end())
+      continue;
     else if (column.canonical.empty())
       others.push_back(shown(shown_name(column)));
     else if (two_names && &column == own)
@@ -189,7 +195,9 @@ public:
   Writer(const data::GuessedCampaign& campaign, const data::GuessedNames& names,
          const std::vector<std::string>& training)
       : campaign_(campaign), files_(campaign.files), points_(campaign), most_(points_.file()),
-        names_(names), training_(training), above_(above_that_differ(campaign)) {}
+        names_(names), training_(training), above_(above_that_differ(campaign)),
+        decimal_(campaign.tests && needs_decimal(*campaign.tests) ? campaign.tests->decimal
+                                                                  : most_.decimal) {}
 
   GuessedJob write() {
     add_head();
@@ -199,6 +207,8 @@ public:
     add_columns_of_tests();
     add_pressure_by_area();
     ask_for_units();
+    ask_for_radius_of_rotation();
+    ask_for_temperature();
     if (has_names()) ask_for_pressure();
     if (has_names()) ask_for_friction();
     add_titles();
@@ -225,6 +235,16 @@ private:
     out_.text += line("training = " + toml_texts(training_),
                       fmt::format("{} {}{}", files_.size(), noun, files_.size() == 1 ? "" : "s"));
     add_sheets();
+    for (const data::LeftFile& left : campaign_.left) {
+      out_.left.push_back(shown(left.file + ": " + left.why));
+      if (left.may_list_tests && !campaign_.tests)
+        out_.left.back() += "; if it has a row per test, write tests = " + toml_quoted(left.file);
+      out_.text += "# not read: " + out_.left.back() + "\n";
+    }
+    if (decimal_ != '.')
+      out_.text += line(fmt::format("decimal = {}", toml_quoted(std::string(1, decimal_))),
+                        decimal_ == most_.decimal ? "more cells are numbers than with a point"
+                                                  : "of the table of tests");
     out_.text += dialect_lines(most_);
     ask_for_groups();
     add_missing();
@@ -255,9 +275,22 @@ private:
   void add_columns_of_tests() {
     if (!campaign_.tests) return;
     GuessedFile tests = *campaign_.tests;
+    tests.pressure.clear();
     if (most_.find("experiment")) // stands among the columns of the rows
       std::erase_if(tests.columns, [](const auto& one) { return one.canonical == "experiment"; });
-    out_.text += "# of " + tests.label() + ":\n" + columns_lines(tests, {});
+    for (GuessedColumn& column : tests.columns)
+      if (column.canonical != "experiment" && points_.is_of_rows(column.canonical))
+        column.canonical.clear(); // the rows have it themselves
+    out_.text += "# of " + shown(tests.label()) + ":\n";
+    if (most_.wide_known) {
+      GuessedColumn& names = *std::find_if(
+          tests.columns.begin(), tests.columns.end(),
+          [](const GuessedColumn& column) { return column.canonical == "experiment"; });
+      out_.text += line("experiment = " + toml_texts({names.name, "experiment"}),
+                        "the names of tests, in their table and by [data.wide]");
+      tests.columns.erase(tests.columns.begin() + (&names - tests.columns.data()));
+    }
+    out_.text += columns_lines(tests, {});
   }
 
   void add_missing() {
@@ -281,7 +314,9 @@ private:
   }
 
   void add_experiment() {
-    if (most_.find("experiment") || most_.intervals || most_.rows || most_.side_by_side) return;
+    if (most_.find("experiment") || most_.intervals || most_.rows || most_.side_by_side ||
+        most_.wide_known)
+      return;
     if (!points_.lacks_tests())
       out_.text += line("experiment = \"file\"",
                         most_.sheet.empty() ? "no column names the tests: each file is one"
@@ -333,6 +368,42 @@ private:
         lines);
   }
 
+  void ask_for_radius_of_rotation() {
+    const GuessedColumn* const turns = points_.rotation();
+    if (!turns) return;
+    const double radius_mm = points_.example_radius_mm();
+    const std::string factor = data::turn_factor(*turns);
+    ask(fmt::format("At which radius is the contact? {} is a speed of rotation.",
+                    shown(shown_name(*turns))),
+        line(fmt::format("# v_rel_mm_s = {{ formula = {} }}",
+                         toml_quoted(fmt::format("{}*{}{}", data::name_in_formulas(turns->name),
+                                                 factor == "1" ? "" : factor + "*",
+                                                 radius_mm > 0 ? fmt::format("{:.4g}", radius_mm)
+                                                               : "RADIUS_MM"))),
+             radius_mm > 0 ? "the radius in mm, by the lines above the rows"
+                           : "RADIUS_MM: a number, in mm"));
+  }
+
+  void ask_for_temperature() {
+    std::vector<std::string> names;
+    std::string lines;
+    for (const GuessedColumn* column : points_.temperatures()) {
+      names.push_back(shown(shown_name(*column)));
+      const std::string unit = column->unit.empty() ? data::unit_in_name(column->name, "degC") : "";
+      const bool of_tool = data::has_word(data::words_of_name(column->name),
+                                          {"tool", "die", "punch", "pin", "werkzeug", "stempel"});
+      const std::string bare = io::read_header_name(column->name).name;
+      lines += fmt::format("# {} = {{ column = {}{} }}\n", of_tool ? "T_tool_C" : "T_contact_C",
+                           column->number > 0 ? std::to_string(column->number) : toml_quoted(bare),
+                           unit.empty() ? "" : ", unit = " + toml_quoted(unit));
+    }
+    if (!names.empty())
+      ask(fmt::format("Is it the temperature of the contact, or of the tool? By its name it may be "
+                      "of something else, or of another time: {}.",
+                      join(names, ", ")),
+          lines);
+  }
+
   bool is_pressure_by_area() const {
     return !points_.lacks_pressure() && !points_.has("sigma_n_MPa");
   }
@@ -350,13 +421,15 @@ private:
 
   void ask_for_pressure() {
     if (!points_.lacks_pressure()) return;
-    const GuessedColumn* force = most_.find("F_N_N");
+    const GuessedFile& with_force =
+        !most_.find("F_N_N") && campaign_.tests ? *campaign_.tests : most_;
+    const GuessedColumn* force = with_force.find("F_N_N");
     const double area = points_.example_area_mm2();
     ask("Where does the contact normal stress come from? None was found.",
         fmt::format("# sigma_n_MPa = \"COLUMN\"\n{}"
                     "# or one value for all rows, in [data.constants] below\n",
                     line(fmt::format("# sigma_n_MPa = {{ column = {}, area_mm2 = {} }}",
-                                     force ? source_of(*force, most_) : "\"FORCE\"",
+                                     force ? source_of(*force, with_force) : "\"FORCE\"",
                                      area > 0 ? fmt::format("{:.4g}", area) : "78.5"),
                          area > 0 ? "a force over the nominal contact area: this one by the lines "
                                     "above the rows"
@@ -377,6 +450,11 @@ private:
                            toml_quoted(force_of_torque(*torque, radius))),
                radius_mm > 0 ? "the radius in m, by the lines above the rows"
                              : "RADIUS_M: a number, in m"));
+    } else if (most_.wide_known) {
+      ask("Which form of friction do the columns of the tests have? Their values are the column "
+          "`value`.",
+          "# tau_R_MPa = { column = \"value\", times = \"sigma_n_MPa\" } # a coefficient\n"
+          "# F_R_N = \"value\"\n# tau_R_MPa = \"value\"\n");
     } else if (const GuessedColumn* likely = points_.likely_coefficient()) {
       ask(fmt::format("Is {} a coefficient of friction? Its numbers are as small, and nothing else "
                       "is friction.",
@@ -423,11 +501,15 @@ private:
   void ask_for_wide() {
     if (most_.wide.empty()) return;
     out_.text += "\n";
+    if (most_.wide_known) {
+      out_.text += "[data.wide]\n" + line("columns = " + toml_quoted(most_.wide_pattern),
+                                          "columns with the names of tests");
+      return;
+    }
     ask(fmt::format("Is each of the {} columns like {} a test? Then their friction is the column "
                     "`value` above.",
                     most_.wide.size(), shown(most_.wide.front())),
-        fmt::format("# [data.wide]\n# columns = {}\n",
-                    toml_quoted("^" + most_.wide_word + "(?<experiment>.+)")));
+        fmt::format("# [data.wide]\n# columns = {}\n", toml_quoted(most_.wide_pattern)));
   }
 
   void add_names() {
@@ -445,20 +527,28 @@ private:
     for (const GuessedFile& file : files_) {
       if (file.is_read_as(most_)) continue;
       out_.text += fmt::format("\n[[data.files]]\nmatch = {}\n", toml_quoted(file.file));
+      out_.text += decimal_lines(file);
       out_.text += dialect_lines(file);
       out_.text += plain_lines(file);
       if (!names_.pattern.empty()) add_names();
       out_.text += "\n[data.files.columns]\n" + columns_lines(file, above_);
     }
-    if (names_.pattern.empty()) return;
-    out_.text += "\n[[data.files]]\nmatch = \"*\"\n";
-    add_names();
+    const std::string decimal = decimal_lines(most_);
+    if (names_.pattern.empty() && decimal.empty()) return;
+    out_.text += "\n[[data.files]]\nmatch = \"*\"\n" + decimal;
+    if (!names_.pattern.empty()) add_names();
+  }
+
+  // The decimal sign where [data] has another one.
+  std::string decimal_lines(const GuessedFile& file) const {
+    if (!needs_decimal(file) || file.decimal == decimal_) return "";
+    return line(fmt::format("decimal = {}", toml_quoted(std::string(1, file.decimal))),
+                file.decimal == ',' ? "more cells are numbers than with a point" : "");
   }
 
   // Restores defaults for this file where [data] sets something else for the others.
   std::string plain_lines(const GuessedFile& file) const {
     std::string out;
-    if (file.decimal == '.' && most_.decimal != '.') out += "decimal = \".\"\n";
     if (file.skip_rows == 0 && most_.skip_rows > 0) out += "skip_rows = 0\n";
     if (file.skip_footer == 0 && most_.skip_footer > 0) out += "skip_footer = 0\n";
     if (file.header && !most_.header) out += "header = true\n";
@@ -476,6 +566,7 @@ private:
   const data::GuessedNames& names_;
   const std::vector<std::string>& training_;
   const std::set<std::string> above_; // lines above the rows that are proposed as columns
+  const char decimal_;                // of [data], by which the table of tests is read
   GuessedJob out_;
 };
 

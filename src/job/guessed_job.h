@@ -12,6 +12,7 @@ namespace frictab::job {
 struct GuessedJob {
   std::string text;                   // TOML
   std::vector<std::string> questions; // points to settle before the job runs
+  std::vector<std::string> left;      // files that it does not read: "notes.txt: it has no ..."
 };
 
 // `training`: names, globs or folders of the files, as in data.training.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -41,18 +42,6 @@ bool has_unit_to_name(const GuessedColumn& column) {
 
 } // namespace
 
-std::size_t most_common(const std::vector<GuessedFile>& files) {
-  const auto alike = [&](const GuessedFile& file) {
-    return std::count_if(files.begin(), files.end(),
-                         [&](const GuessedFile& other) { return other.is_read_as(file); });
-  };
-  const auto most =
-      std::max_element(files.begin(), files.end(), [&](const GuessedFile& a, const GuessedFile& b) {
-        return alike(a) < alike(b);
-      });
-  return static_cast<std::size_t>(most - files.begin());
-}
-
 std::string shown_name(const GuessedColumn& column) {
   return column.name.empty() ? fmt::format("column {}", column.number) : column.name;
 }
@@ -68,10 +57,14 @@ bool lacks_unit(const GuessedColumn& column) {
 }
 
 bool OpenPoints::has(const std::string& canonical) const {
-  return file_.find(canonical) || campaign_.constants.count(canonical) > 0 ||
-         (campaign_.tests && campaign_.tests->find(canonical)) ||
-         (canonical == "sigma_n_MPa" && !file_.pressure.empty()) ||
-         (canonical == "F_R_N" && !file_.friction.empty());
+  return is_of_rows(canonical) || campaign_.constants.count(canonical) > 0 ||
+         (campaign_.tests && campaign_.tests->find(canonical));
+}
+
+bool OpenPoints::is_of_rows(const std::string& canonical) const {
+  const bool by_formula = (canonical == "sigma_n_MPa" && !file_.pressure.empty()) ||
+                          (canonical == "F_R_N" && !file_.friction.empty());
+  return by_formula || file_.find(canonical);
 }
 
 double OpenPoints::common_area() const {
@@ -94,7 +87,7 @@ double OpenPoints::example_radius_mm() const {
 
 bool OpenPoints::lacks_tests() const {
   return campaign_.files.size() == 1 && !file_.find("experiment") && !file_.intervals &&
-         !file_.rows && !file_.side_by_side;
+         !file_.rows && !file_.side_by_side && !file_.wide_known;
 }
 
 bool OpenPoints::lacks_pressure() const {
@@ -123,6 +116,34 @@ const GuessedColumn* OpenPoints::likely_coefficient() const {
     if (found) return nullptr;
     found = &column;
   }
+  return found;
+}
+
+std::vector<const GuessedColumn*> OpenPoints::columns() const {
+  std::vector<const GuessedColumn*> all;
+  for (const GuessedColumn& column : file_.columns)
+    all.push_back(&column);
+  if (campaign_.tests)
+    for (const GuessedColumn& column : campaign_.tests->columns)
+      all.push_back(&column);
+  return all;
+}
+
+const GuessedColumn* OpenPoints::rotation() const {
+  const GuessedColumn* found = nullptr;
+  for (const GuessedColumn* column : columns())
+    if (!has("v_rel_mm_s") && !data::turn_factor(*column).empty() &&
+        (!found || (data::names_wanted(*found) && !data::names_wanted(*column))))
+      found = column;
+  return found;
+}
+
+std::vector<const GuessedColumn*> OpenPoints::temperatures() const {
+  std::vector<const GuessedColumn*> found = columns();
+  std::set<std::string> names;
+  std::erase_if(found, [&](const GuessedColumn* column) {
+    return has("T_contact_C") || !column->beside_contact || !names.insert(column->name).second;
+  });
   return found;
 }
 

@@ -8,9 +8,6 @@
 
 namespace frictab::job {
 
-// Index of the file that most files are read like.
-std::size_t most_common(const std::vector<data::GuessedFile>& files);
-
 // Name of the column, or "column 3".
 std::string shown_name(const data::GuessedColumn& column);
 
@@ -24,11 +21,13 @@ bool lacks_unit(const data::GuessedColumn& column);
 class OpenPoints {
 public:
   explicit OpenPoints(const data::GuessedCampaign& campaign)
-      : campaign_(campaign), file_(campaign.files[most_common(campaign.files)]) {}
+      : campaign_(campaign), file_(campaign.files[data::most_common(campaign.files)]) {}
 
   const data::GuessedFile& file() const { return file_; } // that most are read like
   // Whether the rows, the table of tests or an answer have the quantity.
   bool has(const std::string& canonical) const;
+  // Whether the rows have it, so that no column of the table of tests is needed.
+  bool is_of_rows(const std::string& canonical) const;
   // Area of contact that all files give above their rows, mm2; 0: none.
   double common_area() const;
   // Area and radius of the bodies in contact by the lengths above the rows, for an example; 0:
@@ -45,10 +44,16 @@ public:
   // The only column without a meaning that is as small as coefficients of friction; nullptr: none,
   // or several.
   const data::GuessedColumn* likely_coefficient() const;
+  // A speed of rotation where no speed is known: measured before wanted; nullptr: none.
+  const data::GuessedColumn* rotation() const;
+  // Temperatures that may be those of the contact, where none is known.
+  std::vector<const data::GuessedColumn*> temperatures() const;
   // The only force without a meaning; nullptr: none, or several.
   const data::GuessedColumn* only_force() const;
 
 private:
+  std::vector<const data::GuessedColumn*> columns() const; // of the rows, then of the tests
+
   const data::GuessedCampaign& campaign_;
   const data::GuessedFile& file_;
 };

@@ -315,6 +315,182 @@ TEST_F(InitFrom, GivesNoRuleToAFileWithoutDecimalsAmongOthersWithCommas) {
   EXPECT_EQ(read().tests, "1 2, 2 2, 3 2");
 }
 
+// ---- folders with more than recordings ----
+
+TEST_F(InitFrom, LeavesResultsAndSentencesWithAWord) {
+  for (int test = 1; test <= 3; ++test)
+    directory.write(fmt::format("rig/pin{}.csv", test), coefficient_file(test));
+  directory.write("rig/results.csv", "Specimen;COF mean;Track [um2]\nDLC 7;0.12;50\n"
+                                     "DLC 8;0.13;64\nDLC 9;0.11;44\n");
+  directory.write("rig/protocol.txt", "(lost) 4 strokes, 100 mm, pressure constant. Zero 2, 3.\n");
+  const CommandResult result = frictab({"init", "job", "--from", "rig"});
+  EXPECT_THAT(result.err,
+              testing::AllOf(HasSubstr("not read: rig/protocol.txt: no table of numbers"),
+                             HasSubstr("not read: ../rig/results.csv: it has no column for time_s, "
+                                       "which most files have; if it has a row per test, write "
+                                       "tests = \"../rig/results.csv\"\n")));
+  EXPECT_THAT(directory.read("job/job.toml"),
+              testing::AllOf(HasSubstr("\n# not read: ../rig/results.csv: "),
+                             Not(HasSubstr("[[data.files]]")), Not(HasSubstr("column_1"))));
+  EXPECT_EQ(read().tests, "pin1 30, pin2 30, pin3 30");
+}
+
+TEST_F(InitFrom, JoinsAListByTheNumbersOfTests) {
+  for (int test = 21; test <= 23; ++test)
+    directory.write(fmt::format("pack{}.csv", test), coefficient_file(test - 20));
+  directory.write("list.csv", "Pack,Batch,Ra um\n21,B1,5.4\n22,B2,6.8\n23,B1,5.3\n");
+  EXPECT_THAT(job_from({"*.csv"}), testing::AllOf(HasSubstr("\ntests = \"../list.csv\" "),
+                                                  HasSubstr("\nexperiment = \"Pack\" ")));
+  EXPECT_THAT(read().text, HasSubstr("list.csv: Batch, Ra um, by test"));
+}
+
+TEST_F(InitFrom, LeavesAnOlderVersionOfAFile) {
+  const std::string whole = coefficient_file(2);
+  directory.write("T1.csv", coefficient_file(1));
+  directory.write("T2.csv", whole);
+  directory.write("T2_old.csv", whole.substr(0, whole.find("\n1.2;") + 1));
+  directory.write("T3.csv", coefficient_file(3));
+  EXPECT_THAT(job_from({"*.csv"}), HasSubstr("\n# not read: ../T2_old.csv: it has the tests and "
+                                             "rows of T2.csv again; if it is the better one, "));
+  EXPECT_EQ(read().tests, "T1 30, T2 30, T3 30");
+}
+
+TEST_F(InitFrom, KeepsEqualRowsUnderTheNamesOfTwoTests) {
+  for (const char* file : {"T1.csv", "T2.csv"})
+    directory.write(file, coefficient_file(1));
+  EXPECT_THAT(job_from({"T1.csv", "T2.csv"}), Not(HasSubstr("not read")));
+}
+
+TEST_F(InitFrom, TakesTheColumnThatChangesWhereTheClockBeginsAgainForTheTests) {
+  for (const bool newer : {false, true}) {
+    std::string text = "project,series,disc,day,t_s,p_nom_MPa,mu\n";
+    for (int test = 1; test <= (newer ? 6 : 4); ++test)
+      for (const Row& row : rows(test))
+        text += fmt::format("oil,A{},D{},2024-05-0{},{:.1f},{:.1f},{:.4f}\n", test, (test + 1) / 2,
+                            test, row.time_s, row.sigma_MPa, row.mu);
+    directory.write(newer ? "all_v2.csv" : "all_v1.csv", text);
+  }
+  EXPECT_THAT(job_from({"*.csv"}),
+              testing::AllOf(HasSubstr("\nexperiment = \"series\" "),
+                             HasSubstr("\n# not read: ../all_v1.csv: it has the tests and rows of "
+                                       "all_v2.csv again")));
+  EXPECT_EQ(read().tests, "A1 30, A2 30, A3 30, A4 30, A5 30, A6 30");
+}
+
+TEST_F(InitFrom, LeavesAQuantityOfTheTableOfTestsThatTheRowsHave) {
+  // the first file is read in another way than the rest, and has no such column
+  directory.write("a0.csv", "t [s];mu;p [MPa]\n0;0.1;5\n1;0.2;6\n2;0.1;7\n");
+  std::string plan = "Run,Disc temp C,Oil\na0,20,A\n";
+  for (int test = 1; test <= 3; ++test) {
+    std::string text = "Time,COF,Pressure,Disc temperature\ns,-,MPa,degC\n";
+    for (const Row& row : rows(test))
+      text += fmt::format("{:.1f},{:.4f},{:.1f},20.5\n", row.time_s, row.mu, row.sigma_MPa);
+    directory.write(fmt::format("a{}.csv", test), text);
+    plan += fmt::format("a{},{},B\n", test, 20 + test);
+  }
+  directory.write("plan.csv", plan);
+  const std::string job = job_from({"*.csv"});
+  EXPECT_THAT(job, testing::AllOf(HasSubstr("\nT_contact_C = \"Disc temperature\" "),
+                                  HasSubstr("\ntests = \"../plan.csv\" "),
+                                  Not(HasSubstr("\nT_contact_C = { column = \"Disc temp C\""))));
+}
+
+TEST_F(InitFrom, NamesFoldersThatItDoesNotLookInto) {
+  for (int test = 1; test <= 2; ++test) {
+    directory.write(fmt::format("lab/{}.csv", test), coefficient_file(test));
+    directory.write(fmt::format("lab/more/{}.csv", test + 2), coefficient_file(test + 2));
+  }
+  directory.write("lab/out/stages.json", "{}");
+  const std::string said = "not looked into: lab/more (2 files); if they have data, name them "
+                           "too: frictab init --force --from lab lab/more\n";
+  EXPECT_THAT(frictab({"init", "job", "--from", "lab"}).err, HasSubstr(said));
+  EXPECT_THAT(frictab({"init", "job", "--force", "--from", "lab", "lab/more"}).err,
+              Not(HasSubstr("not looked into")));
+  EXPECT_EQ(read().tests, "1 30, 2 30, 3 30, 4 30");
+}
+
+TEST_F(InitFrom, GivesTheDecimalSignOfAPlanToFilesThatNeedNone) {
+  for (int test = 1; test <= 4; ++test) {
+    std::string text = "LabVIEW Measurement\nSeparator\tTab\nDecimal_Separator\t,\n"
+                       "***End_of_Header***\n\nTime [s]\tCOF\tPressure [MPa]\n";
+    for (const Row& row : rows(test))
+      text += replace_all(
+          fmt::format("{:.1f}\t{:.4f}\t{:.1f}\n", row.time_s, row.mu, row.sigma_MPa), ".", ",");
+    directory.write(fmt::format("B_{}.txt", test), text);
+  }
+  directory.write("Plan.csv", "Versuch;Menge [g/m2]\nB_1;0,5\nB_2;1,0\nB_3;2,5\nB_4;0,5\n");
+  EXPECT_THAT(job_from({"*.txt", "Plan.csv"}), HasSubstr("\ndecimal = \",\" "));
+  EXPECT_THAT(read().text, HasSubstr("Menge [g/m2]  setting  one value per test, 3 of them"));
+}
+
+TEST_F(InitFrom, GivesFilesWithPointsARuleWhereTheirPlanHasCommas) {
+  for (int test = 1; test <= 4; ++test)
+    directory.write(fmt::format("B_{}.csv", test), coefficient_file(test));
+  directory.write("plan.txt", "Versuch;Menge [g/m2]\nB_1;0,5\nB_2;1,0\nB_3;2,5\nB_4;0,5\n");
+  EXPECT_THAT(job_from({"*.csv", "plan.txt"}),
+              testing::AllOf(HasSubstr("\ndecimal = \",\" "),
+                             HasSubstr("\n[[data.files]]\nmatch = \"*\"\ndecimal = \".\"\n")));
+  const Read found = read();
+  EXPECT_EQ(found.tests, "B_1 30, B_2 30, B_3 30, B_4 30");
+  EXPECT_THAT(found.text, HasSubstr("Menge [g/m2]  setting  one value per test, 3 of them"));
+}
+
+TEST_F(InitFrom, ReadsAColumnPerTestBelowATitle) {
+  std::string text = "COF over the path - all specimens,,,,\nDistance (m),S01,S02,S03,S04\n";
+  for (int i = 0; i < 30; ++i)
+    text +=
+        fmt::format("{},0.5{:02},0.4{:02},0.3{:02},0.35{}\n", 5 * i, i % 7, i % 5, i % 9, i % 3);
+  directory.write("cof.csv", text);
+  directory.write("specimens.csv", "Specimen,Pressure (MPa),Hardness (HRC)\nS01,10,41\nS02,20,42\n"
+                                   "S03,30,43\nS04,40,44\n");
+  const std::string job = job_from({"cof.csv", "specimens.csv"});
+  EXPECT_THAT(job, testing::AllOf(
+                       HasSubstr("\ntests = \"../specimens.csv\" "),
+                       HasSubstr("\nexperiment = [\"Specimen\", \"experiment\"] "),
+                       HasSubstr("\n[data.wide]\ncolumns = \"^(?<experiment>S\\\\d+)$\" "),
+                       HasSubstr("\n# ? Which form of friction do the columns of the tests have?"),
+                       Not(HasSubstr("units_row"))));
+  directory.write("job/job.toml", replace_all(job, "# tau_R_MPa = {", "tau_R_MPa = {"));
+  EXPECT_EQ(read().tests, "S01 30, S02 30, S03 30, S04 30");
+}
+
+TEST_F(InitFrom, AsksForTheRadiusOfARotationThatTheRowsHave) {
+  std::string summary = "Test,Speed rpm\n";
+  for (int test = 1; test <= 3; ++test) {
+    std::string text = "Ring dia (mm),35\nTime (s),Ring speed (rpm),COF,Pressure (MPa)\n";
+    for (const Row& row : rows(test))
+      text += fmt::format("{:.1f},{},{:.4f},{:.1f}\n", row.time_s, 60, row.mu, row.sigma_MPa);
+    directory.write(fmt::format("BR{}.csv", test), text);
+    summary += fmt::format("BR{},60\n", test);
+  }
+  directory.write("summary.csv", summary);
+  const std::string job = job_from({"*.csv"});
+  EXPECT_THAT(job,
+              testing::AllOf(Not(HasSubstr("\nv_rel_mm_s")),
+                             HasSubstr("\n# ? At which radius is the contact? Ring speed (rpm) "
+                                       "is a speed of rotation.\n# v_rel_mm_s = { formula = "
+                                       "\"Ring_speed*2*pi/60*17.5\" }")));
+  directory.write("job/job.toml", replace_all(job, "# v_rel_mm_s", "v_rel_mm_s"));
+  EXPECT_THAT(read().text, HasSubstr("110")) << "mm/s";
+}
+
+TEST_F(InitFrom, AsksWhetherATemperatureIsThatOfTheContact) {
+  for (int test = 1; test <= 2; ++test) {
+    std::string text = "Time (s),COF,Pressure (MPa),Oil temp C,pin_end_temperature_C\n";
+    for (const Row& row : rows(test))
+      text += fmt::format("{:.1f},{:.4f},{:.1f},40,{}\n", row.time_s, row.mu, row.sigma_MPa, 50);
+    directory.write(fmt::format("k{}.csv", test), text);
+  }
+  EXPECT_THAT(
+      job_from({"k1.csv", "k2.csv"}),
+      testing::AllOf(HasSubstr("\n# ? Is it the temperature of the contact, or of the tool? "),
+                     HasSubstr("\n# T_contact_C = { column = \"Oil temp C\", unit = \"C\" }\n"
+                               "# T_tool_C = { column = \"pin_end_temperature_C\", unit = "
+                               "\"C\" }\n"),
+                     Not(HasSubstr("\nT_contact_C"))));
+  EXPECT_EQ(read().tests, "k1 30, k2 30");
+}
+
 // ---- other formats ----
 
 TEST_F(InitFrom, ReadsCanonicalHdf5) {
