@@ -9,10 +9,11 @@
 
 namespace frictab::data {
 
-// For each experiment of `data`, the first other one in `others` with the same rows: bit for bit,
-// in every canonical quantity that both have. (Other columns may be labels: a batch, a place in the
-// order of tests.) `others` may be `data` itself. Experiments of fewer than 4 rows or with a
-// constant tau_R_MPa are not compared: summaries of repeated tests may be equal by chance.
+// For each experiment of `data`, the first other one in `others` with the same rows, or of which
+// one is the beginning of the other: bit for bit, in every canonical quantity that both have.
+// (Other columns may be labels: a batch, a place in the order of tests.) `others` may be `data`
+// itself. Experiments of fewer than 4 rows or with a constant tau_R_MPa are not compared: summaries
+// of repeated tests may be equal by chance.
 std::vector<std::optional<std::size_t>> tests_of_equal_rows(const Dataset& data,
                                                             const Dataset& others);
 

@@ -96,7 +96,8 @@ namespace {
 
 // Reason for leaving out the rows of a phase.
 const char* phase_rule(Phase phase) {
-  if (phase == Phase::rest) return "at rest: v_rel_mm_s is 0, or cannot be distinguished from 0";
+  if (phase == Phase::rest)
+    return "at rest: without motion, by the speed, the path or the friction";
   if (phase == Phase::turning) return "turning: where a stroke begins and ends";
   return "unloaded: below 5 % of the load of its test";
 }

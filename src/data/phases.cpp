@@ -31,6 +31,12 @@ constexpr double either_way = 0.1, goes = 0.2;
 // Largest ratio of friction over load to that of the whole test at which it counts as the same
 // friction at a lower load.
 constexpr double same_friction = 2;
+// Rows at an end of a test without its friction that are rest and not physics: fewest rows of such
+// a test, largest share of them, and largest number; smallest share of the load.
+constexpr std::size_t rows_with_ends = 20, most_still_rows = 10;
+constexpr double still_rows_share = 0.05, pressed_share = 0.5;
+// Quantile of the coefficients of such a test that is well above none.
+constexpr double still_quantile = 0.15;
 
 std::vector<double> finite_values(Values values) {
   std::vector<double> out;
@@ -401,6 +407,10 @@ public:
     }
     if (!out.both_directions()) take_strokes_of_friction();
     if (out.speed == SpeedReading::usable) mark_rest();
+    if (!out.both_directions() && !shows_motion()) {
+      mark_rest_by_other_speed();
+      mark_ends_without_friction();
+    }
     if ((of_path || !test.speed.empty()) && test.path.size() > 2) take_standing(of_path);
     if (!out.both_directions()) {
       double sum = 0;
@@ -425,6 +435,97 @@ private:
     auto strokes = strokes_of(friction, goes * reference);
     if (friction.size() < mean_rows * strokes.size()) return; // too short for strokes
     out_.strokes = std::move(strokes);
+    by_friction_ = true;
+    std::vector<double> rows;
+    for (const TestPhases::Stroke& stroke : out_.strokes)
+      rows.push_back(static_cast<double>(stroke.end - stroke.begin));
+    usual_rows_ = median_of(std::move(rows));
+    for (const int direction : {-1, 1})
+      full_[direction > 0] = median_of(friction_of(direction));
+  }
+
+  std::vector<double> friction_of(int direction) const {
+    std::vector<double> out;
+    for (const TestPhases::Stroke& stroke : out_.strokes)
+      for (std::size_t i = stroke.begin; stroke.direction == direction && i < stroke.end; ++i)
+        if (std::isfinite(test_.friction[i])) out.push_back(test_.friction[i]);
+    return out;
+  }
+
+  // A set speed does not show rest, nor does one that cannot be used.
+  bool shows_motion() const {
+    return out_.speed == SpeedReading::still ||
+           (out_.speed == SpeedReading::usable && (test_.speed.empty() || !is_held(test_.speed)));
+  }
+
+  // Friction over load; NaN for a row without load.
+  double coefficient(std::size_t i) const {
+    const double load = test_.load.empty() ? 1 : test_.load[i];
+    return load > 0 ? std::abs(test_.friction[i]) / load : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  std::vector<double> coefficients_where(std::size_t begin, std::size_t end,
+                                         const std::vector<char>& is) const {
+    std::vector<double> out;
+    for (std::size_t i = begin; i < end; ++i)
+      if (const double mu = coefficient(i);
+          (is.empty() || is[i]) && std::isfinite(mu) && out_.rows[i] != Phase::unloaded)
+        out.push_back(mu);
+    return out;
+  }
+
+  // Marks rows in which another reading of the speed is next to zero, without half of the friction.
+  void mark_rest_by_other_speed() {
+    const Values other = test_.other_speed;
+    const double typical = speed_in_motion(other);
+    if (other.empty() || test_.friction.empty() || !(typical > 0)) return;
+    std::vector<char> moves(other.size());
+    for (std::size_t i = 0; i < other.size(); ++i)
+      moves[i] = !(std::abs(other[i]) <= slow * typical);
+    const double rubbing = median_of(coefficients_where(0, other.size(), moves));
+    for (const Piece& run : pieces_where(other.size(), [&](std::size_t i) { return !moves[i]; })) {
+      const std::vector<double> mu = coefficients_where(run.begin, run.end, {});
+      if (mu.empty() || !(median_of(mu) < half_turned * rubbing)) continue;
+      out_.still_by_other_speed += mark(run.begin, run.end, Phase::rest);
+    }
+  }
+
+  // Marks few rows at either end, next to rows at rest or without load, if the friction is there a
+  // few rows on, at the same set speed: more of them, or a slow rise, may be a film of lubricant
+  // that breaks down, or a surface that runs in.
+  void mark_ends_without_friction() {
+    const std::size_t rows = test_.friction.size();
+    if (rows < rows_with_ends) return;
+    const std::vector<double> all = coefficients_where(0, rows, {});
+    const double usual = median_of(all),
+                 load = test_.load.empty() ? 1 : typical_of(finite_values(test_.load), 0.5);
+    const auto most = std::min(
+        most_still_rows,
+        std::max<std::size_t>(1, static_cast<std::size_t>(still_rows_share * double(rows))));
+    const auto is_still = [&](std::size_t i) {
+      return coefficient(i) < no_friction_share * usual &&
+             (test_.load.empty() || test_.load[i] > pressed_share * load);
+    };
+    if (all.empty() || !(quantile_of(all, still_quantile) > half_turned * usual)) return;
+    for (const bool front : {true, false}) {
+      const auto at = [&](std::size_t i) { return front ? i : rows - 1 - i; };
+      std::size_t begin = 0;
+      while (begin < rows && !is_fitted(out_.rows[at(begin)]))
+        ++begin;
+      std::size_t end = begin;
+      while (end < rows && is_still(at(end)))
+        ++end;
+      if (end == begin || end - begin > most) continue;
+      bool rubs = false, same_speed = true;
+      for (std::size_t i = begin; i < std::min(end + most, rows); ++i) {
+        rubs = rubs || (i >= end && coefficient(at(i)) > half_turned * usual);
+        same_speed = same_speed && (out_.speed != SpeedReading::usable || i > end ||
+                                    test_.speed[at(i)] == test_.speed[at(begin)]);
+      }
+      if (!rubs || !same_speed) continue;
+      for (std::size_t i = begin; i < end; ++i)
+        out_.still_by_friction += mark(at(i), at(i) + 1, Phase::rest);
+    }
   }
 
   // Whether many rows are slow, but not slower than this.
@@ -483,9 +584,14 @@ private:
     });
   }
 
-  void mark(std::size_t begin, std::size_t end, Phase phase) {
+  std::size_t mark(std::size_t begin, std::size_t end, Phase phase) {
+    std::size_t marked = 0;
     for (std::size_t i = begin; i < end; ++i)
-      if (out_.rows[i] != Phase::unloaded) out_.rows[i] = phase;
+      if (out_.rows[i] != Phase::unloaded && out_.rows[i] != phase) {
+        out_.rows[i] = phase;
+        ++marked;
+      }
+    return marked;
   }
 
   // Progress along the stroke from 0 to 1, by the path, else by the summed speed, else by rows.
@@ -515,7 +621,29 @@ private:
           (has_behind && way[i] > 1 - turning_path))
         mark_turned(stroke.begin + i, stroke.begin + i + 1);
     }
+    if (by_friction_) return mark_turned_by_force(stroke);
     mark_turned(stroke.begin, stroke.begin + rows_that_build_up(stroke, way));
+  }
+
+  // Marks rows at both ends of a stroke whose force differs from that in full motion: where the
+  // force alone shows the reversal, its sign changes between the two. The test may begin and end
+  // within a stroke.
+  void mark_turned_by_force(const TestPhases::Stroke& stroke) {
+    const std::size_t rows = stroke.end - stroke.begin;
+    const Values friction = test_.friction.subspan(stroke.begin, rows);
+    const double later = static_cast<double>(rows) < 0.5 * usual_rows_
+                             ? full_[stroke.direction > 0]
+                             : median_of(finite_values(friction));
+    const auto is_full = [&](double x) { return x / later >= turned; };
+    const auto first = std::find_if(friction.begin(), friction.end(), is_full) - friction.begin(),
+               last = std::find_if(friction.rbegin(), friction.rend(), is_full) - friction.rbegin();
+    for (const auto& [count, front] : {std::pair(first, true), std::pair(last, false)}) {
+      const double edge = front ? friction.front() : friction.back();
+      if (!(edge / later < half_turned) || double(count) > longest_turn * usual_rows_) continue;
+      const auto marked = std::min(static_cast<std::size_t>(count), rows);
+      mark_turned(front ? stroke.begin : stroke.end - marked,
+                  front ? stroke.begin + marked : stroke.end);
+    }
   }
 
   void mark_turned(std::size_t begin, std::size_t end) {
@@ -542,6 +670,10 @@ private:
   TestPhases& out_;
   std::vector<double> speed_, size_; // smoothed
   double typical_ = 0;
+  // Strokes by the force alone: their usual number of rows, and medians of the force by direction.
+  bool by_friction_ = false;
+  double usual_rows_ = 0;
+  std::array<double, 2> full_{};
 };
 
 } // namespace
@@ -562,8 +694,9 @@ TestPhases phases_of(const TestSignals& test) {
       std::max({test.speed.size(), test.load.size(), test.path.size(), test.friction.size()});
   out.rows.assign(rows, Phase::sliding);
   std::vector<double> speed, time, load, path, friction;
-  TestSignals whole = {filled(test.speed, speed), filled(test.time, time), filled(test.load, load),
-                       filled(test.path, path), filled(test.friction, friction)};
+  TestSignals whole = {filled(test.speed, speed),       filled(test.time, time),
+                       filled(test.load, load),         filled(test.path, path),
+                       filled(test.friction, friction), test.other_speed};
   const bool of_path = whole.speed.empty() && whole.path.size() > 2 && !whole.time.empty();
   if (of_path) {
     speed = speed_of_path(whole.path, whole.time);

@@ -116,21 +116,25 @@ Implausible forces(const Dataset& data) {
   if (!data.has("F_R_N") || !data.has("F_N_N")) return {};
   const auto friction = data.values("F_R_N"), normal = data.values("F_N_N"),
              tau = data.values("tau_R_MPa"), pressure = data.values("sigma_n_MPa");
-  const double load = quantile({normal.begin(), normal.end()}, 0.9);
-  std::size_t rows = 0, of = 0;
-  std::vector<double> ratios;
+  const double load = quantile({normal.begin(), normal.end()}, 0.9),
+               rubbing = quantile({tau.begin(), tau.end()}, 0.9);
+  std::size_t of = 0;
+  std::vector<double> others; // ratios that are not 1
   for (std::size_t i = 0; i < data.rows(); ++i) {
-    if (!(normal[i] > half_load * load) || !(pressure[i] > 0) || !(tau[i] > 0)) continue;
+    // A small stress is rounded: at rest a coefficient with two decimals is 0.00 or 0.01.
+    if (!(normal[i] > half_load * load) || !(pressure[i] > 0) || !(tau[i] > offset_share * rubbing))
+      continue;
     const double ratio = friction[i] / normal[i] / (tau[i] / pressure[i]);
-    ratios.push_back(ratio);
     ++of;
-    rows += ratio > same_coefficient || ratio < 1 / same_coefficient;
+    if (ratio > same_coefficient || ratio < 1 / same_coefficient) others.push_back(ratio);
   }
+  const double middle = median(others);
+  if (middle < same_coefficient && middle > 1 / same_coefficient) return {}; // they scatter about 1
   return {
-      "", rows, of,
+      "", others.size(), of,
       fmt::format("F_R_N/F_N_N is {:.3g} times tau_R_MPa/sigma_n_MPa in the middle: they "
                   "contradict each other",
-                  median(ratios)),
+                  middle),
       "a shear stress of another column, or a force in another unit? Leave out which of the two "
       "is wrong: without tau_R_MPa it is computed from the forces"};
 }
@@ -550,25 +554,48 @@ std::size_t rows_without_friction(const Forces& forces) {
   return (front >= rows_at_rest ? front : 0) + (back >= rows_at_rest ? back : 0);
 }
 
+// Whether the speed of a test is one value throughout, and its path only follows from it.
+bool is_speed_set(const Dataset& data, std::size_t test) {
+  constexpr double rounding = 1e-6;
+  const std::size_t begin = data.first_row[test], end = data.first_row[test + 1];
+  const auto speed = data.values("v_rel_mm_s").subspan(begin, end - begin);
+  if (std::any_of(speed.begin(), speed.end(), [&](double v) { return v != speed[0]; }))
+    return false;
+  if (!data.has("s_mm") || !data.has("time_s")) return true;
+  const auto path = data.values("s_mm"), time = data.values("time_s");
+  for (std::size_t i = begin + 1; i < end; ++i) {
+    const double way = speed[0] * (time[i] - time[i - 1]);
+    if (!(std::abs(path[i] - path[i - 1] - way) <= rounding * (std::abs(path[i]) + way)))
+      return false;
+  }
+  return true;
+}
+
 // Finds rows that may be at rest where no column shows motion.
 Implausible no_motion(const Dataset& data) {
-  if (data.has("v_rel_mm_s") || (data.has("s_mm") && data.has("time_s"))) return {};
+  const bool has_speed = data.has("v_rel_mm_s");
+  if (!has_speed && data.has("s_mm") && data.has("time_s")) return {};
   std::size_t rows = 0, tests = 0;
-  for (std::size_t e = 0; e < data.experiments.size(); ++e)
-    if (const std::size_t found = rows_without_friction(Forces(data, e)); found > 0) {
-      rows += found;
-      ++tests;
-    }
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    if (has_speed && !is_speed_set(data, e)) continue;
+    const std::size_t found = rows_without_friction(Forces(data, e));
+    rows += found;
+    tests += found > 0;
+  }
   if (tests == 0) return {};
-  return {"",
-          rows,
-          data.rows(),
-          fmt::format("next to no friction in the first or last rows of {}, under load, and no "
-                      "column shows motion: rows at rest are fitted as sliding",
-                      tests == 1 ? "a test" : thousands(tests) + " tests"),
-          "map v_rel_mm_s, or s_mm with time_s (an angle, a position, a distance), or leave such "
-          "rows out with data.drop = { tau_R_MPa = { below = 1 } }",
-          false};
+  return {
+      "",
+      rows,
+      data.rows(),
+      fmt::format("next to no friction in the first or last rows of {}, under load, and {}: rows "
+                  "at rest are fitted as sliding",
+                  tests == 1 ? "a test" : thousands(tests) + " tests",
+                  has_speed ? "v_rel_mm_s is one value throughout, a set one"
+                            : "no column shows motion"),
+      "map a measured v_rel_mm_s, or s_mm with time_s (an angle, a position, a distance), or "
+      "leave such "
+      "rows out with data.drop = { tau_R_MPa = { below = 1 } }",
+      false};
 }
 
 Implausible test_apart(const Dataset& data) {
@@ -594,9 +621,15 @@ Implausible copied_test(const Dataset& data) {
     if (!same[e]) continue;
     rows += data.source_rows(e);
     if (*same[e] > e) continue; // the original of the copies
-    if (copies++ == 0)
-      first = fmt::format("test '{}' has the rows of test '{}', value by value",
-                          data.experiments[e], data.experiments[*same[e]]);
+    if (copies++ > 0) continue;
+    const std::size_t own = data.first_row[e + 1] - data.first_row[e],
+                      other = data.first_row[*same[e] + 1] - data.first_row[*same[e]];
+    const bool is_part = own < other;
+    first =
+        fmt::format("test '{}' has the {}rows of test '{}', value by value",
+                    data.experiments[is_part || own == other ? e : *same[e]],
+                    own == other ? "" : fmt::format("first {} ", thousands(std::min(own, other))),
+                    data.experiments[is_part || own == other ? *same[e] : e]);
   }
   if (copies == 0) return {};
   return {"", rows, data.source_rows(), first + and_more(copies - 1, "test"),

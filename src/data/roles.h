@@ -30,6 +30,10 @@ bool may_be_searched(Role role);
 // True if the column may be caused by friction, and is shown only as a lead.
 bool may_follow_friction(Role role);
 
+// True for a verdict on tests ("valid", "nok") or remarks, by name and texts: no condition of a
+// test.
+bool is_judgement(const Column& column);
+
 // True if a column gives the order of tests, by its role, or by its name if no role was decided.
 bool is_order(const Column& column);
 

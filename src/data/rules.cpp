@@ -36,11 +36,15 @@ constexpr ReadingRule all_rules[] = {
      "no cause; drift is looked for along it", by_roles, of_columns},
     {"columns", "clock", "a name of time, varies within tests", not_a_cause, by_roles, of_columns},
     {"columns", "test", "a name of a test's number or specimen", not_a_cause, by_roles, of_columns},
-    {"columns", "ignore", "free text: a remark in few tests, more texts than half of the tests",
+    {"columns", "ignore",
+     "free text: a remark in few tests, more texts than half of the tests; a verdict on tests",
      not_a_cause, by_roles, of_columns},
 
     {"rows", "sliding", "under load and in motion", "fitted", by_rows, not_measured},
-    {"rows", "rest", "speed is 0, or below 2 % of the test's and cannot be distinguished from 0",
+    {"rows", "rest",
+     "speed is 0, or below 2 % of the test's and cannot be distinguished from 0; beside a set "
+     "speed "
+     "where the path stands still or a few end rows lack friction",
      left_out, by_rows, of_rows},
     {"rows", "turning", "where a stroke ends: slow, or the force still builds up", left_out,
      by_rows, of_rows},

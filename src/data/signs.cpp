@@ -11,10 +11,12 @@
 
 #include "core/no_value.h"
 #include "core/text.h"
+#include "data/column_names.h"
 #include "data/computed.h"
 #include "data/leave_out.h"
 #include "data/middle.h"
 #include "data/quantity.h"
+#include "io/csv.h"
 
 namespace frictab::data {
 
@@ -22,8 +24,9 @@ namespace {
 
 using Values = std::span<const double>;
 
-// Smallest number of rows per direction for an offset of a cycle, and of the test.
-constexpr std::size_t cycle_rows = 10, test_rows = 3;
+// Smallest number of rows per direction for an offset of a cycle, and of the test; of cycles that
+// show a drift.
+constexpr std::size_t cycle_rows = 10, test_rows = 3, drift_cycles = 3;
 // Load of the opposite sign that still counts as none, relative to the typical load.
 constexpr double still_unloaded = 0.05;
 // Smallest number of rows without load, and at rest, that determine a zero.
@@ -91,47 +94,46 @@ public:
       : friction_(friction), load_(load), test_(test) {}
 
   // Replaces friction by its magnitude; `found` receives its sign, zero and value without load.
-  void take_magnitude(ForceZero zero, SignedTest& found) {
+  // Returns the range of the zeros of its cycles if each has its own, else 0.
+  double take_magnitude(ForceZero zero, SignedTest& found) {
     const auto unloaded = rows_where(friction_, 0, friction_.size(), [&](std::size_t i) {
       return test_.rows[i] == Phase::unloaded;
     });
     if (unloaded.size() >= unloaded_rows) found.unloaded = finite_median(unloaded);
-    if (test_.both_directions() && take_both_directions(zero, found)) return;
-    const Middle all = middle_with_error(fitted(0, friction_.size(), 0));
-    if (!(all.value < -2 * all.error)) return;
+    if (test_.both_directions() && take_both_directions(zero, found)) return drift_;
+    const Middle all = middle_with_error(fitted(0));
+    if (!(all.value < -2 * all.error)) return 0;
     for (double& x : friction_)
       x = -x;
     found.friction = -1;
+    return 0;
   }
 
 private:
   // Rows of one direction; 0: of both.
-  std::vector<double> fitted(std::size_t begin, std::size_t end, int direction) const {
+  std::vector<double> fitted(int direction) const {
     std::vector<double> out;
     for (const TestPhases::Stroke& stroke : test_.strokes) {
       if (direction != 0 && stroke.direction != direction) continue;
-      const auto rows =
-          rows_where(friction_, std::max(begin, stroke.begin), std::min(end, stroke.end),
-                     [&](std::size_t i) { return is_fitted(test_.rows[i]); });
+      const auto rows = rows_where(friction_, stroke.begin, stroke.end,
+                                   [&](std::size_t i) { return is_fitted(test_.rows[i]); });
       out.insert(out.end(), rows.begin(), rows.end());
     }
     return out;
   }
 
   // Half of the difference between the magnitudes of both directions; nullopt for too few rows.
-  std::optional<Middle> offset(std::size_t begin, std::size_t end, std::size_t least) const {
-    const Middle forward = middle_with_error(fitted(begin, end, 1)),
-                 backward = middle_with_error(fitted(begin, end, -1));
-    if (forward.rows < least || backward.rows < least) return {};
+  std::optional<Middle> offset() const {
+    const Middle forward = middle_with_error(fitted(1)), backward = middle_with_error(fitted(-1));
+    if (forward.rows < test_rows || backward.rows < test_rows) return {};
     return Middle{(forward.value + backward.value) / 2,
                   std::hypot(forward.error, backward.error) / 2, forward.rows + backward.rows};
   }
 
   // False for a magnitude.
   bool take_both_directions(ForceZero zero, SignedTest& found) {
-    const double forward = finite_median(fitted(0, friction_.size(), 1)),
-                 backward = finite_median(fitted(0, friction_.size(), -1));
-    const std::optional<Middle> of_test = offset(0, friction_.size(), test_rows);
+    const double forward = finite_median(fitted(1)), backward = finite_median(fitted(-1));
+    const std::optional<Middle> of_test = offset();
     if (!of_test) return false;
     const double sign = forward > backward ? 1 : -1;
     const ForceOffset half{sign * of_test->value, of_test->error, std::abs(forward - backward) / 2,
@@ -141,39 +143,98 @@ private:
         found.above_friction = half;
       if (!found.above_friction || zero != ForceZero::remove) return false;
     }
-    const std::vector<double> offsets = zero == ForceZero::keep
-                                            ? std::vector<double>(friction_.size(), 0.0)
-                                            : by_cycle(of_test->value);
     found.zero = half;
+    std::vector<double> offsets(friction_.size(), 0.0);
+    if (zero != ForceZero::keep) {
+      std::fill(offsets.begin(), offsets.end(), of_test->value);
+      drift_ = take_drift(half.friction, offsets);
+    }
     for (const TestPhases::Stroke& stroke : test_.strokes)
       for (std::size_t i = stroke.begin; i < stroke.end; ++i)
         friction_[i] = sign * stroke.direction * (friction_[i] - offsets[i]);
     return true;
   }
 
-  // Offset per row. A cycle with too few rows takes that of the cycle before; if no cycle has
-  // enough, all rows take that of the test.
-  std::vector<double> by_cycle(double of_test) const {
-    std::vector<double> out(friction_.size(), no_value);
-    double last = no_value;
-    for (std::size_t s = 0; s < test_.strokes.size(); s += 2) {
-      const std::size_t begin = test_.strokes[s].begin,
-                        end = test_.strokes[std::min(s + 1, test_.strokes.size() - 1)].end;
-      if (const auto own = offset(begin, end, cycle_rows)) last = own->value;
-      std::fill(out.begin() + static_cast<long>(begin), out.begin() + static_cast<long>(end), last);
+  // Middles of the strokes of usual length; one at an end of the test may be cut off, in it the
+  // force may only build up.
+  std::vector<std::optional<Middle>> middles_of_strokes() const {
+    std::vector<std::optional<Middle>> middles;
+    std::vector<double> counts;
+    for (const TestPhases::Stroke& stroke : test_.strokes) {
+      middles.push_back(
+          middle_with_error(rows_where(friction_, stroke.begin, stroke.end,
+                                       [&](std::size_t i) { return is_fitted(test_.rows[i]); })));
+      counts.push_back(static_cast<double>(middles.back()->rows));
     }
-    const auto first =
-        std::find_if(out.begin(), out.end(), [](double x) { return std::isfinite(x); });
-    std::fill(out.begin(), first, first == out.end() ? of_test : *first);
-    return out;
+    const double least = std::max(double(cycle_rows), 0.5 * finite_median(std::move(counts)));
+    for (auto& middle : middles)
+      if (static_cast<double>(middle->rows) < least) middle.reset();
+    return middles;
+  }
+
+  // Replaces the offset of the test by those of its cycles if these drift: by more than their
+  // errors, and from cycle to cycle by less than in all. Returns their range; 0: one for the test.
+  // A cycle counts together with the pairs of strokes half a cycle before and behind: friction that
+  // runs in adds to one what it takes from the other.
+  double take_drift(double friction, std::vector<double>& offsets) const {
+    const std::vector<std::optional<Middle>> middles = middles_of_strokes();
+    std::vector<double> errors;
+    const auto pair_at = [&](std::size_t s) {
+      return s + 1 < middles.size() && middles[s] && middles[s + 1]
+                 ? std::optional((middles[s]->value + middles[s + 1]->value) / 2)
+                 : std::nullopt;
+    };
+    std::vector<double> of_cycles, known; // one per two strokes, NaN if unknown
+    for (std::size_t s = 0; s < middles.size(); s += 2) {
+      const auto own = pair_at(s), behind = pair_at(s + 1),
+                 before = s > 0 ? pair_at(s - 1) : std::nullopt;
+      of_cycles.push_back(no_value);
+      if (!own) continue;
+      const double beside = before && behind ? (*before + *behind) / 2
+                            : before         ? *before
+                                             : behind.value_or(*own);
+      known.push_back(of_cycles.back() = (*own + beside) / 2);
+      errors.push_back(std::hypot(middles[s]->error, middles[s + 1]->error) / 2);
+    }
+    if (known.size() < drift_cycles) return 0;
+    std::vector<double> steps;
+    for (std::size_t c = 1; c < known.size(); ++c)
+      steps.push_back(std::abs(known[c] - known[c - 1]));
+    const auto [low, high] = std::minmax_element(known.begin(), known.end());
+    const double range = *high - *low;
+    if (!(range > std::max(6 * finite_median(std::move(errors)), matters * friction)) ||
+        2 * finite_median(std::move(steps)) > range)
+      return 0;
+    double last = known.front(); // a cycle that is not known takes that of the cycle before
+    for (std::size_t c = 0; c < of_cycles.size(); ++c) {
+      if (std::isfinite(of_cycles[c])) last = of_cycles[c];
+      const std::size_t behind = std::min(2 * c + 1, test_.strokes.size() - 1);
+      std::fill(offsets.begin() + static_cast<long>(test_.strokes[2 * c].begin),
+                offsets.begin() + static_cast<long>(test_.strokes[behind].end), last);
+    }
+    return range;
   }
 
   std::span<double> friction_;
   Values load_;
   const TestPhases& test_;
+  double drift_ = 0;
 };
 
 // ---- the tests of a file ----
+
+// A column that is no quantity, named like a speed, that is not the same in all rows.
+bool is_reading_of_speed(const Column& column) {
+  if (find_quantity(column.name) || !column.levels.empty() || column.values.empty()) return false;
+  const std::string words = words_of_name(column.name),
+                    unit = lower_case(io::split_header_name(column.name).unit);
+  const bool turns = unit == "rpm" || unit == "1/min" || unit == "u/min" || unit == "min-1";
+  const bool named = has_word(words, {"speed", "velocity", "rpm", "geschwindigkeit", "drehzahl",
+                                      "gleitgeschwindigkeit", "umdrehungen"}) &&
+                     !has_word(words, {"set", "soll", "nominal", "target", "sound"});
+  return (named || turns) && std::any_of(column.values.begin(), column.values.end(),
+                                         [&](double v) { return v != column.values[0]; });
+}
 
 class FileSigns {
 public:
@@ -189,6 +250,8 @@ public:
     load_ = by_force ? "F_N_N" : "sigma_n_MPa";
     if (part.find("F_R_N")) friction_.emplace_back("F_R_N");
     if (part.find("tau_R_MPa") && part.measured_tau) friction_.emplace_back("tau_R_MPa");
+    for (const Column& column : part.data.columns)
+      if (other_speed_.empty() && is_reading_of_speed(column)) other_speed_ = column.name;
   }
 
   std::vector<Phase> take() {
@@ -198,6 +261,8 @@ public:
     for (std::size_t e = 0; e < part_.data.experiments.size(); ++e) {
       const TestPhases test = phases_of_test(e);
       ++readings[test.speed];
+      by_other_speed_ += test.still_by_other_speed;
+      by_friction_ += test.still_by_friction;
       phases.insert(phases.end(), test.rows.begin(), test.rows.end());
       take_test(e, test);
     }
@@ -209,6 +274,21 @@ public:
         !part_.find(direction_column))
       part_.data.columns.push_back(direction_of(std::move(direction_)));
     report_speed_readings(readings);
+    if (drifting_ > 0)
+      add_counted(part_, "the zero of the force cell drifts in ",
+                  " of the tests, beyond its errors and a fiftieth of the friction: there it is "
+                  "taken off cycle by cycle",
+                  drifting_);
+    if (by_other_speed_ > 0)
+      add_counted(part_, "at rest, though v_rel_mm_s does not show it: ",
+                  fmt::format(" of the rows have {} next to 0 and less than half of the friction",
+                              other_speed_),
+                  by_other_speed_);
+    if (by_friction_ > 0)
+      add_counted(part_, "at rest, though v_rel_mm_s does not show it: ",
+                  " of the rows, at the ends of tests, have less than an eighth of their friction "
+                  "under load",
+                  by_friction_);
     return phases;
   }
 
@@ -222,7 +302,8 @@ private:
 
   TestPhases phases_of_test(std::size_t e) {
     return phases_of({values("v_rel_mm_s", e), values("time_s", e), values(load_, e),
-                      values("s_mm", e), friction_.empty() ? Values() : values(friction_[0], e)});
+                      values("s_mm", e), friction_.empty() ? Values() : values(friction_[0], e),
+                      other_speed_.empty() ? Values() : values(other_speed_, e)});
   }
 
   struct Piece {
@@ -269,6 +350,16 @@ private:
     direction_.assign(part_.row.size(), 1.0);
   }
 
+  // Magnitudes of the fitted rows: a piece may go both ways.
+  static std::vector<double> sizes_where(Values all, std::size_t begin, std::size_t end,
+                                         const TestPhases& test) {
+    auto sizes =
+        rows_where(all, begin, end, [&](std::size_t i) { return is_fitted(test.rows[i]); });
+    for (double& x : sizes)
+      x = std::abs(x);
+    return sizes;
+  }
+
   // Pieces with long pauses between that differ in load or speed by much; 1: they do not.
   std::size_t other_pieces(std::size_t e, const TestPhases& test) {
     if (options_.experiment != "file" && !options_.experiment.empty()) return 1;
@@ -276,8 +367,7 @@ private:
     const auto differ = [&](Values all) {
       std::vector<double> middles;
       for (const Piece& piece : pieces)
-        middles.push_back(std::abs(finite_median(rows_where(
-            all, piece.begin, piece.end, [&](std::size_t i) { return is_fitted(test.rows[i]); }))));
+        middles.push_back(finite_median(sizes_where(all, piece.begin, piece.end, test)));
       const auto [low, high] = std::minmax_element(middles.begin(), middles.end());
       return *high - *low > other_setting * *high;
     };
@@ -299,8 +389,9 @@ private:
     for (std::size_t f = friction_.size(); f-- > 0;) { // `found` describes the first
       found.zero.reset();
       found.above_friction.reset();
-      TestFriction(values(friction_[f], e), values(load_, e), test)
-          .take_magnitude(options_.force_zero, found);
+      const double drift = TestFriction(values(friction_[f], e), values(load_, e), test)
+                               .take_magnitude(options_.force_zero, found);
+      drifting_ += f == 0 && drift > 0;
     }
     if (!friction_.empty()) found.rest = at_rest(values(friction_[0], e), values(load_, e), test);
     if (found.both || found.speed < 0 || found.friction < 0 || found.unloaded || found.rest ||
@@ -353,7 +444,10 @@ private:
   const ReadRequest& options_;
   std::string load_;
   std::vector<std::string> friction_; // columns that were measured
+  std::string other_speed_;           // a recorded column, by its name; empty: none
   std::vector<double> direction_;
+  std::size_t drifting_ = 0;                         // tests
+  std::size_t by_other_speed_ = 0, by_friction_ = 0; // rows at rest that v_rel_mm_s does not show
 };
 
 } // namespace
@@ -486,8 +580,7 @@ void report_zero_errors(Dataset& data, ForceZero said) {
                   "half the difference of their medians)",
                   sizes_text(both.sizes, unit), sizes_text(both.frictions, unit)),
       direction_column);
-  text += kept ? "; that difference is kept"
-               : "; it is taken off, cycle by cycle, as the zero of the force cell";
+  text += kept ? "; that difference is kept" : "; it is taken off as the zero of the force cell";
   if (one_sign > 0)
     text += fmt::format(", which is above the friction in {} of them", thousands(one_sign));
   if (said == ForceZero::automatic) {

@@ -1,8 +1,9 @@
 // Signed forces, speeds and stresses: fits use magnitudes.
 //
 // A constant sign is a convention. If a test goes both ways and its force changes sign with the
-// direction, the zero of the force cell is the mean of the medians of both directions, cycle by
-// cycle (a cycle: a stroke and the one back); it is subtracted before the magnitude is taken. A
+// direction, the zero of the force cell is the mean of the medians of both directions; it is
+// subtracted before the magnitude is taken, cycle by cycle (a stroke and the one back) if it drifts
+// beyond its error. A
 // difference between the directions that grows in proportion to the load over the tests of a
 // campaign is friction instead of a zero, and is kept. The recorded column `direction` (+1, -1)
 // gives the direction of each row if a campaign has both.

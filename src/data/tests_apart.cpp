@@ -13,6 +13,7 @@
 
 #include "data/middle.h"
 #include "data/quantity.h"
+#include "data/roles.h"
 
 namespace frictab::data {
 
@@ -144,7 +145,7 @@ std::string TestOf::file() const {
 bool are_set_otherwise(std::span<const TestOf> tests,
                        const std::function<bool(std::size_t test)>& is_odd) {
   for (const Column& column : tests.front().data->columns) {
-    if (find_quantity(column.name)) continue;
+    if (find_quantity(column.name) || is_judgement(column)) continue;
     std::map<std::string, std::size_t> own, others; // tests of each level
     for (std::size_t i = 0; i < tests.size(); ++i)
       if (const Column* const here = tests[i].data->find(column.name))

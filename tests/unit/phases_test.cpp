@@ -265,6 +265,98 @@ TEST(Phases, AForceThatBuildsUpTheOtherWayTurns) {
   EXPECT_EQ(found.rows[90], Phase::sliding);
 }
 
+// Loops of a cell and no clock: only the force shows where it turns. Between, it builds up over
+// rows from one sign to the other, about a zero that is off; the first stroke is cut off.
+TEST(Phases, AForceThatAloneShowsTheReversalTurnsBeforeAndBehindIt) {
+  for (const double zero : {0.0, 0.06, -0.06}) {
+    std::vector<double> friction;
+    std::vector<Phase> truth;
+    for (std::size_t i = 85; i < 500; ++i) {
+      const double sign = i / 100 % 2 == 0 ? 1 : -1;
+      const double built = std::min(1.0, static_cast<double>(i % 100) / 18);
+      friction.push_back(sign * 0.2 * (2 * built - 1) + zero);
+      truth.push_back(built < 1 ? Phase::turning : Phase::sliding);
+    }
+    const std::vector<double> load(friction.size(), 1);
+    const TestPhases found = phases_of({{}, {}, load, {}, friction});
+    ASSERT_TRUE(found.both_directions());
+    for (std::size_t i = 15; i < friction.size(); ++i) {
+      const bool is_full = std::abs(friction[i] - zero) > 0.16; // nearly built up
+      if (truth[i] == Phase::turning && !is_full) {
+        EXPECT_EQ(found.rows[i], Phase::turning) << zero << " row " << i;
+      }
+    }
+    EXPECT_GT(std::count(found.rows.begin(), found.rows.end(), Phase::sliding), 280) << zero;
+  }
+}
+
+// A set speed goes on where the drive has stopped. `start`: shares of the friction in the first
+// rows; `end`: in the last.
+TestPhases beside_a_set_speed(const std::vector<double>& start, const std::vector<double>& end,
+                              std::size_t rows = 60, double last_speed = 20) {
+  Rig rig;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const std::size_t left = rows - i;
+    const double share = i < start.size() ? start[i] : left <= end.size() ? end[left - 1] : 1;
+    rig.add(left <= 5 ? last_speed : 20, 500, share * (50 + double(i % 3)), Phase::sliding);
+  }
+  return rig.phases();
+}
+
+std::size_t rows_at_rest(const TestPhases& found) {
+  return std::size_t(std::count(found.rows.begin(), found.rows.end(), Phase::rest));
+}
+
+TEST(Phases, AFewRowsWithoutFrictionAtAnEndAreRestBesideASetSpeed) {
+  const TestPhases both = beside_a_set_speed({0.1}, {0.01, 0.02, 0.01});
+  EXPECT_EQ(rows_at_rest(both), 4u);
+  EXPECT_EQ(both.still_by_friction, 4u);
+  EXPECT_EQ(both.rows[0], Phase::rest);
+  EXPECT_EQ(both.rows[57], Phase::rest);
+  EXPECT_EQ(both.rows[1], Phase::sliding);
+  Rig unknown; // no speed at all
+  for (std::size_t i = 0; i < 60; ++i)
+    unknown.add(0, 500, i < 2 ? 0.5 : 50, Phase::sliding);
+  EXPECT_EQ(rows_at_rest(phases_of({{}, unknown.time, unknown.load, {}, unknown.friction})), 2u);
+}
+
+TEST(Phases, FrictionThatBeginsLowForAReasonSlides) {
+  EXPECT_EQ(rows_at_rest(beside_a_set_speed({0.33, 0.35, 0.4, 0.6, 0.8}, {})), 0u) << "runs in";
+  std::vector<double> film(20, 0.05), slow;
+  EXPECT_EQ(rows_at_rest(beside_a_set_speed(film, {})), 0u) << "a film that breaks down";
+  for (int i = 0; i < 30; ++i)
+    slow.push_back(0.1 + 0.03 * i);
+  EXPECT_EQ(rows_at_rest(beside_a_set_speed(slow, {})), 0u) << "a slow rise";
+  EXPECT_EQ(rows_at_rest(beside_a_set_speed({}, {0.05, 0.05, 0.05, 0.05, 0.05}, 200, 400)), 0u)
+      << "another set speed";
+  Rig measured; // its speed shows that it slides
+  for (std::size_t i = 0; i < 60; ++i)
+    measured.add(20 + 0.1 * double(i % 7), 500, i < 2 ? 0.5 : 50, Phase::sliding);
+  EXPECT_EQ(rows_at_rest(measured.phases()), 0u);
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) { // friction within its noise
+    Random random(seed, 11);
+    Rig noise;
+    for (std::size_t i = 0; i < 60; ++i)
+      noise.add(20, 500, random.normal(), Phase::sliding);
+    EXPECT_EQ(noise.phases().still_by_friction, 0u) << seed;
+  }
+}
+
+TEST(Phases, AReadingOfTheSpeedBesideASetOneShowsRestWhereNothingRubs) {
+  for (const double held : {0.02, 0.9}) { // of the friction, at rest
+    Rig rig;
+    std::vector<double> rpm;
+    for (std::size_t i = 0; i < 90; ++i) {
+      const bool rests = i / 15 == 2;
+      rpm.push_back(rests ? 0.1 * double(i % 2) : 72 + double(i % 3));
+      rig.add(20, 500, (rests ? held : 1) * 50, Phase::sliding);
+    }
+    const TestPhases found = phases_of({rig.speed, rig.time, rig.load, {}, rig.friction, rpm});
+    EXPECT_EQ(rows_at_rest(found), held < 0.5 ? 15u : 0u) << held;
+    EXPECT_EQ(found.still_by_other_speed, rows_at_rest(found));
+  }
+}
+
 TEST(Phases, APathStandsForASpeedThatIsNotRecorded) {
   std::vector<double> time, path, load;
   Random random(2, 5);

@@ -250,6 +250,28 @@ TEST(Plausibility, NamesATestThatIsACopyOfAnother) {
               testing::Not(HasSubstr("copied_test")));
 }
 
+TEST(Plausibility, NamesATestThatIsTheBeginningOfAnother) {
+  const std::size_t e3 = campaign().first_row[3], first = campaign().first_row[5];
+  for (const std::size_t rows : {25, 6}) { // few rows may be alike by chance
+    const std::string found = found_after([&](Dataset& d) {
+      for (data::Column& column : d.columns) {
+        std::copy_n(column.values.begin() + std::ptrdiff_t(e3), rows,
+                    column.values.begin() + std::ptrdiff_t(first));
+        column.values.erase(column.values.begin() + std::ptrdiff_t(first + rows),
+                            column.values.begin() + std::ptrdiff_t(d.first_row[6]));
+      }
+      const std::size_t gone = d.first_row[6] - first - rows;
+      for (std::size_t e = 6; e < d.first_row.size(); ++e)
+        d.first_row[e] -= gone;
+    });
+    const std::string said =
+        fmt::format("copied_test: test '{}' has the first 25 rows of test '{}', "
+                    "value by value",
+                    campaign().experiments[5], campaign().experiments[3]);
+    EXPECT_EQ(found.find(said) != found.npos, rows == 25) << found;
+  }
+}
+
 TEST(Plausibility, TakesACoarseChannelForNoStuckOneAndANoisyPathForNoWrongSpeed) {
   const std::string coarse = found_after([](Dataset& d) {
     std::vector<double>& tau = values(d, "tau_R_MPa");
@@ -396,6 +418,18 @@ TEST(Plausibility, TakesNominalLoadsPlateausAndCoarseChannelsForNoEndOfAnAmplifi
       for (std::size_t i = d.first_row[e]; i < d.first_row[e] + 15; ++i)
         values(d, "tau_R_MPa")[i] = 0;
   });
+}
+
+TEST(Plausibility, ACoefficientThatIsRoundedAtRestContradictsNoForces) {
+  EXPECT_THAT(found_after([](Dataset& d) {
+                add_forces(d);
+                for (std::size_t e = 0; e < d.experiments.size(); ++e)
+                  for (std::size_t i = d.first_row[e + 1] - 8; i < d.first_row[e + 1]; ++i) {
+                    values(d, "F_R_N")[i] *= 0.01;
+                    values(d, "tau_R_MPa")[i] *= i % 2 == 0 ? 0.02 : 0.005;
+                  }
+              }),
+              testing::Not(HasSubstr("contradict")));
 }
 
 TEST(Plausibility, FindsAStressThatContradictsItsForces) {

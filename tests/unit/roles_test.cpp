@@ -156,6 +156,34 @@ Dataset with_roles(Dataset data, const data::DataOptions& options = {}) {
   return data;
 }
 
+TEST(Roles, AVerdictOnTestsIsNoCauseAndTheTestsItRejectsAreNamed) {
+  const auto found = [](const std::string& name, const std::vector<std::string>& levels) {
+    Rig rig(3, 8, 20);
+    rig.add(name, [](std::size_t test, std::size_t) { return test == 5 ? 0 : 1; });
+    rig.data.columns.back().levels = levels;
+    Dataset* const parts[] = {&rig.data};
+    FaultList faults;
+    data::find_roles(parts, {}, faults);
+    return rig.data;
+  };
+  const Dataset flagged = found("valid", {"FALSE", "TRUE"});
+  EXPECT_EQ(flagged.find("valid")->role, Role::ignore);
+  EXPECT_THAT(flagged.implausible,
+              Contains("valid is \"FALSE\" in 't5': judged to be bad, and used; data.drop = { "
+                       "valid = [\"FALSE\"] } leaves such rows out"));
+  EXPECT_EQ(found("Probe", {"n.i.O.", "i.O."}).find("Probe")->role, Role::ignore);
+  EXPECT_THAT(found("comment", {"pin slipped, do not use", ""}).implausible,
+              Contains(HasSubstr("in 't5'")));
+  for (const auto& [name, levels] :
+       {std::pair<std::string, std::vector<std::string>>("lubricated", {"FALSE", "TRUE"}),
+        {"surface", {"bad", "good"}},
+        {"oil", {"A", "B"}}}) {
+    const Dataset cause = found(name, levels);
+    EXPECT_EQ(cause.find(name)->role, Role::label) << name;
+    EXPECT_TRUE(cause.implausible.empty()) << name;
+  }
+}
+
 } // namespace
 
 TEST(Roles, AReadingOfTheFrictionIsCalledOne) {

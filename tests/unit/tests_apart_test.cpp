@@ -1,5 +1,7 @@
 // Tests that stand apart: found, and not found where there are none.
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -64,6 +66,24 @@ TEST(TestsApart, OfALevelOfTheirOwnAreNotCalledThat) {
   data.columns.pop_back();
   add([](std::size_t e) { return double(e); });
   EXPECT_EQ(find_tests_apart(data).size(), 1U);
+}
+
+// A verdict follows from what the test showed; so does a remark.
+TEST(TestsApart, WhoseOwnLevelIsAVerdictAreCalledThat) {
+  const Dataset off = with_test_at(GainCampaign::spread(12, 1).data(), 3, 2.4);
+  for (const auto& [name, own, others, found] :
+       {std::tuple("valid", "FALSE", "TRUE", 1U), std::tuple("comment", "slipped", "", 1U),
+        std::tuple("check", "nok", "ok", 1U), std::tuple("lubricated", "FALSE", "TRUE", 0U),
+        std::tuple("oil", "B", "A", 0U)}) {
+    Dataset data = off;
+    data::Column column{name, "", {}, {own, others}, {}, {}};
+    std::sort(column.levels.begin(), column.levels.end());
+    for (std::size_t e = 0; e < data.experiments.size(); ++e)
+      column.values.resize(data.first_row[e + 1],
+                           column.levels[0] == (e == 3 ? own : others) ? 0 : 1);
+    data.columns.push_back(column);
+    EXPECT_EQ(find_tests_apart(data).size(), found) << name;
+  }
 }
 
 TEST(TestsApart, AreNoneWhereTestsScatterAlike) {

@@ -103,6 +103,25 @@ double widest_gap(const std::vector<double>& tested) {
   return widest;
 }
 
+// Whether each of these tests is among the others, with the same friction: validation tests that
+// are searched as well.
+bool are_among(const Dataset& tests, const Dataset& others) {
+  std::unordered_map<std::string_view, std::size_t> known;
+  for (std::size_t e = 0; e < others.experiments.size(); ++e)
+    known.emplace(others.experiments[e], e);
+  const auto friction = [](const Dataset& data, std::size_t e) {
+    return data.values("tau_R_MPa")
+        .subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e]);
+  };
+  for (std::size_t e = 0; e < tests.experiments.size(); ++e) {
+    const auto found = known.find(tests.experiments[e]);
+    if (found == known.end() ||
+        !std::ranges::equal(friction(tests, e), friction(others, found->second)))
+      return false;
+  }
+  return true;
+}
+
 class CandidateFinder {
 public:
   CandidateFinder(const Dataset& training, const Dataset& validation, const stats::Blocks& blocks,
@@ -284,11 +303,15 @@ private:
   // Skips columns with empty cells: no values are invented, and rows are not dropped for a column
   // that may be irrelevant to friction.
   bool has_empty_cells(const Column& training, const Column& validation) {
-    const std::size_t empty = count_empty(training.values) + count_empty(validation.values);
-    if (empty == 0) return false;
-    found_.notes.push_back(
-        fmt::format("{}: {} of {} rows without a value{}", training.name, thousands(empty),
-                    thousands(training_.rows() + validation_.rows()), not_searched));
+    std::size_t empty = count_empty(training.values), rows = training_.rows();
+    const std::size_t in_validation = count_empty(validation.values);
+    if (empty + in_validation == 0) return false;
+    if (!are_among(validation_, training_)) {
+      empty += in_validation;
+      rows += validation_.rows();
+    }
+    found_.notes.push_back(fmt::format("{}: {} of {} rows without a value{}", training.name,
+                                       thousands(empty), thousands(rows), not_searched));
     return true;
   }
 
