@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 #include <set>
 #include <string>
 
+#include "data/clear_levels.h"
+#include "data/middle.h"
 #include "data/options.h"
 #include "data/quantity.h"
 #include "data/roles.h"
@@ -17,23 +21,64 @@ namespace {
 
 constexpr std::size_t parts = 10;
 
-using Profile = std::vector<double>; // inputs x parts, as shares of the input's range
+using Profile = std::vector<double>; // inputs x parts, in units of replicate_tolerance
 
-// Scales the input's values in its own coordinate to a range of 1; empty if constant.
-std::vector<double> scaled(const data::Quantity& quantity, std::span<const double> values) {
-  std::vector<double> x(values.begin(), values.end());
-  if (x.empty()) return {};
-  const auto [least, most] = std::minmax_element(x.begin(), x.end());
-  const bool log = quantity.log_axis && *least > 0;
-  const double low = log ? std::log(*least) : *least;
-  const double range = (log ? std::log(*most) : *most) - low;
-  if (!(range > 0)) return {};
-  for (double& value : x)
-    value = ((log ? std::log(value) : value) - low) / range;
-  return x;
+// An input in its own coordinate, and how far apart two tests at one setting may be in it.
+struct Input {
+  std::vector<double> x; // empty if constant
+  double tolerance = 0;
+  bool differs = true; // between tests
+};
+
+// Standard deviation of the mean over a tenth of a usual test, by the scatter of rows about their
+// neighbours; the median does not see the steps of a course.
+double noise_of_part(const data::Dataset& data, const std::vector<double>& x) {
+  constexpr double of_median = 0.6745, of_difference = 6;
+  std::vector<double> sizes;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    for (std::size_t i = data.first_row[e] + 2; i < data.first_row[e + 1]; ++i)
+      sizes.push_back(std::abs(x[i] - 2 * x[i - 1] + x[i - 2]));
+  const double rows = static_cast<double>(x.size()) / static_cast<double>(data.experiments.size());
+  return data::median_of(std::move(sizes)) / of_median /
+         std::sqrt(of_difference * std::max(rows / static_cast<double>(parts), 1.0));
 }
 
-void append_means(Profile& profile, std::span<const double> x) {
+// Tests at one setting differ by the noise of their readings, and by how exactly the rig is set: to
+// a fiftieth of a pressure or speed, one kelvin, or the width of a level that is clearly apart from
+// the next one.
+Input input_of(const data::Quantity& quantity, const data::Dataset& data) {
+  constexpr double set_again = 0.02, kelvin = 1, noises = 3, most_noise = 0.1;
+  const std::span<const double> values = data.values(quantity.name);
+  Input in{{values.begin(), values.end()}, 0, true};
+  if (in.x.empty()) return {};
+  const bool log = quantity.log_axis && *std::min_element(in.x.begin(), in.x.end()) > 0;
+  if (log)
+    for (double& value : in.x)
+      value = std::log(value);
+  const auto [least, most] = std::minmax_element(in.x.begin(), in.x.end());
+  const double range = *most - *least;
+  if (!(range > 0)) return {};
+  std::vector<double> means;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    double sum = 0;
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
+      sum += data.row_weight(i) * in.x[i];
+    means.push_back(sum / static_cast<double>(data.source_rows(e)));
+  }
+  const double same = quantity.name == "s_mm"           ? set_again * range
+                      : quantity.name == "psi"          ? 0
+                      : quantity.name.starts_with("T_") ? kelvin
+                      : log                             ? set_again
+                                                        : 0;
+  const data::ClearLevels levels = data::clear_levels(means, same);
+  in.differs = quantity.name == "s_mm" || levels.count != 1;
+  const double noise = noises * std::numbers::sqrt2 * noise_of_part(data, in.x);
+  in.tolerance = std::max({replicate_tolerance * range, same, levels.width}) +
+                 (in.differs ? std::min(noise, most_noise * range) : noise);
+  return in;
+}
+
+void append_means(Profile& profile, std::span<const double> x, double scale) {
   const std::size_t n = x.size();
   for (std::size_t k = 0; k < parts; ++k) {
     const std::size_t begin = std::min(k * n / parts, n - 1);
@@ -41,7 +86,7 @@ void append_means(Profile& profile, std::span<const double> x) {
     double sum = 0;
     for (std::size_t i = begin; i < end; ++i)
       sum += x[i];
-    profile.push_back(sum / static_cast<double>(end - begin));
+    profile.push_back(scale * sum / static_cast<double>(end - begin));
   }
 }
 
@@ -120,9 +165,26 @@ Setting set_by_test(const data::Column& column, const std::vector<double>& value
   return setting;
 }
 
+// A column that hardly moves within a test (a humidity) agrees within what it usually moves by.
+Setting means_in_tests(const data::Column& column, const data::Dataset& data) {
+  Setting setting;
+  std::vector<double> means, ranges;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const auto first = column.values.begin() + static_cast<std::ptrdiff_t>(data.first_row[e]),
+               last = column.values.begin() + static_cast<std::ptrdiff_t>(data.first_row[e + 1]);
+    const auto [low, high] = std::minmax_element(first, last);
+    ranges.push_back(*high - *low);
+    means.push_back(std::accumulate(first, last, 0.0) / static_cast<double>(last - first));
+    setting.of_tests.push_back({means.back()});
+  }
+  const auto [low, high] = std::minmax_element(means.begin(), means.end());
+  setting.tolerance = std::max(replicate_tolerance * (*high - *low), data::median_of(ranges));
+  return setting;
+}
+
 Setting set_within_tests(const data::Column& column, const data::Dataset& data) {
   const std::set<double> levels(column.values.begin(), column.values.end());
-  if (levels.size() > few_levels) return {};
+  if (levels.size() > few_levels) return means_in_tests(column, data);
   Setting setting;
   setting.tolerance = same_share;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
@@ -168,12 +230,13 @@ std::vector<std::vector<std::size_t>> replicate_groups(const data::Dataset& data
   std::size_t inputs = 0;
   for (const data::Quantity& quantity : data::quantities()) {
     if (!data.has(quantity.name) || !(quantity.state || quantity.name == "T_tool_C")) continue;
-    const std::vector<double> x = scaled(quantity, data.values(quantity.name));
-    if (x.empty()) continue;
-    ++inputs;
+    const Input in = input_of(quantity, data);
+    if (in.x.empty()) continue;
+    inputs += in.differs;
     for (std::size_t e = 0; e < profiles.size(); ++e)
       append_means(profiles[e],
-                   {x.data() + data.first_row[e], data.first_row[e + 1] - data.first_row[e]});
+                   {in.x.data() + data.first_row[e], data.first_row[e + 1] - data.first_row[e]},
+                   replicate_tolerance / in.tolerance);
   }
   for (const data::Column& column : data.columns) {
     const Setting setting = setting_of(column, data);

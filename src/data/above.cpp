@@ -74,9 +74,8 @@ void add_values_above(io::CsvTable& raw, const Reading& options, FaultList& faul
   std::vector<std::string> taken;
   for (const io::CsvAbove& line : raw.above) {
     const std::string bare = io::read_header_name(line.name).name;
-    const bool is_named = wanted.count(line.name) || wanted.count(bare) ||
-                          in_formulas.count(line.name) ||
-                          in_formulas.count(name_in_formulas(line.name));
+    const bool is_named =
+        wanted.count(line.name) || wanted.count(bare) || is_named_by(in_formulas, line.name);
     const bool is_column =
         has_column(raw, line.name) || (has_column(raw, bare) && listed.count(line.name) == 0);
     if (!is_named || is_column) continue;

@@ -15,15 +15,46 @@
 #include "core/units.h"
 #include "data/quantity.h"
 #include "data/signs.h"
+#include "expr/letters.h"
 #include "expr/program.h"
 
 namespace frictab::data {
 
-std::string name_in_formulas(const std::string& column) {
+namespace {
+
+bool is_plain(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0;
+}
+
+// The name with _ for what is no letter or digit, once per character; `ascii`: for other letters
+// too.
+std::string written_name(const std::string& column, bool ascii) {
+  const std::string name = io::read_header_name(column).name;
   std::string out;
-  for (const char c : io::read_header_name(column).name)
-    out += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  for (std::string_view left = name; !left.empty();) {
+    const std::size_t letter = expr::letter_length(left),
+                      length = std::max<std::size_t>(1, utf8_length(left));
+    if (is_plain(left.front()) || (letter > 0 && !ascii))
+      out += left.substr(0, length);
+    else
+      out += '_';
+    left.remove_prefix(length);
+  }
   return out;
+}
+
+} // namespace
+
+std::string name_in_formulas(const std::string& column) {
+  return written_name(column, false);
+}
+
+bool is_named_by(const std::set<std::string>& names, const std::string& column) {
+  if (names.count(column) > 0 || names.count(name_in_formulas(column)) > 0) return true;
+  std::string by_byte = io::read_header_name(column).name; // as jobs had to be written once
+  std::replace_if(
+      by_byte.begin(), by_byte.end(), [](char c) { return !is_plain(c); }, '_');
+  return names.count(written_name(column, true)) > 0 || names.count(by_byte) > 0;
 }
 
 namespace {
@@ -58,7 +89,7 @@ std::vector<double> local_slopes(std::span<const double> t, std::span<const doub
 const Column* meant(Part& part, const std::string& name) {
   if (const Column* column = part.find(name)) return column;
   for (const Column& column : part.data.columns)
-    if (name_in_formulas(column.name) == name) return &column;
+    if (is_named_by({name}, column.name)) return &column;
   return nullptr;
 }
 
@@ -199,13 +230,25 @@ private:
       part_.faults.add(
           place,
           fmt::format("the formula of {} needs {}, which the data do not have", canonical, name),
-          suggest(name, known));
+          hint_of_mapped(name).value_or(suggest(name, known)));
     } else if (!column->levels.empty()) {
       part_.faults.add(place,
                        fmt::format("the formula of {} needs {}, which is text", canonical, name));
       return nullptr;
     }
     return column;
+  }
+
+  // A column that is mapped to a quantity has that name from then on.
+  std::optional<std::string> hint_of_mapped(const std::string& name) const {
+    for (const auto& [canonical, from] : options_.columns) {
+      const Quantity* const quantity = options_.find_quantity(canonical);
+      if (quantity && std::any_of(from.names.begin(), from.names.end(),
+                                  [&](const auto& column) { return is_named_by({name}, column); }))
+        return fmt::format("that column is {} here: write {} in the formula, in {}", canonical,
+                           canonical, quantity->unit);
+    }
+    return {};
   }
 
   Part& part_;
@@ -271,8 +314,7 @@ std::set<std::string> names_in_formulas(const DataOptions& options) {
 std::vector<std::string> computed_from(const DataOptions& options, const std::string& column) {
   std::vector<std::string> quantities;
   for_each_formula(options, [&](const std::string& canonical, const auto& names) {
-    if (names.count(column) > 0 || names.count(name_in_formulas(column)) > 0)
-      quantities.push_back(canonical);
+    if (is_named_by(names, column)) quantities.push_back(canonical);
   });
   return quantities;
 }

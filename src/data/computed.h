@@ -16,10 +16,11 @@ void take_slopes(Part& part, const DataOptions& options);
 
 // Evaluates [data.columns] NAME = { formula = "rpm*radius_mm*2*pi/60" }. Names in a formula are
 // quantities in their canonical units, or other columns as the file gives them: by their names
-// without a trailing unit, optionally with _ for every character other than letters and digits; pi
-// is known. A formula may use the columns of other formulas. Faults are reported at the formula. If
-// a formula of the speed, the friction or the stress takes the magnitude of a signed column
-// (abs(x), sqrt(x^2)), its signed values are kept as well (signs.h).
+// without a trailing unit, with _ for every character other than letters and digits; _ may stand
+// for a letter beyond ASCII as well. pi is known. A formula may use the columns of other formulas.
+// Faults are reported at the formula. If a formula of the speed, the friction or the stress takes
+// the magnitude of a signed column (abs(x), sqrt(x^2)), its signed values are kept as well
+// (signs.h).
 void compute_formulas(Part& part, const ReadRequest& options);
 
 // A column's name as formulas write it: "Drehzahl innen [1/min]" is Drehzahl_innen.
@@ -27,6 +28,8 @@ std::string name_in_formulas(const std::string& column);
 
 // The names that formulas of the job, for all or some files, use.
 std::set<std::string> names_in_formulas(const DataOptions& options);
+// Whether one of these names is the column's.
+bool is_named_by(const std::set<std::string>& names, const std::string& column);
 
 // The quantities whose formulas in the job, for all or some files, use a column of this name.
 std::vector<std::string> computed_from(const DataOptions& options, const std::string& column);

@@ -158,8 +158,8 @@ std::vector<std::string> unused_tests(const Dataset& data, const Beside& beside)
     for (const std::string& name : beside.second->experiments)
       add("data.join", name);
   if (!beside.tests) return unused;
-  for (const std::string& experiment : data.experiments)
-    if (const std::string* const name = beside.tests->name_of(experiment)) used.insert(*name);
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    if (const std::string* const name = beside.tests->name_of(data, e)) used.insert(*name);
   for (const auto& [name, row] : beside.tests->row)
     add(beside.tests->file, name);
   return unused;
@@ -181,7 +181,7 @@ void complete(Dataset& all, const ReadRequest& options, const Beside& beside) {
           fmt::format("data.join: {} {} left out ({}): its columns are interpolated "
                       "between those before and after",
                       thousands(dropped.rows), dropped.rows == 1 ? "row" : "rows", dropped.rule));
-  if (beside.tests) check_numbered(*beside.tests, all.experiments);
+  if (beside.tests) check_numbered(*beside.tests, all);
   report_rows_left_out(all);
   report_signs(all, options.force_zero);
   all.unused = unused_tests(all, beside);

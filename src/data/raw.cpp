@@ -38,8 +38,7 @@ std::function<bool(const std::string&)> wanted_by_pattern(const DataOptions& opt
   std::optional<Pattern> tests;
   if (!options.wide.empty()) tests = test_columns(options.wide, options.wide_place);
   return [tests, formulas = names_in_formulas(options)](const std::string& name) {
-    return formulas.count(name) > 0 || formulas.count(name_in_formulas(name)) > 0 ||
-           (tests && tests->search(name));
+    return is_named_by(formulas, name) || (tests && tests->search(name));
   };
 }
 

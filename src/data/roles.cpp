@@ -3,19 +3,25 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "core/no_value.h"
 #include "core/pattern.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "data/clear_levels.h"
 #include "data/column_names.h"
 #include "data/computed.h"
 #include "data/disguise.h"
+#include "data/middle.h"
 #include "data/quantity.h"
 #include "data/recordings.h"
 #include "data/scale.h"
@@ -194,6 +200,16 @@ public:
   std::set<double> values; // first ones of tests, and all while they are few
   bool is_text = false, within = false;
   bool is_constant() const { return is_text ? words.size() <= 1 : values.size() <= 1; }
+  // Whether tests share the values that they were run at, as those of a length or a weight.
+  bool is_set() const { return !within && (rows > tests || 2 * values.size() <= tests); }
+  // Usual range within a test as a share of the range of the tests' means; NaN for text, or for
+  // less than 3 tests.
+  double share_within() const {
+    if (means.size() < 3 || means.size() < tests) return no_value;
+    const auto [low, high] = std::minmax_element(means.begin(), means.end());
+    return median_of(ranges) / (*high - *low);
+  }
+  std::vector<double> means, ranges; // of the tests without an empty cell
 
 private:
   void look_at(const Column& column, std::size_t begin, std::size_t end) {
@@ -214,6 +230,19 @@ private:
       }
     }
     filled_tests += filled;
+    if (!is_text) look_at_numbers({column.values.data() + begin, end - begin});
+  }
+
+  void look_at_numbers(std::span<const double> of_test) {
+    double low = of_test.front(), high = low, sum = 0;
+    for (const double value : of_test) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+      sum += value;
+    }
+    if (!std::isfinite(sum)) return;
+    means.push_back(sum / static_cast<double>(of_test.size()));
+    ranges.push_back(high - low);
   }
 };
 
@@ -267,14 +296,16 @@ private:
     return by_formula(name);
   }
 
-  // Role of a formula's input: columns from which the job computes friction are responses, those
-  // from which it computes a state are states.
+  // Role of a formula's input: columns from which the job computes friction are responses, even if
+  // a state is computed from them too; a length or a weight that was set is a state then. Columns
+  // from which only a state is computed are states.
   Given by_formula(const std::string& name) const {
     std::string friction, state;
     for (const std::string& canonical : computed_from(options_, name))
       (is_measured(canonical) ? friction : state) = canonical;
+    if (!friction.empty() && (state.empty() || !Look(parts_, name).is_set()))
+      return {Role::response, friction + " is computed from it"};
     if (!state.empty()) return {Role::state, state + " is computed from it"};
-    if (!friction.empty()) return {Role::response, friction + " is computed from it"};
     return {};
   }
 
@@ -291,27 +322,74 @@ private:
                        why, name);
   }
 
-  // A column with the set values of a state that was measured as well: a nominal load.
+  // A column with the set values of a state that was measured as well, or of a reading from which
+  // the job computes one: a nominal load, in any unit that sets such a state.
   Given nominal(const std::string& name, std::size_t levels) const {
-    const std::string header = io::read_header_name(name).unit,
-                      own = parts_.front()->find(name)->unit;
-    for (const char* const state :
-         {"sigma_n_MPa", "F_N_N", "v_rel_mm_s", "T_tool_C", "T_contact_C"}) {
-      if (!parts_.front()->has(state)) continue;
-      const std::string unit = find_quantity(state)->unit, ends = !own.empty() ? own
-                                                                  : !header.empty()
-                                                                      ? header
-                                                                      : unit_in_name(name, unit);
-      const bool is_force =
-          std::string(state) == "sigma_n_MPa" &&
-          (convert(ends, "N") || !unit_in_name(name, "N").empty() ||
-           (ends.empty() && fits("(^|_)(load|force|kraft|last|fn|f_n)(_|$)", plain_name(name))));
-      const auto slope = slope_along(name, state);
-      if (slope &&
-          (is_force || convert(ends, unit) || (ends.empty() && is_other_unit(*slope, levels))))
-        return {Role::ignore, fmt::format("the set {}, which is measured", state)};
+    for (const std::string& measured : measured_for_states()) {
+      const auto slope = slope_along(name, measured);
+      if (!slope) continue;
+      const Quantity* const state = find_quantity(measured);
+      const std::string unit = state ? state->unit : unit_of(measured);
+      const SetKind *const kind = kind_of(name), *const of_measured =
+                                                     state ? kind_of_unit(unit) : kind_of(measured);
+      if (!unit_like(name, unit).empty() || (kind && kind == of_measured && *slope > 0) ||
+          (!kind && unit_of(name).empty() && is_other_unit(*slope, levels)))
+        return {Role::ignore, fmt::format("the set {}, which is measured", measured)};
     }
     return {};
+  }
+
+  // States that a rig sets, and the readings from which the job computes a state or friction.
+  std::vector<std::string> measured_for_states() const {
+    std::vector<std::string> names;
+    for (const char* const state :
+         {"sigma_n_MPa", "F_N_N", "v_rel_mm_s", "T_tool_C", "T_contact_C"})
+      if (parts_.front()->has(state)) names.push_back(state);
+    for (const Column& column : parts_.front()->columns)
+      if (!find_quantity(column.name) && column.levels.empty() &&
+          !computed_from(options_, column.name).empty() && Look(parts_, column.name).within)
+        names.push_back(column.name);
+    return names;
+  }
+
+  std::string unit_of(const std::string& name) const {
+    const std::string& own = parts_.front()->find(name)->unit;
+    return own.empty() ? io::read_header_name(name).unit : own;
+  }
+
+  // The column's unit if it converts to the wanted one; the end of a name goes before what a slash
+  // seems to separate ("Speed mm/s").
+  std::string unit_like(const std::string& name, const std::string& wanted) const {
+    if (parts_.front()->find(name)->unit.empty())
+      if (std::string in_name = unit_in_name(name, wanted); !in_name.empty()) return in_name;
+    const std::string unit = unit_of(name);
+    return convert(unit, wanted) ? unit : "";
+  }
+
+  // A kind of quantity that is set in several units: a speed in mm/s or by a number of turns.
+  struct SetKind {
+    std::array<const char*, 3> units;
+    const char* names; // of columns without a unit
+  };
+  static constexpr SetKind set_kinds[] = {
+      {{"N", "MPa", "kg"}, "(^|_)(load|force|fn|f_n|pressure)(_|$)|(kraft|last|druck)(_|$)"},
+      {{"mm/s", "1/min", "rpm"}, "(^|_)(speed|velocity|rpm|u_min)(_|$)|geschw|drehzahl"}};
+
+  static const SetKind* kind_of_unit(const std::string& unit) {
+    for (const SetKind& kind : set_kinds)
+      for (const char* const one : kind.units)
+        if (convert(unit, one)) return &kind;
+    return nullptr;
+  }
+
+  // nullptr for a column of another kind.
+  const SetKind* kind_of(const std::string& name) const {
+    for (const SetKind& kind : set_kinds)
+      for (const char* const one : kind.units)
+        if (!unit_like(name, one).empty()) return &kind;
+    for (const SetKind& kind : set_kinds)
+      if (unit_of(name).empty() && fits(kind.names, plain_name(name))) return &kind;
+    return nullptr;
   }
 
   // The ratio of one unit to another, where the file gives none: 50 for 0.05 MPa. Two levels may
@@ -323,8 +401,9 @@ private:
            (levels > 2 || std::abs(tens) < near);
   }
 
-  // The slope if the means of a state over the tests are in proportion to the column, to within a
-  // twentieth. Temperatures have to be a straight line.
+  // The slope if the state's middles of the tests are in proportion to the column, to within a
+  // twentieth. (A mean would count the way up to a set speed as well.) Temperatures have to be a
+  // straight line.
   std::optional<double> slope_along(const std::string& name, const std::string& state) const {
     constexpr double near = 0.05;
     std::vector<double> x, y;
@@ -333,7 +412,7 @@ private:
         const std::size_t begin = part->first_row[e], end = part->first_row[e + 1];
         const auto values = part->values(state).subspan(begin, end - begin);
         x.push_back(part->values(name)[begin]);
-        y.push_back(std::accumulate(values.begin(), values.end(), 0.0) / double(values.size()));
+        y.push_back(median_of({values.begin(), values.end()}));
       }
     const double n = static_cast<double>(x.size());
     const bool at_zero = !state.starts_with("T_");
@@ -372,7 +451,7 @@ private:
     return {Role::label, fmt::format("{} levels", look.words.size())};
   }
 
-  static Given of_numbers(const std::string& name, const Look& look) {
+  Given of_numbers(const std::string& name, const Look& look) const {
     if (look.is_constant()) return {Role::setting, "one value in all rows"};
     if (const Given named = role_by_name(name, look.within); !named.why.empty()) return named;
     const bool one_row_each = look.rows == look.tests;
@@ -383,7 +462,40 @@ private:
     if (look.values.size() <= most_held && look.rows > look.tests &&
         look.held * (rows_held + 1) >= (look.rows - look.tests) * rows_held)
       return {Role::setting, fmt::format("held at {} values within tests", look.values.size())};
+    if (hardly_moves(look)) {
+      const auto [low, high] = std::minmax_element(look.means.begin(), look.means.end());
+      return {Role::setting, fmt::format("moves by {:.2g} in a test, {:.4g} to {:.4g} between them",
+                                         median_of(look.ranges), *low, *high)};
+    }
     return {Role::channel, "varies within tests, measured along with friction"};
+  }
+
+  // Whether a column is all but constant in each test, and much more so than friction, from which
+  // it can therefore not follow: the air's humidity. Another reading of a state is none.
+  bool hardly_moves(const Look& look) const {
+    constexpr double most = 0.03, of_friction = 1.0 / 3, of_state = 0.95;
+    const double share = look.share_within();
+    if (!(share <= most) || !parts_.front()->has("tau_R_MPa") ||
+        !(share <= of_friction * Look(parts_, "tau_R_MPa").share_within()))
+      return false;
+    const std::vector<std::string> states = measured_for_states();
+    return std::none_of(states.begin(), states.end(), [&](const std::string& state) {
+      return squared_correlation_of(look.means, Look(parts_, state).means) > of_state;
+    });
+  }
+
+  static double squared_correlation_of(const std::vector<double>& x, const std::vector<double>& y) {
+    if (x.size() != y.size()) return 0;
+    const auto n = static_cast<double>(x.size());
+    const double mx = std::accumulate(x.begin(), x.end(), 0.0) / n,
+                 my = std::accumulate(y.begin(), y.end(), 0.0) / n;
+    double xx = 0, xy = 0, yy = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      xx += (x[i] - mx) * (x[i] - mx);
+      xy += (x[i] - mx) * (y[i] - my);
+      yy += (y[i] - my) * (y[i] - my);
+    }
+    return xx * yy > 0 ? xy * xy / (xx * yy) : 0;
   }
 
   std::span<Dataset* const> parts_;
@@ -535,6 +647,163 @@ void report_bad_tests(std::span<Dataset* const> parts, const std::string& name) 
                   join(quoted, ", ")));
 }
 
+// ---- names of combinations ----
+
+// Names that people give to combinations of settings.
+constexpr const char* combination_names =
+    "^((test|versuchs?|mess|exp|experiment|replicates?|repeat|wiederhol\\w*|parameter|process|run|"
+    "sample|proben|load)_?)?(group|gruppe|series|serie|reihe|condition|bedingung|combination|combo|"
+    "kombination|configuration|config|case|variante?|block|cell|zelle|design_?point)"
+    "(en|s)?(_?(id|no|nr|number|nummer|name))?$";
+
+// What tests were run at: one value of each test.
+struct Factor {
+  std::string name;
+  std::vector<std::size_t> of; // level of each test
+  std::size_t count = 0;
+  std::vector<std::string> texts; // of each test
+};
+
+// Recorded columns with values that tests share.
+std::optional<Factor> factor_of(std::span<Dataset* const> parts, const std::string& name) {
+  Factor factor{name, {}, 0, texts_of_tests(parts, name)};
+  const std::set<std::string> levels(factor.texts.begin(), factor.texts.end());
+  if (levels.size() < 2 || 2 * levels.size() > factor.texts.size()) return {};
+  for (const std::string& text : factor.texts)
+    factor.of.push_back(static_cast<std::size_t>(std::distance(levels.begin(), levels.find(text))));
+  factor.count = levels.size();
+  return factor;
+}
+
+// States that were run at clear levels. Their texts are the tests' means.
+std::optional<Factor> factor_of_state(std::span<Dataset* const> parts, const Quantity& state) {
+  std::vector<double> means;
+  for (const Dataset* part : parts) {
+    if (!part->has(state.name)) return {};
+    const auto values = part->values(state.name);
+    for (std::size_t e = 0; e < part->experiments.size(); ++e)
+      means.push_back(
+          std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(part->first_row[e]),
+                          values.begin() + static_cast<std::ptrdiff_t>(part->first_row[e + 1]),
+                          0.0) /
+          static_cast<double>(part->first_row[e + 1] - part->first_row[e]));
+  }
+  if (!std::all_of(means.begin(), means.end(), [](double x) { return std::isfinite(x); }))
+    return {};
+  Factor factor{state.name, {}, 0, {}};
+  for (double& mean : means) {
+    factor.texts.push_back(fmt::format("{}", mean));
+    if (state.log_axis && mean > 0) mean = std::log(mean);
+  }
+  ClearLevels levels = clear_levels(means, 0);
+  if (levels.count < 2) return {};
+  factor.of = std::move(levels.of);
+  factor.count = levels.count;
+  return factor;
+}
+
+// Words and numbers of a text: "base", "4" and "mpa" of "Base_4MPa".
+std::vector<std::string> pieces_of(const std::string& text) {
+  std::vector<std::string> pieces;
+  int before = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const int kind = std::isdigit(byte) || c == '.'       ? 1
+                     : std::isalpha(byte) || byte >= 0x80 ? 2
+                                                          : 0;
+    if (kind != 0 && kind != before) pieces.emplace_back();
+    if (kind != 0) pieces.back() += static_cast<char>(std::tolower(byte));
+    before = kind;
+  }
+  return pieces;
+}
+
+// Whether the name's text of every test holds the factor's: a word, or a number to within a tenth.
+bool is_named_in(const Factor& name, const Factor& factor) {
+  constexpr double near = 0.1;
+  for (std::size_t e = 0; e < name.of.size(); ++e) {
+    const std::vector<std::string> there = pieces_of(name.texts[e]);
+    double number = 0;
+    const char* const end = factor.texts[e].data() + factor.texts[e].size();
+    const auto read = std::from_chars(factor.texts[e].data(), end, number);
+    const bool is_number = read.ec == std::errc() && read.ptr == end;
+    const auto holds = [&](const std::string& piece) {
+      return std::find(there.begin(), there.end(), piece) != there.end();
+    };
+    const auto is_near = [&](const std::string& piece) {
+      double value = 0;
+      return std::from_chars(piece.data(), piece.data() + piece.size(), value).ec == std::errc() &&
+             std::abs(value - number) <= near * std::abs(number);
+    };
+    const std::vector<std::string> own = pieces_of(factor.texts[e]);
+    if (is_number ? std::none_of(there.begin(), there.end(), is_near)
+                  : own.empty() || !std::all_of(own.begin(), own.end(), holds))
+      return false;
+  }
+  return true;
+}
+
+// Whether each level of `name` has one level of the factor.
+bool has_one_each(const Factor& name, const Factor& factor) {
+  std::map<std::size_t, std::size_t> level;
+  for (std::size_t e = 0; e < name.of.size(); ++e)
+    if (level.emplace(name.of[e], factor.of[e]).first->second != factor.of[e]) return false;
+  return factor.count < name.count;
+}
+
+std::size_t count_combinations(const std::vector<const Factor*>& factors) {
+  std::set<std::vector<std::size_t>> all;
+  for (std::size_t e = 0; e < factors.front()->of.size(); ++e) {
+    std::vector<std::size_t> at;
+    for (const Factor* factor : factors)
+      at.push_back(factor->of[e]);
+    all.insert(std::move(at));
+  }
+  return all.size();
+}
+
+// The settings whose combinations a column names, if its own name or its texts say so: one level
+// for each combination. Empty otherwise, as for a lubricant that was tried at one load alone.
+std::vector<std::string> named_combination(const Factor& column, bool is_text,
+                                           const std::vector<Factor>& factors) {
+  std::vector<const Factor*> refined, in_texts;
+  for (const Factor& factor : factors) {
+    if (factor.name == column.name || !has_one_each(column, factor)) continue;
+    refined.push_back(&factor);
+    if (is_text && is_named_in(column, factor)) in_texts.push_back(&factor);
+  }
+  const bool by_name = fits(combination_names, plain_name(column.name));
+  for (const auto& some : {in_texts, by_name ? refined : in_texts}) {
+    if (some.size() < 2 || count_combinations(some) != column.count) continue;
+    std::vector<std::string> names;
+    for (const Factor* factor : some)
+      names.push_back(factor->name);
+    return names;
+  }
+  return {};
+}
+
+// Leaves out columns that name combinations of the others: they would explain whatever those do,
+// and could not be set to anything new.
+void drop_names_of_combinations(std::span<Dataset* const> parts) {
+  std::vector<Factor> factors;
+  for (const Column& column : parts.front()->columns) {
+    const Quantity* const state = find_quantity(column.name);
+    const bool is_state = state && state->state && column.name != "s_mm";
+    if (!is_state && column.role != Role::label && column.role != Role::setting) continue;
+    if (auto factor = is_state ? factor_of_state(parts, *state) : factor_of(parts, column.name))
+      factors.push_back(std::move(*factor));
+  }
+  for (const Factor& factor : factors) {
+    const Column& column = *parts.front()->find(factor.name);
+    if (find_quantity(column.name) || column.why == set_by_job) continue;
+    const std::vector<std::string> names =
+        named_combination(factor, !column.levels.empty(), factors);
+    if (!names.empty())
+      set_role(parts, factor.name, {Role::ignore, "names combinations of " + join(names, ", ")});
+  }
+}
+
 } // namespace
 
 void find_roles(std::span<Dataset* const> parts, const DataOptions& options, FaultList& faults) {
@@ -549,6 +818,7 @@ void find_roles(std::span<Dataset* const> parts, const DataOptions& options, Fau
           "{} belongs to the measured friction, no cause of it: {}", column.name, given.why));
   }
   drop_repeated_columns(parts);
+  drop_names_of_combinations(parts);
 }
 
 } // namespace frictab::data

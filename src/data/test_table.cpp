@@ -80,16 +80,31 @@ const std::string* TestTable::name_of(const std::string& experiment) const {
                                                                             : nullptr;
 }
 
-void check_numbered(const TestTable& table, const std::vector<std::string>& experiments) {
-  std::map<std::string, std::string> known; // experiment by the table's name
-  for (const std::string& experiment : experiments) {
-    const std::string* const name = table.name_of(experiment);
+namespace {
+
+// What a test has of its own in the table: the file of an interval, or the test.
+const std::string& filed_as(const Dataset& data, std::size_t test) {
+  const bool is_interval = test < data.filed.size() && data.filed[test].interval;
+  return is_interval ? data.filed[test].file : data.experiments[test];
+}
+
+} // namespace
+
+const std::string* TestTable::name_of(const Dataset& data, std::size_t test) const {
+  if (const auto own = row.find(data.experiments[test]); own != row.end()) return &own->first;
+  return name_of(filed_as(data, test));
+}
+
+void check_numbered(const TestTable& table, const Dataset& data) {
+  std::map<std::string, std::size_t> known; // first test by the table's name
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const std::string* const name = table.name_of(data, e);
     if (!name) continue;
-    const auto [first, is_new] = known.emplace(*name, experiment);
-    if (!is_new)
+    const auto [first, is_new] = known.emplace(*name, e);
+    if (!is_new && filed_as(data, first->second) != filed_as(data, e))
       throw InputError({table.file, table.header_line, 0},
                        fmt::format("tests '{}' and '{}' would both be '{}' of this table",
-                                   first->second, experiment, *name),
+                                   data.experiments[first->second], data.experiments[e], *name),
                        "name the tests as the files are called");
   }
 }
@@ -133,12 +148,15 @@ void add_test_columns(Part& part, const TestTable& table) {
   const Dataset& data = part.data;
   std::vector<std::size_t> row; // row of the table for each experiment
   std::vector<std::string> missing, known;
-  bool by_number = false;
-  for (const std::string& name : data.experiments) {
-    const std::string* const found = table.name_of(name);
+  bool by_number = false, by_file = false;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const std::string& name = data.experiments[e];
+    const std::string* const found = table.name_of(data, e);
     row.push_back(found ? table.row.at(*found) : 0);
     if (!found) missing.push_back(name);
-    by_number = by_number || (found && *found != name);
+    if (!found || *found == name) continue;
+    (filed_as(data, e) == name ? by_number : by_file) = true;
+    by_number = by_number || *found != filed_as(data, e);
   }
   for (const auto& [name, at] : table.row)
     known.push_back(name);
@@ -149,6 +167,8 @@ void add_test_columns(Part& part, const TestTable& table) {
   if (!missing.empty()) return;
   if (by_number)
     part.data.notes.push_back(table.file + ": tests are found by the numbers in their names");
+  if (by_file)
+    part.data.notes.push_back(table.file + ": a row holds for all intervals of its file");
   std::set<std::string> there;
   for (const Column& column : part.data.columns)
     there.insert(column.name);

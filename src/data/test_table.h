@@ -20,6 +20,8 @@ struct TestTable {
   // The table's name of an experiment: its own, or the only one with the same number if
   // is_same_test(); nullptr if there is none.
   const std::string* name_of(const std::string& experiment) const;
+  // The same for a test of a dataset; an interval may have the row of its file.
+  const std::string* name_of(const Dataset& data, std::size_t test) const;
   std::size_t header_line = 0;
 };
 
@@ -36,8 +38,8 @@ long first_number(const std::string& name);
 bool is_same_test(const std::string& a, const std::string& b);
 
 // Throws InputError if two experiments stand for one row of the table because their numbers are
-// equal.
-void check_numbered(const TestTable& table, const std::vector<std::string>& experiments);
+// equal. Intervals of one file may share a row.
+void check_numbered(const TestTable& table, const Dataset& data);
 
 // Adds the table's columns to the rows of each experiment. Adds a fault if an experiment is not in
 // the table, or a column is in both.

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "expr/expr.h"
+#include "expr/letters.h"
 
 namespace frictab::expr {
 
@@ -18,11 +19,11 @@ namespace {
 constexpr int max_depth = 200;    // nested brackets; nobody writes deeper formulas
 constexpr std::size_t shown = 60; // bytes shown of a long formula on either side of a fault
 
-bool begins_name(char c) {
+bool is_ascii_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
-bool goes_on_in_name(char c) {
-  return begins_name(c) || (c >= '0' && c <= '9');
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
 }
 
 class Parser {
@@ -33,7 +34,7 @@ public:
     if (text_.size() > FormulaLimits::text)
       too_large(fmt::format("{} bytes", text_.size()), FormulaLimits::text);
     Expr e = sum();
-    if (at_ < text_.size()) fail(fmt::format("unexpected '{}'", text_[at_]));
+    if (at_ < text_.size()) unexpected();
     // finds a division by a constant 0, which is folded immediately
     for_each_part(e, [this](const Expr& part) {
       if (part.op() == Op::constant && !std::isfinite(part.value()))
@@ -46,6 +47,12 @@ private:
   [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
     throw InputError({std::string(file_), 1, at_ + 1}, what + " in the formula '" + excerpt() + "'",
                      hint);
+  }
+
+  [[noreturn]] void unexpected() const {
+    const std::string_view left = text_.substr(at_);
+    fail(fmt::format("unexpected '{}'",
+                     left.substr(0, std::max<std::size_t>(1, utf8_length(left)))));
   }
 
   [[noreturn]] void too_large(const std::string& what, std::size_t most) const {
@@ -141,9 +148,9 @@ private:
       return e;
     }
     const char c = text_[at_];
-    if ((c >= '0' && c <= '9') || c == '.') return number();
-    if (begins_name(c)) return name();
-    fail(fmt::format("unexpected '{}'", c));
+    if (is_digit(c) || c == '.') return number();
+    if (letter_length(text_.substr(at_)) > 0) return name();
+    unexpected();
   }
 
   Expr number() {
@@ -158,8 +165,13 @@ private:
 
   Expr name() {
     std::size_t end = at_;
-    while (end < text_.size() && goes_on_in_name(text_[end]))
-      ++end;
+    while (end < text_.size())
+      if (const std::size_t letter = letter_length(text_.substr(end)); letter > 0)
+        end += letter;
+      else if (is_digit(text_[end]))
+        ++end;
+      else
+        break;
     if (end - at_ > FormulaLimits::name)
       fail(fmt::format("a name of {} characters", end - at_),
            fmt::format("at most {}", FormulaLimits::name));
@@ -230,9 +242,27 @@ private:
 
 } // namespace
 
+std::size_t letter_length(std::string_view text) {
+  if (text.empty()) return 0;
+  if (is_ascii_letter(text.front())) return 1;
+  const std::size_t length = utf8_length(text);
+  if (length < 2) return 0;
+  constexpr unsigned lead_bits[] = {0, 0, 0x1F, 0x0F, 0x07};
+  unsigned code = static_cast<unsigned char>(text.front()) & lead_bits[length];
+  for (const char c : text.substr(1, length - 1))
+    code = code << 6u | (static_cast<unsigned char>(c) & 0x3Fu);
+  constexpr unsigned micro = 0xB5, first_letter = 0xC0, times = 0xD7, divided = 0xF7;
+  const bool is_sign = (code < first_letter && code != micro) || code == times || code == divided ||
+                       (code >= 0x2000 && code <= 0x2BFF) || (code >= 0x3000 && code <= 0x303F) ||
+                       code >= 0xE000;
+  return is_sign ? 0 : length;
+}
+
+// Names that are written into routines have letters of ASCII alone.
 bool is_name(std::string_view text) {
-  return !text.empty() && begins_name(text.front()) &&
-         std::all_of(text.begin(), text.end(), goes_on_in_name);
+  return !text.empty() && is_ascii_letter(text.front()) &&
+         std::all_of(text.begin(), text.end(),
+                     [](char c) { return is_ascii_letter(c) || is_digit(c); });
 }
 
 Expr parse_expr(std::string_view text, std::string_view file) {

@@ -440,7 +440,7 @@ inline constexpr double two_sided_std_errors = 1.96;
 // No plan is given where more tests would be needed (nobody would run them), or where it succeeds
 // with a smaller probability. Chosen, not measured.
 inline constexpr double most_tests_needed = 60;
-inline constexpr double smallest_power = 0.1;
+inline constexpr double smallest_power = 0.2;
 // A plan with one setting fewer is preferred if it keeps this share of the standardised amplitude.
 // Chosen, not measured.
 inline constexpr double kept_share_of_amplitude = 0.97;

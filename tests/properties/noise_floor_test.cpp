@@ -68,6 +68,48 @@ TEST(Replicates, MayDifferByOnePercentOfTheRangeButNotByTwo) {
   EXPECT_EQ(replicate_groups(levels({1, 2, 3, 4}, {500, 515, 1000, 2000})).size(), 0u);
 }
 
+// Four loads and one speed, three tests each, as a rig holds and reads them.
+TEST(Replicates, AreSeenWhereStatesAreHeldWithScatter) {
+  Random random(5, 0);
+  const auto campaign = [&](const std::vector<double>& loads) {
+    std::vector<double> tau, sigma;
+    for (const double load : loads)
+      for (int again = 0; again < 3; ++again) {
+        tau.push_back(load / 10);
+        sigma.push_back(load * (1 + 0.01 * random.normal())); // as set
+      }
+    Dataset data = levels(tau, sigma);
+    data.columns.push_back({"v_rel_mm_s", "mm/s", {}, {}});
+    for (double& value : data.columns[0].values) {
+      value *= 1 + 0.01 * random.normal(); // as read
+      data.columns.back().values.push_back(50 + 0.5 * random.normal());
+    }
+    return data;
+  };
+  const auto groups = replicate_groups(campaign({4, 12, 40, 90}));
+  ASSERT_EQ(groups.size(), 4u);
+  for (const auto& group : groups)
+    EXPECT_EQ(group.size(), 3u);
+  std::vector<double> apart;
+  for (int i = 0; i < 12; ++i)
+    apart.push_back(4 * std::pow(1.2, i));
+  for (const auto& group : replicate_groups(campaign(apart)))
+    EXPECT_EQ(group.front() / 3, group.back() / 3) << "loads a fifth apart are no repeats";
+}
+
+TEST(Replicates, DifferInAReadingOfTheAirThatMovesALittle) {
+  Random random(6, 0);
+  Dataset data = levels({1, 2, 3, 4, 5, 6}, {500, 500, 500, 1000, 1000, 1000});
+  data.columns.push_back({"humidity", "%", {}, {}});
+  data.columns.back().role = data::Role::setting;
+  for (std::size_t i = 0; i < data.rows(); ++i)
+    data.columns.back().values.push_back((i / 20 % 3 == 2 ? 60 : 30) + 0.1 * random.normal());
+  const auto groups = replicate_groups(data);
+  ASSERT_EQ(groups.size(), 2u);
+  for (const auto& group : groups)
+    EXPECT_EQ(group.size(), 2u);
+}
+
 TEST(Replicates, AreNotClaimedWhereNothingTellsExperimentsApart) {
   Dataset data = levels({1, 2, 3}, {500, 500, 500});
   std::erase_if(data.columns, [](const data::Column& c) { return c.name == "psi"; });

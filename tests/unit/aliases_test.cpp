@@ -87,6 +87,19 @@ TEST(Aliases, AreNoneOfWhatIsCrossedOrNamesTestsOrVariesWithin) {
   EXPECT_THAT(aliases(data), IsEmpty());
 }
 
+TEST(Aliases, AskForNoTestOnAnotherDateNorForASourceOfTheState) {
+  Dataset data = two_pressures();
+  add_setting(data, "Date", per_test([](std::size_t e) { return double(e % 2); }),
+              {"2021-11-09", "2021-11-10"});
+  data.columns.back().role = data::Role::order;
+  const auto found = aliases(data);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(found[0].text, "Date cannot be distinguished from sigma_n_MPa: they change together; "
+                           "tests at the sigma_n_MPa of the first ones would");
+  data.columns.back().role = data::Role::state; // the pressure is computed from it
+  EXPECT_THAT(aliases(data), IsEmpty());
+}
+
 TEST(Aliases, AreNoneOfAStateThatIsTheSameInAllTests) {
   GainCampaign c = GainCampaign::spread(16, 3);
   for (std::size_t e = 0; e < 16; ++e) {

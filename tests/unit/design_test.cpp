@@ -92,6 +92,21 @@ TEST(CandidateTests, NumbersThatTestsShareAreSetToTheseAndNothingBelowZero) {
   EXPECT_THAT(settings[1].text, ElementsAre("0", "1.93", "3.85"));
 }
 
+TEST(CandidateTests, NoDateAndNoRunningNumberIsSet) {
+  std::vector<TestRun> tests;
+  for (int e = 0; e < 8; ++e)
+    tests.push_back({100.0 + 10 * e, 10, 20, {{"Date", e / 4}, {"lfd", 1.0 + e}, {"interval", e}}});
+  Dataset data = campaign_of(tests);
+  for (data::Column& column : data.columns) {
+    if (column.name == "Date") column.levels = {"2021-11-09", "2021-11-10"};
+    if (column.name == "Date" || column.name == "lfd") column.role = data::Role::order;
+  }
+  EXPECT_THAT(settings_of(data, {"Date", "lfd", "interval"}), IsEmpty());
+  for (data::Column& column : data.columns)
+    if (column.name == "lfd") column.role = data::Role::setting;
+  EXPECT_EQ(settings_of(data, {"lfd"}).size(), 1u);
+}
+
 TEST(CandidateTests, WhatFollowsFromOthersIsSetThroughThem) {
   const Dataset data = campaign_of(three_tests());
   const auto names = [&](const char* column) {

@@ -66,6 +66,33 @@ TEST_F(LoadFormula, TakesQuantitiesInTheirUnitsAndOthersAsTheFileGivesThem) {
                                    "Kontakt_flaeche in m2"));
 }
 
+TEST_F(LoadFormula, TakesALetterBeyondAsciiAsOneCharacterInAnyEncoding) {
+  for (const std::string name : {"R\xc3\xbc"
+                                 "ckzug",
+                                 "R\xfc"
+                                 "ckzug"}) // UTF-8, Latin-1
+    for (const std::string written : {"R\xc3\xbc"
+                                      "ckzug_F2",
+                                      "R_ckzug_F2", "R__ckzug_F2"}) {
+      formula("sigma_n_MPa", written + "*2");
+      EXPECT_THAT(column(read(name + " F2 [kN],tau_R_MPa\n5,1\n6,1\n"), "sigma_n_MPa"),
+                  ElementsAre(10, 12))
+          << written;
+    }
+  formula("sigma_n_MPa", "\xc2\xb5ges\xc2\xb7"
+                         "2");
+  EXPECT_THAT(fault("\xc2\xb5ges,tau_R_MPa\n5,1\n6,1\n"), HasSubstr("unexpected '\xc2\xb7'"));
+}
+
+TEST_F(LoadFormula, SaysUnderWhichNameAMappedColumnIsKnown) {
+  options.columns["F_N_N"].names = {"Vorspannkraft"};
+  formula("sigma_n_MPa", "Vorspannkraft*2");
+  EXPECT_THAT(
+      fault("Vorspannkraft [kN],tau_R_MPa\n5,1\n6,1\n"),
+      HasSubstr("the formula of sigma_n_MPa needs Vorspannkraft, which the data do not have\n"
+                "  hint: that column is F_N_N here: write F_N_N in the formula, in N"));
+}
+
 TEST_F(LoadFormula, MayUseAnotherFormula) {
   formula("sigma_n_MPa", "F_N_N/78.5");
   formula("F_N_N", "1000*kN");

@@ -74,6 +74,30 @@ TEST_F(Recordings, OfIntervalsBetweenHeaderLinesAreTheFiles) {
                                              "one file), up to 3 of one")));
 }
 
+TEST_F(Recordings, OfIntervalsTakeTheRowOfTheirFileFromTheTableOfTests) {
+  file("pack21.csv", intervals(3, 0.3));
+  file("pack22.csv", intervals(2, 0.3));
+  options.experiment = "interval";
+  options.tests = file("packs.csv", "experiment,oil_mg\n21,0.5\n22,0.9\n");
+  const Dataset data = load_dataset({"pack21.csv", "pack22.csv"}, options);
+  EXPECT_THAT(by_test(data, "oil_mg"), ElementsAre(0.5, 0.5, 0.5, 0.9, 0.9));
+  EXPECT_THAT(data.notes, Contains(HasSubstr("a row holds for all intervals of its file")));
+  EXPECT_TRUE(data.unused.empty());
+  options.tests = file("packs.csv", "experiment,oil_mg\n21,0.5\npack22 1,0.9\npack22 2,1.5\n");
+  EXPECT_THAT(by_test(load_dataset({"pack21.csv", "pack22.csv"}, options), "oil_mg"),
+              ElementsAre(0.5, 0.5, 0.5, 0.9, 1.5))
+      << "a row of an interval's own goes first";
+  file("old21.csv", intervals(1, 0.3));
+  file("new21.csv", intervals(1, 0.3));
+  options.tests = file("packs.csv", "experiment,oil_mg\n21,0.5\n");
+  try {
+    load_dataset({"old21.csv", "new21.csv"}, options);
+    ADD_FAILURE() << "two files took one row";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("would both be '21' of this table"));
+  }
+}
+
 TEST_F(Recordings, AreTestsOfTheirOwnWhereTheJobSaysSo) {
   file("a.csv", intervals(3, 0.3));
   options.experiment = "interval";

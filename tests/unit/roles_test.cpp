@@ -420,6 +420,102 @@ TEST(Roles, FreeTextIsNoLabel) {
   EXPECT_EQ(role_of(data, "Bemerkung"), Role::ignore);
 }
 
+TEST(Roles, WhatFrictionIsComputedFromIsAReadingEvenIfAStateIsToo) {
+  Rig rig(14, 12, 40);
+  rig.add("pull_kN",
+          [&](auto, auto i) { return rig.at("sigma_n_MPa", i) + rig.at("tau_R_MPa", i); });
+  rig.add("back_kN",
+          [&](auto, auto i) { return rig.at("sigma_n_MPa", i) - rig.at("tau_R_MPa", i); });
+  rig.add("width_mm", [](auto e, auto) { return 10.0 + double(e % 3); });
+  data::DataOptions options;
+  options.columns["tau_R_MPa"].formula = "(pull_kN - back_kN)/2*width_mm/width_mm";
+  options.columns["sigma_n_MPa"].formula = "(pull_kN + back_kN)/2*width_mm/width_mm";
+  const Dataset data = with_roles(rig.data, options);
+  for (const char* name : {"pull_kN", "back_kN"}) {
+    EXPECT_EQ(role_of(data, name), Role::response) << name;
+    EXPECT_EQ(data.find(name)->why, "tau_R_MPa is computed from it");
+  }
+  EXPECT_EQ(role_of(data, "width_mm"), Role::state) << "a length that was set, no reading";
+  options.roles["pull_kN"] = {Role::channel, {}};
+  EXPECT_EQ(role_of(with_roles(rig.data, options), "pull_kN"), Role::channel);
+}
+
+TEST(Roles, ASetValueMayBeInAnyUnitThatSetsTheState) {
+  Rig rig(6, 12, 40);
+  const auto pressure = [](std::size_t e) { return 20 * std::pow(2.0, double(e % 4)); };
+  const auto speed = [](std::size_t e) { return 5 * std::pow(4.0, double(e % 3)); };
+  for (std::size_t i = 0; i < rig.data.rows(); ++i)
+    if (i % 40 < 8) rig.data.columns[2].values[i] *= double(i % 40) / 8; // the way up to the speed
+  rig.add("Drehzahl [1/min]", [&](auto e, auto) { return 1.9 * speed(e); });
+  rig.add("rpm set", [&](auto e, auto) { return 1.9 * speed(e); });
+  rig.add("Speed m/min", [&](auto e, auto) { return 0.06 * speed(e); });
+  rig.add("Spindle [1/min]", [&](auto e, auto) { return 1.9 * speed(e) + (e == 5 ? 30 : 0); });
+  rig.add("weight [kg]", [&](auto e, auto) { return 2.7 * pressure(e); });
+  rig.add("oil [g/m2]", [&](auto e, auto) { return 2.7 * pressure(e); });
+  rig.add("strain [%]", [&](auto e, auto) { return 0.1 * speed(e); });
+  rig.add("F2 [kN]", [&](auto e, auto i) { return 0.6 * pressure(e) + 0.001 * double(i % 3); });
+  rig.add("tension [kN]", [&](auto e, auto) { return 0.6 * pressure(e); });
+  data::DataOptions options;
+  options.columns["sigma_n_MPa"].formula = "F2/0.6";
+  const Dataset data = with_roles(rig.data, options);
+  for (const char* set : {"Drehzahl [1/min]", "rpm set", "Speed m/min"})
+    EXPECT_EQ(data.find(set)->why, "the set v_rel_mm_s, which is measured") << set;
+  for (const char* set : {"weight [kg]", "tension [kN]"})
+    EXPECT_EQ(role_of(data, set), Role::ignore) << set;
+  for (const char* other : {"Spindle [1/min]", "oil [g/m2]", "strain [%]"})
+    EXPECT_EQ(role_of(data, other), Role::setting) << other;
+  options.roles["rpm set"] = {Role::setting, {}};
+  EXPECT_EQ(role_of(with_roles(rig.data, options), "rpm set"), Role::setting);
+}
+
+TEST(Roles, NamesOfCombinationsAreBookkeeping) {
+  Rig rig(15, 48, 20);
+  const auto text = [&](const char* name, std::vector<std::string> levels, auto of_test) {
+    rig.add(name, [&](auto e, auto) { return double(of_test(e)); });
+    rig.data.columns.back().levels = std::move(levels);
+  };
+  // Loads of the rig: 20, 40, 80 and 160 MPa, by e % 4.
+  const auto oil = [](std::size_t e) { return e / 4 % 3; };
+  text("lubricant", {"Base", "Ferro", "ZDDP"}, oil);
+  std::vector<std::string> names, codes, batches;
+  for (const char* const one : {"Base", "Ferro", "ZDDP"})
+    for (const int load : {20, 40, 80, 160}) {
+      names.push_back(std::string(one) + "_" + std::to_string(load) + "MPa");
+      codes.push_back("C" + std::to_string(codes.size() + 1));
+      batches.push_back("H" + std::to_string(800 + 7 * batches.size()));
+    }
+  const auto combination = [&](std::size_t e) { return 4 * oil(e) + e % 4; };
+  text("set of four", names, combination);
+  text("condition_id", codes, combination);
+  text("heat", batches, combination); // a batch that was tried at one load alone
+  text("series", {"I", "II", "III"}, oil);
+  text("operator", {"A", "B"}, [](std::size_t e) { return e / 12 % 2; });
+  const Dataset data = with_roles(rig.data);
+  EXPECT_EQ(role_of(data, "lubricant"), Role::label);
+  EXPECT_EQ(role_of(data, "operator"), Role::label);
+  for (const char* name : {"set of four", "condition_id"}) {
+    EXPECT_EQ(role_of(data, name), Role::ignore) << name;
+    EXPECT_THAT(data.find(name)->why, HasSubstr("names combinations of sigma_n_MPa, ")) << name;
+  }
+  EXPECT_EQ(data.find("heat")->why, "12 levels");
+  data::DataOptions options;
+  options.roles["condition_id"] = {Role::label, {}};
+  EXPECT_EQ(role_of(with_roles(rig.data, options), "condition_id"), Role::label);
+}
+
+TEST(Roles, AReadingThatHardlyMovesWithinTestsIsASetting) {
+  Rig rig(16, 20, 60);
+  const auto air = rig.of_tests([&] { return 30 + 30 * rig.uniform(); });
+  rig.add("Humidity [%]", [&](auto e, auto) { return air[e] + 0.03 * rig.normal(); });
+  rig.add("Draught", [&](auto e, auto) { return air[e] + 3 * rig.normal(); });
+  rig.add("sound", [&](auto, auto i) { return std::sqrt(rig.at("tau_R_MPa", i)); });
+  const Dataset data = with_roles(rig.data);
+  EXPECT_EQ(role_of(data, "Humidity [%]"), Role::setting);
+  EXPECT_THAT(data.find("Humidity [%]")->why, HasSubstr(" in a test, "));
+  EXPECT_EQ(role_of(data, "Draught"), Role::channel);
+  EXPECT_NE(role_of(data, "sound"), Role::setting) << "it moves as friction does";
+}
+
 TEST(Roles, ANameThatTheDataDoNotHaveIsAFault) {
   Rig rig(1, 4, 5);
   data::DataOptions options;

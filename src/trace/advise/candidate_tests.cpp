@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "data/quantity.h"
+#include "data/recordings.h"
+#include "data/roles.h"
 #include "trace/columns/candidates.h"
 #include "trace/tuning.h"
 
@@ -190,9 +192,10 @@ private:
   std::size_t begin_ = 0, rows_ = 0;
 };
 
-// Whether the column is the order of tests (1, 2, 3, ...), which nobody sets.
+// Whether the column is an order of tests (a date, 1, 2, 3, ...), which nobody sets.
 bool numbers_tests(const Column& column) {
-  return column.name == "test_order" || column.name == "run_order" || column.name == "test_number";
+  return data::is_order(column) || column.name == data::interval_column ||
+         column.name == "test_order" || column.name == "run_order" || column.name == "test_number";
 }
 
 } // namespace

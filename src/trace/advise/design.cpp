@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
+#include <string>
 
 #include <Eigen/Cholesky>
 #include <gsl/gsl_cdf.h>
@@ -94,6 +96,14 @@ private:
   const Search& search_;
   const std::vector<const Rival*>& rivals_;
 };
+
+// A design that takes too many tests, or hardly has a chance, is none.
+Design worthwhile(Design design) {
+  return design.tests_needed <= tuning::most_tests_needed &&
+                 design.probability >= tuning::smallest_power
+             ? std::move(design)
+             : Design{};
+}
 
 class Designer {
 public:
@@ -257,8 +267,6 @@ private:
     const double target = limit() + gsl_cdf_ugaussian_Pinv(tuning::wanted_power);
     const double tests =
         (target * target - plan.before * plan.before) / std::max(each, tuning::smallest_divisor);
-    if (tests > tuning::most_tests_needed) return design;
-    if (probability(plan.amplitude) < tuning::smallest_power) return design;
     design.probability = probability(plan.amplitude);
     design.tests_needed = std::max(std::ceil(tests), 1.0);
     design.like = plan.candidates.like;
@@ -272,7 +280,7 @@ private:
     }
     for (const Rival* rival : rivals_)
       design.settles.push_back(cause_name(rival->causes.back(), search_.candidates()));
-    return design;
+    return worthwhile(std::move(design));
   }
 
   const Search& search_;
@@ -299,13 +307,26 @@ bool contains(const Cause& larger, const Cause& smaller) {
   });
 }
 
+// Whether two causes come from the same recorded columns, as a path and the distance slid since the
+// start, or a constant pressure and its mean: no test of the rig tells them apart.
+bool are_of_same_columns(const Candidates& candidates, const Cause& a, const Cause& b) {
+  const auto recorded = [&](const Cause& cause) {
+    std::set<std::string> names;
+    for (const std::size_t c : cause.columns)
+      names.insert(candidates.columns[c].recorded.begin(), candidates.columns[c].recorded.end());
+    return names;
+  };
+  return recorded(a) == recorded(b);
+}
+
 } // namespace
 
 Design design_for(const Search& search, const Finding& finding) {
   std::vector<const Rival*> rivals{&finding.rival};
   for (std::size_t i = 0; i < finding.others.size(); ++i)
-    if (finding.in_set[i] &&
-        !contains(finding.others[i].causes.back(), finding.rival.causes.back()))
+    if (const Cause& own = finding.rival.causes.back(), &other = finding.others[i].causes.back();
+        finding.in_set[i] && !contains(other, own) &&
+        !are_of_same_columns(search.candidates(), own, other))
       rivals.push_back(&finding.others[i]);
   return rivals.size() > 1 ? design_tests(search, rivals, tuning::two_sided_std_errors) : Design{};
 }
@@ -318,8 +339,8 @@ Design design_for_lead(const Search& search, const effects::PlacedEffect& effect
   Design design = design_tests(search, {&with}, threshold);
   const double short_of =
       tests_for(search.input().options.alpha) - static_cast<double>(search.blocks().experiments());
-  design.tests_needed = std::max(design.tests_needed, short_of);
-  return design;
+  if (!design.tests.empty()) design.tests_needed = std::max(design.tests_needed, short_of);
+  return worthwhile(std::move(design));
 }
 
 namespace {
@@ -384,7 +405,7 @@ Design design_in_turn(const Search& search, const Cause& cause, std::optional<do
       std::pow((tuning::two_sided_std_errors + gsl_cdf_ugaussian_Pinv(tuning::wanted_power)) /
                    std::max(standardised(1), tuning::smallest_amplitude_of_test),
                2));
-  return design;
+  return worthwhile(std::move(design));
 }
 
 } // namespace frictab::trace

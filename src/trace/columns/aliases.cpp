@@ -37,9 +37,11 @@ std::vector<double> setting_of(const Column& column, const Dataset& data) {
   return values;
 }
 
+// A column from which the job computes a state acts through that state.
 bool may_act(const Column& column, const TraceOptions& options) {
-  return data::may_be_searched(column.role) && !data::find_quantity(column.name) &&
-         column.name != data::origin_column && column.name != data::interval_column &&
+  return data::may_be_searched(column.role) && column.role != Role::state &&
+         !data::find_quantity(column.name) && column.name != data::origin_column &&
+         column.name != data::interval_column &&
          std::find(options.ignore.begin(), options.ignore.end(), column.name) ==
              options.ignore.end();
 }
@@ -185,6 +187,11 @@ std::string line_text(const std::string& column, const std::vector<double>& sett
                      state.name, figure(there));
 }
 
+// Nobody sets a date or a running number.
+std::string order_text(const State& state) {
+  return fmt::format("they change together; tests at the {} of the first ones would", state.name);
+}
+
 } // namespace
 
 std::vector<Alias> find_aliases(const Dataset& training, const models::Model& model,
@@ -204,12 +211,13 @@ std::vector<Alias> find_aliases(const Dataset& training, const models::Model& mo
       const double by_levels = few ? explained_by_levels(setting, state.at) : 0;
       const double by_line = column.levels.empty() ? explained_by_line(setting, state.at) : 0;
       if (std::max(by_levels, by_line) <= tuning::aliased_share_of_variance) continue;
+      const std::string how = data::is_order(column) ? order_text(state)
+                              : by_levels > tuning::aliased_share_of_variance
+                                  ? levels_text(column, setting, state)
+                                  : line_text(column.name, setting, state);
       aliases.push_back(
           {column.name, state.name, std::max(by_levels, by_line),
-           fmt::format("{} cannot be distinguished from {}: {}", column.name, state.name,
-                       by_levels > tuning::aliased_share_of_variance
-                           ? levels_text(column, setting, state)
-                           : line_text(column.name, setting, state))});
+           fmt::format("{} cannot be distinguished from {}: {}", column.name, state.name, how)});
     }
   }
   return aliases;
