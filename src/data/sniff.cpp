@@ -934,6 +934,7 @@ std::optional<GuessedFile> find_names_of_columns(std::vector<GuessedFile>& files
               "^(?<experiment>{})$", numbered ? as_pattern(letters) + "\\d+" : join(digits, "|"));
           file.wide = std::move(wide);
           file.wide_known = true;
+          file.rows = false;
           GuessedFile table = as_table_of_tests(std::move((*from)[i]), c);
           from->erase(from->begin() + static_cast<std::ptrdiff_t>(i));
           return table;
@@ -1009,7 +1010,7 @@ std::string lacks(const GuessedFile& file, const GuessedFile& most) {
              : "";
 }
 
-// Takes files that are no recordings as most are.
+// Takes the files that lack a part of a recording.
 std::vector<GuessedFile> take_others(std::vector<GuessedFile>& files) {
   const GuessedFile most = files[most_common(files)];
   std::vector<GuessedFile> kept, others;
@@ -1019,7 +1020,7 @@ std::vector<GuessedFile> take_others(std::vector<GuessedFile>& files) {
   return others;
 }
 
-// The name of a file without words that tell its versions apart: "T2" of "T2_old" and "T2_v3".
+// The name of a file without the words for its versions: "T2" of "T2_old" and "T2_v3".
 std::string without_version(const std::string& label) {
   std::string out;
   for (std::size_t begin = 0; begin <= label.size();) {
@@ -1037,7 +1038,7 @@ std::string without_version(const std::string& label) {
   return out.empty() ? label : out;
 }
 
-// Whether two files are versions of one: the same tests, and nearly the same rows.
+// Whether two files of a folder are versions of one: the same tests, and nearly the same rows.
 bool are_versions(const GuessedFile& a, const GuessedFile& b) {
   constexpr double share = 0.8;
   constexpr std::size_t least = 5;
@@ -1053,7 +1054,10 @@ bool are_versions(const GuessedFile& a, const GuessedFile& b) {
   const auto same = [&](const auto& one, const auto& other, double part) {
     return shared(one, other) >= part * static_cast<double>(std::min(one.size(), other.size()));
   };
-  return std::min(a.rows_seen.size(), b.rows_seen.size()) >= least &&
+  const auto folder = [](const GuessedFile& file) {
+    return std::filesystem::path(file.file).parent_path();
+  };
+  return folder(a) == folder(b) && std::min(a.rows_seen.size(), b.rows_seen.size()) >= least &&
          same(tests(a), tests(b), share) && same(a.rows_seen, b.rows_seen, share);
 }
 
