@@ -61,7 +61,7 @@ bool is_computed_along(const Column& column) {
   return column.name == "v_rel_mm_s" || column.name == "s_mm";
 }
 
-// Of the first rows, which a beginning of a test shares with it.
+// Hashes the first rows, which a beginning of a test shares with it.
 std::size_t hash_of(const Dataset& data, std::size_t experiment, const Columns& columns) {
   std::size_t hash = 0;
   for (const Column* column : columns)

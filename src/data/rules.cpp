@@ -42,7 +42,7 @@ constexpr ReadingRule all_rules[] = {
 
     {"rows", "sliding", "under load and in motion", "fitted", by_rows, not_measured},
     {"rows", "rest",
-     "speed is 0, or below 2 % of the test's and cannot be distinguished from 0; beside a set "
+     "speed is 0, or below 2 % of the test's and cannot be distinguished from 0; with a set "
      "speed "
      "where the path stands still or a few end rows lack friction",
      left_out, by_rows, of_rows},

@@ -172,10 +172,10 @@ private:
     return middles;
   }
 
-  // Replaces the offset of the test by those of its cycles if these drift: by more than their
-  // errors, and from cycle to cycle by less than in all. Returns their range; 0: one for the test.
-  // A cycle counts together with the pairs of strokes half a cycle before and behind: friction that
-  // runs in adds to one what it takes from the other.
+  // Replaces the offset of the test by the cycles' own if these drift: by more than their errors,
+  // and from cycle to cycle by less than in all. Returns their range; 0: one for the test. A cycle
+  // counts together with the pairs of strokes half a cycle earlier and later: friction that runs in
+  // adds to one what it takes from the other.
   double take_drift(double friction, std::vector<double>& offsets) const {
     const std::vector<std::optional<Middle>> middles = middles_of_strokes();
     std::vector<double> errors;
@@ -223,7 +223,7 @@ private:
 
 // ---- the tests of a file ----
 
-// A column that is no quantity, named like a speed, that is not the same in all rows.
+// True for a recorded column that is named like a speed and varies.
 bool is_reading_of_speed(const Column& column) {
   if (find_quantity(column.name) || !column.levels.empty() || column.values.empty()) return false;
   const std::string words = words_of_name(column.name),

@@ -197,7 +197,7 @@ TEST_F(Signs, TheZeroMayDriftFromCycleToCycle) {
 // Loops of 200 rows without a clock, which begin just after a turn; the force builds up over 20.
 TEST_F(Signs, TheZeroOfLoopsIsOfRowsInFullMotion) {
   options.columns.erase("v_rel_mm_s");
-  for (const double zero : {3.0, 30.0}) {
+  for (const double zero : {3.0, -6.0}) {
     std::vector<std::string> files;
     for (const double load : {100.0, 200.0, 400.0}) {
       std::string text = "F_N,F_T\n";
@@ -215,6 +215,7 @@ TEST_F(Signs, TheZeroOfLoopsIsOfRowsInFullMotion) {
         std::vector<double> coefficients;
         for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
           if (data.values("direction")[i] == way) coefficients.push_back(tau[i] / pressure[i]);
+        ASSERT_GT(coefficients.size(), 50u);
         std::sort(coefficients.begin(), coefficients.end());
         EXPECT_NEAR(coefficients[coefficients.size() / 2], mu, 0.02 * mu)
             << zero << " " << e << way;
