@@ -31,6 +31,8 @@ public:
     names_.insert(experiment_column_of(options));
     names_.insert(origin_column);
     if (options.bystanders) names_.insert(options.bystanders->begin(), options.bystanders->end());
+    for (const DropRule& rule : options.drop)
+      names_.insert(rule.column);
   }
 
   // True for a name that the job or the program states, without regard to units.

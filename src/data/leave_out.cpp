@@ -16,14 +16,56 @@
 
 namespace frictab::data {
 
+namespace {
+
+std::string text_rule(const DropRule& rule, const std::string& text) {
+  return fmt::format("{} is '{}'", rule.column, text);
+}
+
+// A number stands for its text: 0 for '0'.
+bool has_text(const Column& column, std::size_t row, const std::string& text) {
+  const double value = column.values[row];
+  if (!column.levels.empty()) return column.levels[static_cast<std::size_t>(value)] == text;
+  return std::isnan(value) ? text.empty() : shortest(value) == text;
+}
+
+constexpr std::string_view names_of_tests = "experiment";
+
+// A file that lacks the column has none of the texts; check_texts_to_drop finds that all lack it.
+void drop_texts(const DropRule& rule, Part& part, std::vector<char>& keep) {
+  const Column* const column = part.find(rule.column);
+  const Dataset& data = part.data;
+  if (!column && rule.column != names_of_tests) return;
+  for (const std::string& text : rule.texts) {
+    std::size_t dropped = 0;
+    bool is_there = false; // also in rows that another rule leaves out
+    for (std::size_t e = 0; e < data.experiments.size(); ++e)
+      for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+        if (!(column ? has_text(*column, i, text) : data.experiments[e] == text)) continue;
+        is_there = true;
+        dropped += keep[i] != 0;
+        keep[i] = 0;
+      }
+    if (is_there) part.data.dropped.push_back({text_rule(rule, text), dropped});
+  }
+}
+
+} // namespace
+
 void drop_rows(Part& part, const Reading& options) {
   std::vector<char> keep(part.row.size(), 1);
   for (const DropRule& rule : options.drop) {
+    drop_texts(rule, part, keep);
+    if (!rule.below && !rule.above) continue;
     const Column* column = part.find(rule.column);
     if (!column && !options.measured && is_measured(rule.column)) continue;
-    if (!column) {
-      part.faults.add(rule.place,
-                      fmt::format("data.drop: the data have no column {}", rule.column));
+    if (!column || !column->levels.empty()) {
+      part.faults.add(
+          rule.place,
+          column ? fmt::format("data.drop: {} holds texts, no numbers", rule.column)
+                 : fmt::format("data.drop: the data have no column {}", rule.column),
+          column ? fmt::format("drop = {{ {} = [\"{}\"] }}", rule.column, column->levels.back())
+                 : suggest(rule.column, part.raw_names()));
       continue;
     }
     std::size_t dropped = 0;
@@ -40,6 +82,35 @@ void drop_rows(Part& part, const Reading& options) {
     part.data.dropped.push_back({text, dropped});
   }
   keep_rows(part, keep, "data.drop leaves no row");
+}
+
+void check_texts_to_drop(std::span<const Dataset* const> parts, const DataOptions& options,
+                         FaultList& faults) {
+  for (const DropRule& rule : options.drop)
+    for (const std::string& text : rule.texts) {
+      bool is_there = false, is_column = rule.column == names_of_tests;
+      std::vector<std::string> known, columns;
+      for (const Dataset* part : parts) {
+        for (const Dataset::Dropped& one : part->dropped)
+          is_there = is_there || one.rule == text_rule(rule, text);
+        if (rule.column == names_of_tests)
+          known.insert(known.end(), part->experiments.begin(), part->experiments.end());
+        for (const Column& column : part->columns) {
+          columns.push_back(column.name);
+          if (column.name != rule.column) continue;
+          is_column = true;
+          known.insert(known.end(), column.levels.begin(), column.levels.end());
+        }
+      }
+      if (is_there) continue;
+      if (!is_column) {
+        faults.add(rule.place, fmt::format("data.drop: the data have no column '{}'", rule.column),
+                   suggest(rule.column, columns));
+        break;
+      }
+      faults.add(rule.place, fmt::format("data.drop: no row has '{}' in {}", text, rule.column),
+                 known.empty() ? "leave the text out" : suggest(text, known));
+    }
 }
 
 namespace {

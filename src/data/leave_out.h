@@ -1,6 +1,8 @@
 // Rows left out at the user's request, counted.
 #pragma once
 
+#include <span>
+
 #include "data/options.h"
 #include "data/part.h"
 #include "data/phases.h"
@@ -9,6 +11,9 @@ namespace frictab::data {
 
 // Leaves out rows by data.drop.
 void drop_rows(Part& part, const Reading& options);
+// Adds a fault for each text of data.drop that no row of the campaign had.
+void check_texts_to_drop(std::span<const Dataset* const> parts, const DataOptions& options,
+                         FaultList& faults);
 
 // Leaves out rows with an empty cell if the job asks for it; the first one alone those that the
 // file itself holds, before anything is computed from neighbouring rows.

@@ -523,7 +523,7 @@ private:
       if (options_.find_quantity(column.name))
         continue; // its canonical name is mapped from elsewhere
       const bool is_wanted = !options_.bystanders || keep.count(column.name) ||
-                             column.name == origin_column ||
+                             column.name == origin_column || is_dropped_by(column.name) ||
                              !computed_from(options_, column.name).empty();
       if (!is_wanted || is_left_out_as_repeat(column)) {
         out_.not_read.push_back(column.name);
@@ -532,6 +532,11 @@ private:
       check_case(column);
       add_bystander(column, bystander_name(column));
     }
+  }
+
+  bool is_dropped_by(const std::string& name) const {
+    return std::any_of(options_.drop.begin(), options_.drop.end(),
+                       [&](const DropRule& rule) { return rule.column == name; });
   }
 
   bool is_left_out_as_repeat(const CsvColumn& column) {

@@ -30,10 +30,11 @@ struct ColumnSource {
 };
 
 struct DropRule {
-  std::string column; // canonical
+  std::string column; // canonical, a recorded column, or "experiment"
   std::optional<double> below;
   std::optional<double> above;
   Place place;
+  std::vector<std::string> texts = {}; // of a text column, or names of tests
 };
 
 // Treatment of a quantity's empty cell: a fault, or its row is left out and counted.

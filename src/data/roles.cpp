@@ -71,7 +71,7 @@ constexpr NameRule name_rules[] = {
      "contact_?(potential|resistance|voltage)",
      When::within, Role::channel},
     {"^wear(_(um|mm|mm2|mm3|mg|g))?$|wear_?(rate|loss|depth|volume|mass|scar|track_?(depth|width))|"
-     "mass_?loss|weight_?loss|"
+     "mass_?loss|weight_?loss|(^|_)scar(_|$)|"
      "verschlei|debris|(mass|weight|ra|rz|sa|roughness)\\w*_?(after|end|final)|"
      "(after|end|final)_?\\w*(mass|weight|ra|rz|roughness)|"
      "_(after|nach)_(the_)?(test|run|versuch|sliding)|"

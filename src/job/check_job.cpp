@@ -210,10 +210,12 @@ void check_columns(JobReader& reader) {
   check_beside(reader);
   for (const data::DropRule& rule : data.drop) {
     const std::string path = "data.drop." + rule.column;
-    const bool said = reader.places.count(path + ".below") || reader.places.count(path + ".above");
+    const bool said = reader.places.count(path + ".below") ||
+                      reader.places.count(path + ".above") || !rule.texts.empty() ||
+                      reader.places.count(path + ".texts");
     if (!said)
-      reader.fault(rule.place, path + " says neither below nor above",
-                   fmt::format("write {} = {{ below = 0.1 }}", rule.column));
+      reader.fault(rule.place, path + " says neither below nor above nor texts",
+                   fmt::format("write {0} = {{ below = 0.1 }}, or {0} = [\"TEXT\"]", rule.column));
     if (rule.below && rule.above && *rule.below >= *rule.above)
       reader.fault(rule.place,
                    fmt::format("{} leaves out every row: below {} and above {}", path, *rule.below,

@@ -248,6 +248,12 @@ std::vector<KeyRule> mapping_keys() {
           "data.drop.*.above",
           [](Job & job, const std::string& name) -> auto& { return drop_rule(job, name).above; },
           "rows with a larger value are left out, and counted in the report", "none", "3000"),
+      named<std::vector<std::string>>(
+          "data.drop.*.texts",
+          [](Job & job, const std::string& name) -> auto& { return drop_rule(job, name).texts; },
+          "rows with one of these texts in a recorded column are left out, and counted in the "
+          "report: tests that are judged to be invalid; in `experiment`: tests of these names",
+          "none", "[\"FALSE\"]"),
       named<data::Role>(
           "data.roles.*",
           [](Job & job, const std::string& name) -> auto& { return job.data.roles[name].role; },

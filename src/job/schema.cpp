@@ -103,9 +103,19 @@ const std::vector<KeyRule>& key_rules() {
 const std::vector<SectionRule>& section_rules() {
   static const std::vector<SectionRule> rules = {
       {"data", "what was measured, and how the rig's file is read", "", nullptr, data_place},
-      {"data.drop", "rows left out by a quantity, counted in the report",
-       "drop = { tau_R_MPa = { below = 0.1 } }", schema::quantity_names, nullptr},
-      {"data.drop.*", "limits of one quantity", "", nullptr, drop_place},
+      {"data.drop",
+       "rows left out by a quantity or a recorded column, counted in the report",
+       "drop = { tau_R_MPa = { below = 0.1 }, valid = [\"FALSE\"] }",
+       schema::quantity_names,
+       nullptr,
+       "column",
+       true,
+       false,
+       {},
+       true},
+      {"data.drop.*",
+       "limits of one column, or texts; a text or a list of them instead of a table is its `texts`",
+       "", nullptr, drop_place, "column", false, false, "texts"},
       {"data.columns", "canonical name = the file's own, with its unit where it differs",
        "sigma_n_MPa = { column = \"Normal stress\", unit = \"Pa\" }\n"
        "tau_R_MPa = { column = \"Friction\", times = \"sigma_n_MPa\" }\n"

@@ -17,6 +17,7 @@
 #include "data/append.h"
 #include "data/derived.h"
 #include "data/file_list.h"
+#include "data/leave_out.h"
 #include "data/load.h"
 #include "data/load_condensed.h"
 #include "data/oracle.h"
@@ -91,6 +92,8 @@ data::Dataset load(const std::vector<std::string>& files, const data::ReadReques
 
 void find_roles(std::span<data::Dataset* const> parts, const data::DataOptions& options) {
   FaultList faults;
+  data::check_texts_to_drop(std::vector<const data::Dataset*>(parts.begin(), parts.end()), options,
+                            faults);
   data::find_roles(parts, options, faults);
   faults.throw_if_any();
 }

@@ -373,8 +373,8 @@ TEST(JobMessages, SayWhatContradictsItself) {
             "job.toml:3:13: error: data.delimiter and data.decimal are both \",\"\n"
             "  hint: with decimal commas the columns are separated by \";\" or \"\\t\"");
   EXPECT_EQ(with("drop = { tau_R_MPa = { } }"),
-            "job.toml:3:22: error: data.drop.tau_R_MPa says neither below nor above\n"
-            "  hint: write tau_R_MPa = { below = 0.1 }");
+            "job.toml:3:22: error: data.drop.tau_R_MPa says neither below nor above nor texts\n"
+            "  hint: write tau_R_MPa = { below = 0.1 }, or tau_R_MPa = [\"TEXT\"]");
   EXPECT_EQ(with("drop = { psi = { below = 3, above = 2 } }"),
             "job.toml:3:16: error: data.drop.psi leaves out every row: below 3 and above 2\n"
             "  hint: `below` is the smaller one");

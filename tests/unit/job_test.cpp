@@ -147,6 +147,7 @@ skip_footer = 2
 units_row = true
 bystanders = []
 drop.psi.above = 12
+drop.valid = ["FALSE", "nok"]
 [data.columns]
 experiment = "Versuch"
 psi = { column = 3 }
@@ -189,6 +190,8 @@ repeatability = 0.03
   ASSERT_TRUE(job.data.bystanders);
   EXPECT_TRUE(job.data.bystanders->empty());
   EXPECT_EQ(job.data.drop.at(0).above, 12.0);
+  EXPECT_EQ(job.data.drop.at(1).column, "valid");
+  EXPECT_THAT(job.data.drop.at(1).texts, ElementsAre("FALSE", "nok"));
   EXPECT_THAT(job.data.columns.at("experiment").names, ElementsAre("Versuch"));
   EXPECT_EQ(job.data.columns.at("psi").number, 3u);
   EXPECT_THAT(job.data.columns.at("s_mm").names, ElementsAre("Weg", "path"));

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "data/leave_out.h"
 #include "data/load.h"
 #include "io/hdf5.h"
 #include "unit/load_case.h"
@@ -132,6 +133,39 @@ TEST_F(Load, LeavesRowsOutBeforeTheyAreChecked) {
   ASSERT_EQ(data.dropped.size(), 1u);
   EXPECT_EQ(data.dropped[0].rule, "tau_R_MPa below 0.1");
   EXPECT_EQ(data.dropped[0].rows, 2u);
+}
+
+TEST_F(Load, LeavesRowsOutByTheirTextAndTestsByTheirName) {
+  const std::string rows = "experiment,sigma_n_MPa,tau_R_MPa,valid,grade\n"
+                           "a,10,1,TRUE,1\na,10,2,TRUE,1\nb,10,3,FALSE,1\nb,10,4,FALSE,1\n"
+                           "c,10,5,TRUE,0\nc,10,6,TRUE,0\nd,10,7,TRUE,1\nd,10,8,TRUE,1\n";
+  options.drop.push_back({"valid", {}, {}, {}, {"FALSE"}});
+  options.drop.push_back({"grade", {}, {}, {}, {"0"}});
+  options.drop.push_back({"experiment", {}, {}, {}, {"d"}});
+  options.bystanders.emplace(); // kept because it is asked for
+  const Dataset data = read(rows);
+  EXPECT_EQ(column(data, "tau_R_MPa"), (Values{1, 2}));
+  ASSERT_EQ(data.dropped.size(), 3u);
+  EXPECT_EQ(data.dropped[0].rule, "valid is 'FALSE'");
+  EXPECT_EQ(data.dropped[0].rows, 2u);
+  EXPECT_EQ(data.dropped[1].rule, "grade is '0'");
+  EXPECT_EQ(data.dropped[2].rule, "experiment is 'd'");
+  const auto faults_of = [&](const std::string& name, const std::string& text) {
+    options.drop = {{name, {}, {}, {}, {text}}};
+    const Dataset all = read(rows);
+    const Dataset* const parts[] = {&all};
+    FaultList faults;
+    data::check_texts_to_drop(parts, options, faults);
+    return faults.empty() ? "" : faults.all().front().what + "; " + faults.all().front().hint;
+  };
+  EXPECT_EQ(faults_of("valid", "FALSE"), "");
+  EXPECT_THAT(faults_of("valid", "FALS"),
+              HasSubstr("data.drop: no row has 'FALS' in valid; did you "
+                        "mean 'FALSE'?"));
+  EXPECT_THAT(faults_of("valit", "FALSE"), HasSubstr("data.drop: the data have no column 'valit'"));
+  EXPECT_THAT(faults_of("experiment", "e"), HasSubstr("no row has 'e' in experiment"));
+  options.drop = {{"valid", 1.0, {}, {}, {}}};
+  EXPECT_THAT(fault(rows), HasSubstr("data.drop: valid holds texts, no numbers"));
 }
 
 TEST_F(Load, TellsTheFaultsOfAllCellsAtOnceInTheOrderOfTheFile) {

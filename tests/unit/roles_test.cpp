@@ -302,7 +302,7 @@ TEST(Roles, WhatAWholeTestShowedIsNoSetting) {
   const auto levels = [](std::size_t e) { return double(e * e % 7); };
   for (const char* const outcome :
        {"wear [mg]", "Wear volume [mm3]", "Mean COF", "mu_max", "Max. temperature [C]",
-        "Punch force [kN]", "Stempelkraft [kN]", "Ra after test [um]"})
+        "Punch force [kN]", "Stempelkraft [kN]", "Ra after test [um]", "Scar width L [mm]"})
     rig.add(outcome, [&](auto e, auto) { return 1 + levels(e); });
   for (const char* const setting :
        {"hardness", "Ra [um]", "preheat_temp", "days after coating", "mean roughness"})
