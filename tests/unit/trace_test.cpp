@@ -397,7 +397,8 @@ TEST(LongTrace, WhatGoesWithTheOrderOfTestsIsOfferedTogetherWithTheTestsThatWoul
   ASSERT_FALSE(t.leads.empty());
   const trace::Lead& lead = t.leads.front();
   EXPECT_THAT(lead.columns, testing::ElementsAre("humidity_pct")) << trace_text(t);
-  EXPECT_THAT(lead.why, HasSubstr("a drift over the order of tests explains it as well (run_order)"));
+  EXPECT_THAT(lead.why,
+              HasSubstr("a drift over the order of tests explains it as well (run_order)"));
   EXPECT_THAT(lead.design.settles, testing::ElementsAre("humidity_pct", "run_order"));
   ASSERT_GE(lead.design.tests.size(), 4u);
   for (std::size_t i = 1; i < lead.design.tests.size(); ++i)
