@@ -27,27 +27,26 @@ using Profile = std::vector<double>; // inputs x parts, in units of replicate_to
 struct Input {
   std::vector<double> x; // empty if constant
   double tolerance = 0;
-  bool differs = true; // between tests
+  bool differs = true; // between tests, or within them beyond its scatter
 };
 
-// Standard deviation of the mean over a tenth of a usual test, by the scatter of rows about their
-// neighbours; the median does not see the steps of a course.
-double noise_of_part(const data::Dataset& data, const std::vector<double>& x) {
+// Standard deviation of a row, by the scatter of rows about their neighbours; the median does not
+// see the steps of a course.
+double noise_of_row(const data::Dataset& data, const std::vector<double>& x) {
   constexpr double of_median = 0.6745, of_difference = 6;
   std::vector<double> sizes;
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
     for (std::size_t i = data.first_row[e] + 2; i < data.first_row[e + 1]; ++i)
       sizes.push_back(std::abs(x[i] - 2 * x[i - 1] + x[i - 2]));
-  const double rows = static_cast<double>(x.size()) / static_cast<double>(data.experiments.size());
-  return data::median_of(std::move(sizes)) / of_median /
-         std::sqrt(of_difference * std::max(rows / static_cast<double>(parts), 1.0));
+  return sizes.empty() ? 0
+                       : data::median_of(std::move(sizes)) / of_median / std::sqrt(of_difference);
 }
 
 // Tests at one setting differ by the noise of their readings, and by how exactly the rig is set: to
 // a fiftieth of a pressure or speed, one kelvin, or the width of a level that is clearly apart from
 // the next one.
 Input input_of(const data::Quantity& quantity, const data::Dataset& data) {
-  constexpr double set_again = 0.02, kelvin = 1, noises = 3, most_noise = 0.1;
+  constexpr double set_again = 0.02, kelvin = 1, noises = 3, most_noise = 0.1, most_held = 15;
   const std::span<const double> values = data.values(quantity.name);
   Input in{{values.begin(), values.end()}, 0, true};
   if (in.x.empty()) return {};
@@ -71,8 +70,12 @@ Input input_of(const data::Quantity& quantity, const data::Dataset& data) {
                       : log                             ? set_again
                                                         : 0;
   const data::ClearLevels levels = data::clear_levels(means, same);
-  in.differs = quantity.name == "s_mm" || levels.count != 1;
-  const double noise = noises * std::numbers::sqrt2 * noise_of_part(data, in.x);
+  const double of_row = noise_of_row(data, in.x),
+               rows = static_cast<double>(in.x.size()) /
+                      static_cast<double>(data.experiments.size() * parts);
+  // A state that is held scatters; one with a course is an input, if the same in all tests.
+  in.differs = quantity.name == "s_mm" || levels.count != 1 || range > most_held * of_row;
+  const double noise = noises * std::numbers::sqrt2 * of_row / std::sqrt(std::max(rows, 1.0));
   in.tolerance = std::max({replicate_tolerance * range, same, levels.width}) +
                  (in.differs ? std::min(noise, most_noise * range) : noise);
   return in;

@@ -26,8 +26,8 @@ bool is_plain(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0;
 }
 
-// The name with _ for what is no letter or digit, once per character; `ascii`: for other letters
-// too.
+// Replaces all but letters and digits in a name by _, once per character; `ascii`: also letters
+// beyond ASCII.
 std::string written_name(const std::string& column, bool ascii) {
   const std::string name = io::read_header_name(column).name;
   std::string out;

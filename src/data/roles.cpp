@@ -386,7 +386,9 @@ private:
   const SetKind* kind_of(const std::string& name) const {
     for (const SetKind& kind : set_kinds)
       for (const char* const one : kind.units)
-        if (!unit_like(name, one).empty()) return &kind;
+        if (const std::string unit = unit_like(name, one);
+            !unit.empty() && unit != "mg") // a dose, no weight that presses
+          return &kind;
     for (const SetKind& kind : set_kinds)
       if (unit_of(name).empty() && fits(kind.names, plain_name(name))) return &kind;
     return nullptr;
@@ -656,7 +658,7 @@ constexpr const char* combination_names =
     "kombination|configuration|config|case|variante?|block|cell|zelle|design_?point)"
     "(en|s)?(_?(id|no|nr|number|nummer|name))?$";
 
-// What tests were run at: one value of each test.
+// Setting of the tests: one value of each.
 struct Factor {
   std::string name;
   std::vector<std::size_t> of; // level of each test
@@ -783,7 +785,7 @@ std::vector<std::string> named_combination(const Factor& column, bool is_text,
   return {};
 }
 
-// Leaves out columns that name combinations of the others: they would explain whatever those do,
+// Leaves out columns that name combinations of the others: they would explain all that those do,
 // and could not be set to anything new.
 void drop_names_of_combinations(std::span<Dataset* const> parts) {
   std::vector<Factor> factors;

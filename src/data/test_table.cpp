@@ -82,7 +82,7 @@ const std::string* TestTable::name_of(const std::string& experiment) const {
 
 namespace {
 
-// What a test has of its own in the table: the file of an interval, or the test.
+// Name of a test in the table: of its file if it is an interval, else its own.
 const std::string& filed_as(const Dataset& data, std::size_t test) {
   const bool is_interval = test < data.filed.size() && data.filed[test].interval;
   return is_interval ? data.filed[test].file : data.experiments[test];
@@ -138,9 +138,12 @@ TestTable read_test_table(DataOptions& options) {
       faults.add(row_place(raw, i), fmt::format("test '{}' stands here again", found->first),
                  fmt::format("it stands in line {} already", raw.line[found->second]));
   faults.throw_if_any();
+  std::map<long, std::size_t> names_with;
   for (const auto& [name, at] : table.row)
-    if (const long number = first_number(name); number >= 0) table.numbered.emplace(number, name);
-  if (table.numbered.size() < table.row.size()) table.numbered.clear();
+    ++names_with[first_number(name)];
+  for (const auto& [name, at] : table.row)
+    if (const long number = first_number(name); number >= 0 && names_with[number] == 1)
+      table.numbered.emplace(number, name);
   return table;
 }
 

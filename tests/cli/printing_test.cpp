@@ -20,7 +20,8 @@ class Printing : public test::SmallCampaign {
 protected:
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(SmallCampaign::SetUp());
-    write_job("[models]\nuse = [\"coulomb\"]\n[export]\ntargets = [\"c\"]\n");
+    write_job(std::string("[models]\nuse = [\"coulomb\"]\n[export]\ntargets = [\"c\"]\n") +
+              test::no_causes);
   }
 };
 

@@ -18,9 +18,10 @@ class Provenance : public test::SmallCampaign {
 protected:
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(SmallCampaign::SetUp());
-    write_job("[models]\nuse = [\"coulomb\", \"shear\", \"levanov\"]\n"
-              "[table]\nmodel = [\"shear\", \"levanov\"]\n"
-              "[export]\ntargets = [\"c\"]\n");
+    write_job(std::string("[models]\nuse = [\"coulomb\", \"shear\", \"levanov\"]\n"
+                          "[table]\nmodel = [\"shear\", \"levanov\"]\n"
+                          "[export]\ntargets = [\"c\"]\n") +
+              test::no_causes);
     ASSERT_EQ(frictab({"tabulate", "job.toml"}).exit_code, 0);
   }
   void copy(const std::string& from, const std::string& to) {

@@ -16,7 +16,7 @@
 namespace frictab::guessed_job_test {
 namespace {
 
-constexpr std::uint64_t folders = 300;
+constexpr std::uint64_t folders = 100;
 
 class Folder {
 public:

@@ -260,7 +260,7 @@ TEST(Report, SaysTheBestLawFirstAndEachFindingInALineOfItsOwn) {
               testing::ContainsRegex("<h2>In short</h2>\n<ul class=\"findings\">\n<li><strong>"
                                      "take</strong>: <strong>" +
                                      best + "</strong>[^\n]*\n<li><strong>expect</strong>: "));
-  EXPECT_THAT(page, HasSubstr("\n<li><strong>drift</strong>: "));
+  EXPECT_THAT(page, HasSubstr("\n<li><strong>FE files</strong>: "));
   EXPECT_THAT(page, HasSubstr("\n<p>Pair by pair, "));
   EXPECT_THAT(page, HasSubstr("\n<p>Noise floor unknown: "));
   EXPECT_THAT(report::report_md(sample.input()),

@@ -118,7 +118,8 @@ TEST_F(ToldData, EmptyCellsOfAnotherColumnAreCountedAndTracingLeavesItOut) {
   const std::vector<double> predicted(data.rows(), 50);
   const trace::Candidates found =
       trace::find_candidates(data, data, blocks, predicted, {"sigma_n_MPa"}, {});
-  EXPECT_THAT(found.notes, Contains("extra: 2 of 8 rows without a value: not searched"));
+  EXPECT_THAT(found.notes, Contains("extra: 1 of 4 rows without a value: not searched"))
+      << "the same tests are counted once";
   for (const trace::CandidateColumn& one : found.columns)
     EXPECT_NE(one.name, "extra");
 }

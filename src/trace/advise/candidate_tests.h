@@ -22,7 +22,7 @@ struct Setting {
 // column, all its levels; for a number with at most five values that tests share, the least, the
 // middle and the largest of these. Non-negative quantities stay non-negative. Surface expansion,
 // sliding distance and time follow from pressure and speed, the contact's temperature from the
-// tool's and the speed. Dates, running numbers and orders of tests are no settings.
+// tool's and the speed. Dates, running numbers and orders of tests cannot be set.
 std::vector<Setting> settings_of(const data::Dataset& data,
                                  const std::vector<std::string>& columns);
 

@@ -308,7 +308,7 @@ bool contains(const Cause& larger, const Cause& smaller) {
 }
 
 // Whether two causes come from the same recorded columns, as a path and the distance slid since the
-// start, or a constant pressure and its mean: no test of the rig tells them apart.
+// start, or a constant pressure and its mean: no test of the rig can part them.
 bool are_of_same_columns(const Candidates& candidates, const Cause& a, const Cause& b) {
   const auto recorded = [&](const Cause& cause) {
     std::set<std::string> names;
