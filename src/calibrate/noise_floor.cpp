@@ -278,7 +278,7 @@ std::string noise_floor_advice(const Calibration& calibration) {
       floors.front().mae_interval.low == floors.front().mae_MPa)
     return "the repeated tests differ in something that no column records";
   const bool known = !floors.empty() && !floors.front().lower_bound;
-  return known ? "" : "run one setting at least 3 times";
+  return known ? "" : "repeat any one test twice, unchanged";
 }
 
 } // namespace frictab::calibrate

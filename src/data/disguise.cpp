@@ -49,7 +49,7 @@ constexpr Index values_to_hold = 2'000'000, least_rows = 20000, least_rows_of_te
                 most_rows_of_test = 20000;
 // Smallest value whose logarithm is taken, as a fraction of the median.
 constexpr double floor_share = 0.05, floor_share_tau = 0.1;
-constexpr double trimmed = 0.97, infinite = std::numeric_limits<double>::infinity();
+constexpr double kept_share = 0.97, infinite = std::numeric_limits<double>::infinity();
 
 VectorXd logarithm(const VectorXd& x, double share) {
   std::vector<double> sizes;
@@ -62,7 +62,7 @@ VectorXd logarithm(const VectorXd& x, double share) {
 }
 
 // Mean of the smallest squares; leaves out the largest share.
-double trimmed_mean_square(VectorXd x, double share = trimmed) {
+double trimmed_mean_square(VectorXd x, double share = kept_share) {
   const Index keep = std::max<Index>(1, static_cast<Index>(share * static_cast<double>(x.size())));
   x = x.cwiseAbs2();
   std::nth_element(x.data(), x.data() + keep - 1, x.data() + x.size());

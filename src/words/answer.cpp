@@ -64,14 +64,25 @@ std::string added_text(const std::string& law, const Answers& answers) {
   return "with effects added";
 }
 
-// Warns of a law with more fitted numbers than there are tests.
+// Warns of a law with more fitted numbers than there are tests, and names the simplest one that may
+// be as good.
 std::string many_numbers(const ModelFit& fit, const Calibration& calibration) {
-  const std::size_t numbers = fit.network ? fit.network->weights
-                                          : calibrate::numbers_of(fit, calibration.fits),
-                    tests = fit.training.n_experiments;
-  return numbers > tests
-             ? fmt::format("; careful, {} numbers fitted to {}", numbers, count_of(tests, "test"))
-             : "";
+  const auto numbers_of = [&](const ModelFit& one) {
+    return one.network ? one.network->weights : calibrate::numbers_of(one, calibration.fits);
+  };
+  const std::size_t numbers = numbers_of(fit), tests = fit.training.n_experiments;
+  if (numbers <= tests) return "";
+  std::string text =
+      fmt::format("; careful, {} numbers fitted to {}", numbers, count_of(tests, "test"));
+  const ModelFit* safer = nullptr;
+  for (const std::string& name : calibrate::possibly_best(calibration.comparisons))
+    if (const ModelFit* one = calibrate::find_fit(calibration, name);
+        one && numbers_of(*one) <= tests && (!safer || numbers_of(*one) < numbers_of(*safer)))
+      safer = one;
+  if (safer)
+    text += fmt::format(": {} ({}) is safer", safer->model.law->name,
+                        count_of(numbers_of(*safer), "number"));
+  return text;
 }
 
 Text take_text(const Answers& answers) {
@@ -123,6 +134,12 @@ Text expect_text(const Calibration& calibration) {
       text += fmt::format(" (95 %: {})", interval_text(expected.interval, decimals));
     if (has_share) text += ", " + share + " of the mean stress";
   }
+  const ModelFit& fit = calibrate::recommended_fit(calibration);
+  if (const std::string own = fixed(fit.validation.mae_MPa, decimals) + " MPa"; own != mae)
+    text += fmt::format("; the {} of the ranking are of {}", own,
+                        fit.on_all || calibration.recommended.tests > 0
+                            ? "the tests held out"
+                            : "the tests that chose the law");
   if (!calibration.noise_floors.empty()) {
     const calibrate::NoiseFloor& floor = calibration.noise_floors.front();
     const double scatter = std::min(floor.mae_MPa, expected.mae_MPa); // expected may be lower
@@ -154,7 +171,7 @@ std::string near_text(const Answers& answers) {
     if (table.model == calibrate::recommended_fit(*answers.calibration).model.law->name &&
         table.record.share_far.value_or(0) >= 0.005) {
       const double near = 100 * (1 - *table.record.share_far);
-      return fmt::format("; within it {} of the table is near a test",
+      return fmt::format("; {} of the tabulated range is near a test, elsewhere the law is a guess",
                          near < 0.5 ? "hardly any" : fmt::format("only {:.0f} %", near));
     }
   return "";
@@ -226,7 +243,7 @@ Next next_of(const Answers& answers) {
         next.tests.push_back(open.text);
     const std::string advice = calibrate::noise_floor_advice(c);
     if (!advice.empty())
-      next.tests.push_back(advice + ": the scatter shows how much a better law could gain");
+      next.tests.push_back(advice + ": the scatter shows whether a better law is worth seeking");
   }
   next.tests.insert(next.tests.end(), unlikely.begin(), unlikely.end());
   next.checks.insert(next.checks.begin(), answers.cautions.begin(), answers.cautions.end());

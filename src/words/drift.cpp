@@ -344,12 +344,16 @@ Text drift_in_short(const Verification& verification) {
     if (result.spans.front().text != "ok") not_ok += "; " + (model + " ") + result;
   }
   const Drift drift = largest_drift(verification);
+  const auto at_most = [](double MPa) {
+    const std::string figures = drift_figures(MPa);
+    return figures.starts_with("< ") ? "less than " + figures.substr(2) : "at most " + figures;
+  };
   std::string text =
-      fmt::format("tables within {} MPa of their law {}", drift_figures(drift.value_MPa),
-                  drift.proven ? "at every state (proven)" : "as found (not proven)");
+      fmt::format("tables {} MPa off their law{}", at_most(drift.value_MPa),
+                  drift.proven ? " at any state (proven)" : ", as found (not proven)");
   if (count > 0)
-    text += fmt::format(", {}, compiled and run, within {} MPa", count_of(count, "routine"),
-                        drift_figures(routines));
+    text += fmt::format(", {} compiled {} {} MPa", thousands(count),
+                        count == 1 ? "routine" : "routines", at_most(routines));
   text += fmt::format("; {} MPa allowed", verify::allowed_text(verification));
   const auto changed =
       std::count_if(verification.findings.begin(), verification.findings.end(),

@@ -231,25 +231,47 @@ std::string unconfirmed_text(const Lead& lead) {
   return text + ")";
 }
 
+// "the effect of T_contact_C changes with psi", "Ra_um".
+std::string suspicion(const std::string& name) {
+  constexpr std::string_view times = " x ";
+  const std::size_t at = name.find(times);
+  return at == name.npos ? name
+                         : fmt::format("the effect of {} changes with {}", name.substr(0, at),
+                                       name.substr(at + times.size()));
+}
+
 // The first lead that tests can settle; empty: none, or it is among those not confirmed.
 std::string suspect(const Trace& t) {
   const auto lead = std::find_if(t.leads.begin(), t.leads.end(), [](const Lead& one) {
     return !one.significant && !one.design.tests.empty();
   });
-  return lead == t.leads.end() ? "" : lead_name(*lead);
+  return lead == t.leads.end() ? "" : "suspected, not proven: " + suspicion(lead_name(*lead));
 }
 
 // Findings that are not confirmed, or that nothing was found; with the remaining structure.
 std::string nothing_text(const Trace& t) {
   if (t.least_p_value > t.alpha) return "no effect that so few tests can prove";
   std::string text = not_confirmed(t);
-  if (const std::string name = suspect(t); text.empty() && !name.empty())
-    text = "no missing effect proven; suspect: " + name;
+  if (text.empty()) text = suspect(t);
   if (text.empty()) text = "no missing effect found";
   if (!t.repeatability && t.noise_floor.n_experiments > 1)
-    text += fmt::format("; for unknown reasons whole tests lie {:.2g} % off the law",
+    text += fmt::format("; single tests lie typically {:.2g} % off the law, cause unknown",
                         100 * t.scatter_between);
   return text;
+}
+
+// Structure that is left: along the order, between training and validation, or between tests beyond
+// what repeats scatter by.
+std::string structure_text(const Trace& t) {
+  if (t.order.found) return trace::order_text(t.order);
+  if (t.validation_shift.found)
+    return fmt::format("the validation tests lie {:+.2g} % off the training tests",
+                       100 * t.validation_shift.share);
+  if (t.repeatability && t.scatter_between > *t.repeatability)
+    return fmt::format("single tests lie typically {:.2g} % off the law, repeats {:.2g} %: cause "
+                       "unknown",
+                       100 * t.scatter_between, 100 * *t.repeatability);
+  return "unexplained structure";
 }
 
 std::string headline(const Trace& t) {
@@ -263,9 +285,8 @@ std::string headline(const Trace& t) {
   case Verdict::unexplained_structure:
     break;
   }
-  const std::string found = not_confirmed(t);
-  return (t.order.found ? trace::order_text(t.order) : "unexplained structure") +
-         (found.empty() ? "" : "; " + found);
+  const std::string found = not_confirmed(t), open = suspect(t);
+  return structure_text(t) + (!found.empty() ? "; " + found : !open.empty() ? "; " + open : "");
 }
 
 const char* result_of(Verdict verdict) {
@@ -417,15 +438,18 @@ std::string design_in_short(const trace::Design& d) {
                      question_of(d), chance);
 }
 
-// "150.0 -> 16.9 MPa on unseen tests, which saves 133.1 (95 %: 80.9 to 185.1)".
+// "error 150.0 -> 16.9 MPa on unseen tests, which saves 133.1 (95 %: 80.9 to 185.1)".
 std::string gained_in_short(const Trace& t) {
   const double after = t.after.validation.mae_MPa;
   const int decimals =
       after > 0 ? std::max(0, 2 - static_cast<int>(std::floor(std::log10(after)))) : 2;
-  return fmt::format("{} -> {} MPa on unseen tests, which saves {} (95 %: {})",
-                     fixed(t.before.validation.mae_MPa, decimals), fixed(after, decimals),
-                     fixed(t.improvement.value_MPa, decimals),
-                     interval_text(t.improvement.interval, decimals));
+  const std::string interval = interval_text(t.improvement.interval, decimals);
+  return fmt::format(
+      "error {} -> {} MPa on unseen tests, which {}", fixed(t.before.validation.mae_MPa, decimals),
+      fixed(after, decimals),
+      t.improvement.interval.low > 0
+          ? fmt::format("saves {} (95 %: {})", fixed(t.improvement.value_MPa, decimals), interval)
+          : fmt::format("may be chance (95 % of the gain: {})", interval));
 }
 
 std::string trace_in_short(const Trace& t) {
@@ -440,13 +464,11 @@ std::string trace_in_short(const Trace& t) {
   const std::string named =
       causes.size() > shown ? count_of(causes.size(), "effect") : join(causes, ", ");
   const std::string open = suspect(t);
-  return fmt::format("{} added to {}{}: {}; {}{}", named, t.model,
-                     t.improvement.interval.low > 0 ? "" : ", though the gain is not certain",
-                     gained_in_short(t),
+  return fmt::format("{} added to {}: {}; {}{}", named, t.model, gained_in_short(t),
                      t.order.found           ? trace::order_text(t.order)
                      : t.remaining.structure ? "structure is left"
                      : open.empty()          ? "no other effect found"
-                                             : "suspect: " + open,
+                                             : open,
                      aliases);
 }
 

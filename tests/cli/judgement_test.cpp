@@ -140,7 +140,7 @@ TEST_F(Judgement, WithoutOracleAndRepeatsSaysWhatWouldGiveTheFloor) {
   const std::string out = calibrate({}, {two_laws});
   EXPECT_THAT(out, testing::ContainsRegex("  noise floor +> [0-9.]+ .*scatter within experiments "
                                           "only, .*\n  Noise floor known as a lower bound only: "
-                                          "run one setting at least 3 times\\.\n"));
+                                          "repeat any one test twice, unchanged\\.\n"));
   EXPECT_EQ(calibration().at("noise_floor").at("lower_bound"), true);
   EXPECT_THAT(directory.read("data/out/benchmark.md"), HasSubstr("\n|  | noise floor | \\> "));
 }

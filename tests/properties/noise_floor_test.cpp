@@ -283,7 +283,7 @@ TEST(NoiseFloor, IsTakenFromTheMostTrustworthySourceAndSaidAsWhatItIs) {
             fmt::format("noise floor above {:.2f} MPa: scatter within experiments only, scatter "
                         "between experiments not included",
                         c.noise_floors[0].mae_MPa));
-  EXPECT_EQ(calibrate::noise_floor_advice(c), "run one setting at least 3 times");
+  EXPECT_EQ(calibrate::noise_floor_advice(c), "repeat any one test twice, unchanged");
   c.noise_floors.clear();
   EXPECT_EQ(calibrate::noise_floor_sentence(c, 2),
             "noise floor unknown: no repeated tests, and experiments "

@@ -115,18 +115,19 @@ TEST(FirstBox, PutsTestsThatWouldProbablySettleNothingLast) {
   lead.columns = {"oil", "psi"};
   lead.design = design_of(lead.name, 0.38, 15);
   t.leads = {lead};
-  EXPECT_THAT(box.text(),
-              HasSubstr("effects: coulomb: no missing effect proven; suspect: oil x psi"));
   EXPECT_THAT(
       box.text(),
-      HasSubstr("next: (1) run one setting at least 3 times: the scatter shows how much a "
-                "better law could gain; (2) run 2 tests with oil = A, otherwise like E3, to "
-                "see whether the effect of oil depends on psi (38 % chance of a clear "
-                "answer; about 15 such tests give 80 %)"));
+      HasSubstr("effects: coulomb: suspected, not proven: the effect of oil changes with psi"));
+  EXPECT_THAT(box.text(),
+              HasSubstr("next: (1) repeat any one test twice, unchanged: the scatter shows "
+                        "whether a better law is worth seeking; (2) run 2 tests with oil = A, "
+                        "otherwise like E3, to "
+                        "see whether the effect of oil depends on psi (38 % chance of a clear "
+                        "answer; about 15 such tests give 80 %)"));
   t.leads[0].design = design_of("oil", 0.9, 2);
   EXPECT_THAT(box.text(), HasSubstr("next: (1) run 2 tests with oil = A, otherwise like E3, to see "
                                     "whether oil has an effect (90 % chance of a clear answer); "
-                                    "(2) run one"));
+                                    "(2) repeat any"));
 }
 
 TEST(FirstBox, NamesAnEffectWhoseGainIsNotCertain) {
@@ -141,10 +142,12 @@ TEST(FirstBox, NamesAnEffectWhoseGainIsNotCertain) {
   t.after.validation.mae_MPa = 16.9;
   t.improvement.value_MPa = 133.1;
   t.improvement.interval = {80.9, 185.1};
-  EXPECT_THAT(box.text(), HasSubstr("effects: oil added to coulomb: 150.0 -> 16.9 MPa on unseen "
-                                    "tests, which saves 133.1 (95 %: 80.9 to 185.1)"));
+  EXPECT_THAT(box.text(),
+              HasSubstr("effects: oil added to coulomb: error 150.0 -> 16.9 MPa on unseen "
+                        "tests, which saves 133.1 (95 %: 80.9 to 185.1)"));
   t.improvement.interval.low = -1;
-  EXPECT_THAT(box.text(), HasSubstr("oil added to coulomb, though the gain is not certain: "));
+  EXPECT_THAT(box.text(), HasSubstr("16.9 MPa on unseen tests, which may be chance (95 % of the "
+                                    "gain: "));
 }
 
 } // namespace frictab::answer_test

@@ -151,7 +151,7 @@ TEST(Report, ShowsNotANumberDriftAsFailedAndNotAsZero) {
   sample.verification.records[0].worst_case_MPa = std::nan("");
   sample.verification.records[0].passed = false;
   EXPECT_THAT(report_html(sample.input()),
-              HasSubstr("</strong>: tables within \u2013 MPa of their law as found"));
+              HasSubstr("</strong>: tables at most \u2013 MPa off their law, as found"));
 }
 
 TEST(Report, CountsRowsThatThePlotsDoNotShow) {
@@ -437,7 +437,7 @@ TEST(Benchmark, IsThisTextForTwoLaws) {
       "0.0020, m = 0.4998 |\n"
       "| 2 | coulomb_0.08 | 26.30 | 21.60 to 31.60 | 30.20 | \u221224.80 | 28.50 | mu = 0.08 |\n"
       "\n"
-      "Noise floor unknown: run one setting at least 3 times.\n"
+      "Noise floor unknown: repeat any one test twice, unchanged.\n"
       "\n"
       "The fixed constant of the literature (coulomb_0.08) is off by 26.3 MPa: 2.3 times as much "
       "as the best law.\n"
@@ -470,8 +470,8 @@ TEST(Benchmark, IsThisTextForTwoLaws) {
       "Validation experiments: E3, E\\|7.\n"
       "\n"
       "Irreducible error, which even an exact law of the state would have: noise floor unknown: no "
-      "repeated tests, and experiments too short to see their scatter; run one setting at "
-      "least 3 times.\n"
+      "repeated tests, and experiments too short to see their scatter; repeat any one test twice, "
+      "unchanged.\n"
       "\n"
       "## The band of experiments\n"
       "\n" +
