@@ -47,14 +47,17 @@ std::vector<stats::ErrorSums> sums_of(const std::vector<ExperimentError>& errors
   return sums;
 }
 
+std::vector<stats::ErrorSums> sums_of(const std::vector<ExperimentError>& errors,
+                                      const data::Dataset& of) {
+  std::vector<stats::ErrorSums> sums = sums_of(errors);
+  if (of.recording.size() == sums.size())
+    for (std::size_t e = 0; e < sums.size(); ++e)
+      sums[e].recording = of.recording[e];
+  return sums;
+}
+
 std::vector<stats::ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& validation) {
-  if (!fit.unseen.empty()) {
-    std::vector<stats::ErrorSums> sums = sums_of(fit.unseen);
-    if (validation.recording.size() == sums.size()) // files do not contain them
-      for (std::size_t e = 0; e < sums.size(); ++e)
-        sums[e].recording = validation.recording[e];
-    return sums;
-  }
+  if (!fit.unseen.empty()) return sums_of(fit.unseen, validation);
   if (!fit.on_rows.empty()) {
     const auto end = fit.on_rows.end();
     return sums_of({end - static_cast<std::ptrdiff_t>(validation.experiments.size()), end});

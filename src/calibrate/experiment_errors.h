@@ -24,6 +24,9 @@ std::vector<ExperimentError> experiment_errors(const models::Model& model,
 
 // Converts errors back to sums over rows.
 std::vector<stats::ErrorSums> sums_of(const std::vector<ExperimentError>& errors);
+// The same with the recordings of the data that the errors are of, which files do not contain.
+std::vector<stats::ErrorSums> sums_of(const std::vector<ExperimentError>& errors,
+                                      const data::Dataset& of);
 
 // Returns the sums of the law on the validation experiments, or of fit.unseen if it has any.
 std::vector<stats::ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& validation);

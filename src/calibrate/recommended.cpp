@@ -119,19 +119,6 @@ Recommended recommend(std::span<const LawErrors> laws, std::span<const std::size
   return out;
 }
 
-namespace {
-
-// Errors of the tests left out in turn, with the recordings that files do not contain.
-std::vector<stats::ErrorSums> over_all_sums(const ModelFit& fit, const CalibrationInput& input) {
-  std::vector<stats::ErrorSums> sums = sums_of(fit.over_all);
-  if (input.undivided && input.undivided->recording.size() == sums.size())
-    for (std::size_t e = 0; e < sums.size(); ++e)
-      sums[e].recording = input.undivided->recording[e];
-  return stats::by_recording(sums);
-}
-
-} // namespace
-
 void add_recommended(Calibration& calibration, const CalibrationInput& input,
                      const std::vector<std::string>& overruled) {
   calibration.recommended = {};
@@ -145,14 +132,14 @@ void add_recommended(Calibration& calibration, const CalibrationInput& input,
     numbers.push_back(numbers_of(fit, calibration.fits));
   }
   const std::size_t tests = calibration.all_experiments.size();
-  const bool over_all = tests > 0 && std::all_of(fits.begin(), fits.end(), [&](const auto* fit) {
-                          return fit->over_all.size() == tests;
-                        });
+  const bool over_all = input.undivided && tests > 0 &&
+                        std::all_of(fits.begin(), fits.end(),
+                                    [&](const auto* fit) { return fit->over_all.size() == tests; });
   std::vector<LawErrors> laws(fits.size());
   parallel_for(laws.size(), [&](std::size_t i) {
     laws[i] = {fits[i]->model.law->name,
-               over_all ? over_all_sums(*fits[i], input)
-                        : stats::by_recording(unseen_sums(*fits[i], input.validation))};
+               stats::by_recording(over_all ? sums_of(fits[i]->over_all, *input.undivided)
+                                            : unseen_sums(*fits[i], input.validation))};
   });
   calibration.recommended = recommend(laws, numbers, input.options.bootstrap, input.options.seed);
   if (over_all) calibration.recommended.tests = tests;

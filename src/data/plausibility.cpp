@@ -624,12 +624,11 @@ Implausible copied_test(const Dataset& data) {
     if (copies++ > 0) continue;
     const std::size_t own = data.first_row[e + 1] - data.first_row[e],
                       other = data.first_row[*same[e] + 1] - data.first_row[*same[e]];
-    const bool is_part = own < other;
+    const auto [part, whole] = std::pair(own <= other ? e : *same[e], own <= other ? *same[e] : e);
     first =
-        fmt::format("test '{}' has the {}rows of test '{}', value by value",
-                    data.experiments[is_part || own == other ? e : *same[e]],
+        fmt::format("test '{}' has the {}rows of test '{}', value by value", data.experiments[part],
                     own == other ? "" : fmt::format("first {} ", thousands(std::min(own, other))),
-                    data.experiments[is_part || own == other ? *same[e] : e]);
+                    data.experiments[whole]);
   }
   if (copies == 0) return {};
   return {"", rows, data.source_rows(), first + and_more(copies - 1, "test"),

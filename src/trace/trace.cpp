@@ -216,9 +216,8 @@ Delivered search_and_deliver(const TraceInput& in) {
   std::vector<std::string> rejected;
   for (const auto& [index, against] : delivery.against) {
     barred.push_back(found.findings[index].rival.causes.back());
-    rejected.push_back(fmt::format("{}: significant (p = {:.3g}), but {}",
-                                   cause_name(barred.back(), found.search.candidates()),
-                                   found.findings[index].p_value, against.why));
+    rejected.push_back(rejection(found.search.candidates(), barred.back(),
+                                 found.findings[index].p_value, against.why));
   }
   Found again = search_effects(in, barred);
   if (again.findings.empty()) return {std::move(found), std::move(delivery)};

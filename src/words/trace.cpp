@@ -231,12 +231,12 @@ std::string unconfirmed_text(const Lead& lead) {
   return text + ")";
 }
 
-// "the effect of T_contact_C changes with psi", "Ra_um".
-std::string suspicion(const std::string& name) {
+// "the effect of T_contact_C VERB psi" for a product, nothing for a single cause.
+std::string effect_in_product(const std::string& name, const char* verb) {
   constexpr std::string_view times = " x ";
   const std::size_t at = name.find(times);
-  return at == name.npos ? name
-                         : fmt::format("the effect of {} changes with {}", name.substr(0, at),
+  return at == name.npos ? ""
+                         : fmt::format("the effect of {} {} {}", name.substr(0, at), verb,
                                        name.substr(at + times.size()));
 }
 
@@ -245,7 +245,9 @@ std::string suspect(const Trace& t) {
   const auto lead = std::find_if(t.leads.begin(), t.leads.end(), [](const Lead& one) {
     return !one.significant && !one.design.tests.empty();
   });
-  return lead == t.leads.end() ? "" : "suspected, not proven: " + suspicion(lead_name(*lead));
+  if (lead == t.leads.end()) return "";
+  const std::string product = effect_in_product(lead_name(*lead), "changes with");
+  return "suspected, not proven: " + (product.empty() ? lead_name(*lead) : product);
 }
 
 // Findings that are not confirmed, or that nothing was found; with the remaining structure.
@@ -419,15 +421,11 @@ std::string tests_in_short(const trace::Design& d) {
   return join(groups, "; ");
 }
 
-// "whether the effect of T_contact_C depends on psi", "whether Ra_um has an effect".
+// "to see whether the effect of T_contact_C depends on psi", "to decide between a, b".
 std::string question_of(const trace::Design& d) {
-  constexpr const char* times = " x ";
   if (d.settles.size() > 1) return "to decide between " + join(d.settles, ", ");
-  const std::string& name = d.settles.front();
-  const std::size_t at = name.find(times);
-  if (at == std::string::npos) return "to see whether " + name + " has an effect";
-  return fmt::format("to see whether the effect of {} depends on {}", name.substr(0, at),
-                     name.substr(at + std::string_view(times).size()));
+  const std::string product = effect_in_product(d.settles.front(), "depends on");
+  return "to see whether " + (product.empty() ? d.settles.front() + " has an effect" : product);
 }
 
 std::string design_in_short(const trace::Design& d) {

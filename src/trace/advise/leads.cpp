@@ -108,14 +108,7 @@ void add_undelivered(Trace& trace, const Found& found, const Delivery& delivery)
 // without effects.
 std::string size_between(const Search& search, const Cause& cause) {
   const CandidateColumn& column = search.candidates().columns[cause.columns[0]];
-  const VectorXd ln = search.campaign()
-                          .measured
-                          .cwiseQuotient(search.base().predicted.cwiseMax(
-                              tuning::smallest_share_of_tau * search.tau_scale_MPa()))
-                          .array()
-                          .max(tuning::smallest_gain_ratio)
-                          .log();
-  const VectorXd y = search.blocks().experiment_means(ln).col(0),
+  const VectorXd y = log_gains(search, search.base().predicted),
                  x = search.blocks().experiment_means(column.values).col(0);
   if (column.levels.empty()) {
     const VectorXd centred = x.array() - x.mean();

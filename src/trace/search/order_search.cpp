@@ -56,19 +56,10 @@ std::vector<double> in_order(const Search& search, const VectorXd& of_tests) {
   return values;
 }
 
-// Logarithm of measured over calculated friction of each test, in the order of tests.
-std::vector<double> gains_in_order(const Search& search) {
-  const VectorXd& law = search.last().predicted;
-  const VectorXd ratio = search.residual().cwiseQuotient(
-      law.cwiseMax(tuning::smallest_share_of_tau * search.tau_scale_MPa()));
-  const VectorXd mean = search.blocks().experiment_means(ratio).col(0);
-  return in_order(search, mean.array().max(tuning::smallest_gain_ratio - 1).log1p().matrix());
-}
-
 // Adds to a structure whether friction steps between two tests or rises or falls from the first to
 // the last; neither where both explain little.
 void add_direction(OrderStructure& order, const Search& search) {
-  const std::vector<double> gains = gains_in_order(search);
+  const std::vector<double> gains = in_order(search, log_gains(search, search.last().predicted));
   const auto n = static_cast<Index>(gains.size());
   const auto y = VectorXd::Map(gains.data(), n);
   const auto squares = [](const auto& x) { return (x.array() - x.mean()).square().sum(); };
@@ -131,6 +122,17 @@ double p_of_steps(const VectorXd& steps, const std::vector<std::size_t>& places,
 }
 
 } // namespace
+
+VectorXd log_gains(const Search& search, const VectorXd& predicted) {
+  const VectorXd ln =
+      search.campaign()
+          .measured
+          .cwiseQuotient(predicted.cwiseMax(tuning::smallest_share_of_tau * search.tau_scale_MPa()))
+          .array()
+          .max(tuning::smallest_gain_ratio)
+          .log();
+  return search.blocks().experiment_means(ln).col(0);
+}
 
 bool is_declared(const Search& search, const Cause& cause) {
   return !cause.is_joint() && search.candidates().columns[cause.columns[0]].is_wear;

@@ -7,6 +7,10 @@
 
 namespace frictab::trace {
 
+// Mean logarithm of measured over calculated friction of each test, for a law's predictions per
+// block.
+Eigen::VectorXd log_gains(const Search& search, const Eigen::VectorXd& predicted);
+
 // How a column goes with the declared order. `stretches`: a text column each of whose levels is one
 // stretch of it, as of batches; `steps`: friction also steps where the levels change and hardly
 // elsewhere, by a permutation test of the steps between neighbouring tests at trace.alpha.

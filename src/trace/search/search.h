@@ -133,6 +133,10 @@ struct Found {
   OrderStructure order = {};
 };
 
+// "oil: significant (p = 0.001), but ...".
+std::string rejection(const Candidates& candidates, const Cause& cause, double p_value,
+                      std::string_view why);
+
 // Runs the whole search, without the barred causes.
 Found search_effects(const TraceInput& input, std::span<const Cause> barred = {});
 

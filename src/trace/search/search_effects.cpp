@@ -34,8 +34,7 @@ public:
 
 private:
   void reject(const Cause& cause, double p_value, const char* why) {
-    f_.rejected.push_back(fmt::format("{}: significant (p = {:.3g}), but {}",
-                                      cause_name(cause, law().candidates()), p_value, why));
+    f_.rejected.push_back(rejection(law().candidates(), cause, p_value, why));
   }
 
   const Search& law() const { return f_.search; }
@@ -180,6 +179,12 @@ private:
 };
 
 } // namespace
+
+std::string rejection(const Candidates& candidates, const Cause& cause, double p_value,
+                      std::string_view why) {
+  return fmt::format("{}: significant (p = {:.3g}), but {}", cause_name(cause, candidates), p_value,
+                     why);
+}
 
 Found search_effects(const TraceInput& input, std::span<const Cause> barred) {
   Found found{Search(input)};
