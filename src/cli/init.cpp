@@ -106,13 +106,13 @@ std::vector<std::string> training_names(const std::vector<std::string>& files,
 
 // Guesses of all files; of several, those without a table are passed over, with a line each in
 // `passed`.
-std::vector<data::GuessedFile> guesses_of(const std::vector<std::string>& files,
-                                          std::vector<std::string>& passed) {
-  std::vector<data::GuessedFile> guesses;
+std::vector<guess::File> guesses_of(const std::vector<std::string>& files,
+                                    std::vector<std::string>& passed) {
+  std::vector<guess::File> guesses;
   std::optional<InputError> first;
   for (const std::string& file : files)
     try {
-      for (data::GuessedFile& guess : data::guess_file(file, file))
+      for (guess::File& guess : guess::guess_file(file, file))
         guesses.push_back(std::move(guess));
     } catch (const InputError& error) {
       if (!fs::exists(file)) throw;
@@ -171,9 +171,9 @@ void add_folders_not_looked_into(const std::vector<std::string>& from,
 }
 
 // Keeps the sheets of these names, or like them with *; tables of tests in other workbooks stay.
-void keep_sheets(std::vector<data::GuessedFile>& guesses, const std::vector<std::string>& sheets) {
+void keep_sheets(std::vector<guess::File>& guesses, const std::vector<std::string>& sheets) {
   std::vector<std::string> names;
-  for (const data::GuessedFile& guess : guesses)
+  for (const guess::File& guess : guesses)
     if (!guess.sheet.empty()) names.push_back(guess.sheet);
   const auto is_meant = [](const std::string& name, const std::string& sheet) {
     return name == sheet || os::is_like(name, sheet);
@@ -183,7 +183,7 @@ void keep_sheets(std::vector<data::GuessedFile>& guesses, const std::vector<std:
                      [&](const std::string& name) { return is_meant(name, sheet); }))
       throw InputError({}, fmt::format("no workbook has a table in a sheet '{}'", sheet),
                        suggest(sheet, names));
-  std::erase_if(guesses, [&](const data::GuessedFile& guess) {
+  std::erase_if(guesses, [&](const guess::File& guess) {
     return !sheets.empty() && !guess.sheet.empty() &&
            std::none_of(sheets.begin(), sheets.end(),
                         [&](const std::string& sheet) { return is_meant(guess.sheet, sheet); });
@@ -202,21 +202,21 @@ std::optional<std::string> next_answer(const std::string& lines) {
 // Makes a job in DIR for the files; messages call them as the user does.
 job::GuessedJob guess_from(const Options& options, const std::vector<std::string>& files,
                            const std::string& directory, std::vector<std::string>& passed) {
-  std::vector<data::GuessedFile> guesses = guesses_of(files, passed);
+  std::vector<guess::File> guesses = guesses_of(files, passed);
   keep_sheets(guesses, options.sheets);
-  data::GuessedCampaign campaign = data::sort_guesses(std::move(guesses));
+  guess::Campaign campaign = guess::sort_guesses(std::move(guesses));
   if (!options.sheets.empty()) campaign.sheets = options.sheets;
   if (options.interactive) campaign = job::with_answers(std::move(campaign), next_answer);
   std::vector<std::string> of_rows, names;
-  for (data::GuessedFile& guess : campaign.files) {
+  for (guess::File& guess : campaign.files) {
     if (of_rows.empty() || of_rows.back() != guess.file) of_rows.push_back(guess.file);
     guess.file = relative_to(guess.file, directory);
     names.push_back(guess.sheet.empty() ? guess.file : guess.file + "/" + guess.sheet);
   }
   if (campaign.tests) campaign.tests->file = relative_to(campaign.tests->file, directory);
-  for (data::LeftFile& left : campaign.left)
+  for (guess::LeftFile& left : campaign.left)
     left.file = relative_to(left.file, directory);
-  return job::guessed_job(campaign, data::guess_names(names), training_names(of_rows, directory));
+  return job::guessed_job(campaign, guess::guess_names(names), training_names(of_rows, directory));
 }
 
 int init_from(const Options& options, const CommonOptions& common) {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
-#include "data/column_names.h"
+#include "data/name_words.h"
 #include "data/computed.h"
 #include "data/quantity.h"
 #include "data/test_table.h"

@@ -14,7 +14,7 @@
 #include "core/error.h"
 #include "core/pattern.h"
 #include "core/text.h"
-#include "data/column_names.h"
+#include "data/name_words.h"
 #include "data/middle.h"
 #include "data/quantity.h"
 

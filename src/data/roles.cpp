@@ -18,7 +18,7 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "data/clear_levels.h"
-#include "data/column_names.h"
+#include "data/name_words.h"
 #include "data/computed.h"
 #include "data/disguise.h"
 #include "data/middle.h"

@@ -11,7 +11,7 @@
 
 #include "core/no_value.h"
 #include "core/text.h"
-#include "data/column_names.h"
+#include "data/name_words.h"
 #include "data/computed.h"
 #include "data/leave_out.h"
 #include "data/middle.h"

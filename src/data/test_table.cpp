@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
-#include "data/column_names.h"
+#include "data/name_words.h"
 #include "data/quantity.h"
 #include "data/workbooks.h"
 #include "io/workbook.h"

@@ -16,7 +16,6 @@ namespace frictab::job {
 
 namespace {
 
-using data::GuessedColumn;
 
 constexpr const char* coefficient_name = "mu"; // as users call the coefficient of friction
 
@@ -34,13 +33,13 @@ std::string no_number(const std::string& answer) {
 
 class Interview {
 public:
-  Interview(data::GuessedCampaign campaign, const AskUser& ask)
-      : campaign_(std::move(campaign)), ask_(ask), most_(data::most_common(campaign_.files)) {
+  Interview(guess::Campaign campaign, const AskUser& ask)
+      : campaign_(std::move(campaign)), ask_(ask), most_(guess::most_common(campaign_.files)) {
     for (std::size_t f = 0; f < campaign_.files.size(); ++f)
       if (campaign_.files[f].is_read_as(campaign_.files[most_])) alike_.push_back(f);
   }
 
-  data::GuessedCampaign hold() {
+  guess::Campaign hold() {
     if (!campaign_.files[most_].header) ask_for_names();
     if (points().lacks_tests()) ask_for_tests();
     if (points().lacks_friction()) ask_for_friction();
@@ -53,7 +52,7 @@ public:
 
 private:
   OpenPoints points() const { return OpenPoints(campaign_); }
-  const std::vector<GuessedColumn>& columns() const { return campaign_.files[most_].columns; }
+  const std::vector<guess::Column>& columns() const { return campaign_.files[most_].columns; }
 
   // Asks until `take` accepts the answer, which returns what is wrong with it; an empty answer
   // leaves the point open.
@@ -103,13 +102,13 @@ private:
 
   // Files that are read alike may have further columns, in another order.
   template <class Change> void change(std::size_t column, const Change& change) {
-    const GuessedColumn meant = columns()[column];
+    const guess::Column meant = columns()[column];
     for (const std::size_t f : alike_)
-      for (GuessedColumn& one : campaign_.files[f].columns)
+      for (guess::Column& one : campaign_.files[f].columns)
         if (one.name == meant.name && one.number == meant.number) change(one);
   }
   void name(std::size_t column, const std::string& canonical, bool coefficient = false) {
-    change(column, [&](GuessedColumn& one) {
+    change(column, [&](guess::Column& one) {
       one.canonical = canonical;
       one.coefficient = coefficient;
     });
@@ -121,7 +120,7 @@ private:
     for (const data::Quantity& quantity : data::quantities())
       known.push_back(quantity.name);
     for (std::size_t c = 0; c < columns().size(); ++c) {
-      change(c, [&](GuessedColumn& one) { one.number = c + 1; });
+      change(c, [&](guess::Column& one) { one.number = c + 1; });
       ask(fmt::format("What is column {} ({})?\n", c + 1, printable(columns()[c].first_values)),
           "a name of frictab list quantities, mu or experiment", [&](const std::string& answer) {
             if (std::find(known.begin(), known.end(), answer) == known.end())
@@ -148,7 +147,7 @@ private:
 
   void ask_for_friction() {
     const OpenPoints now = points();
-    if (const GuessedColumn* const torque = now.torque()) {
+    if (const guess::Column* const torque = now.torque()) {
       ask(torque_question(*torque) + "\n", "a number in mm", [&](const std::string& answer) {
         const auto radius_mm = positive(answer);
         if (!radius_mm) return no_number(answer);
@@ -229,7 +228,7 @@ private:
     if (campaign_.constants.count("F_N_N"))
       campaign_.constants["sigma_n_MPa"] = campaign_.constants.at("F_N_N") / area_mm2;
     else
-      for (data::GuessedFile& file : campaign_.files)
+      for (guess::File& file : campaign_.files)
         file.area_mm2 = area_mm2;
   }
 
@@ -250,7 +249,7 @@ private:
 
   void ask_for_units() {
     for (std::size_t c = 0; c < columns().size(); ++c) {
-      const GuessedColumn& column = columns()[c];
+      const guess::Column& column = columns()[c];
       if (!lacks_unit(column)) continue;
       const std::string unit = data::find_quantity(column.canonical)->unit;
       ask(fmt::format("In which unit is {} ({})? The file does not say: {} is assumed.\n",
@@ -260,7 +259,7 @@ private:
             if (!convert(answer, unit))
               return fmt::format("'{}' does not convert to {}: {}", printable(answer), unit,
                                  suggest(answer, units_like(unit)));
-            change(c, [&](GuessedColumn& one) { one.answered_unit = answer; });
+            change(c, [&](guess::Column& one) { one.answered_unit = answer; });
             return std::string();
           });
     }
@@ -276,7 +275,7 @@ private:
         });
   }
 
-  data::GuessedCampaign campaign_;
+  guess::Campaign campaign_;
   const AskUser& ask_;
   const std::size_t most_;
   std::vector<std::size_t> alike_; // files that are read like most
@@ -285,7 +284,7 @@ private:
 
 } // namespace
 
-data::GuessedCampaign with_answers(data::GuessedCampaign campaign, const AskUser& ask) {
+guess::Campaign with_answers(guess::Campaign campaign, const AskUser& ask) {
   return Interview(std::move(campaign), ask).hold();
 }
 

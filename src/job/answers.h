@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "data/sniff.h"
+#include "guess/guess.h"
 
 namespace frictab::job {
 
@@ -14,6 +14,6 @@ using AskUser = std::function<std::optional<std::string>(const std::string& line
 
 // Takes over each answer; what is left empty stays open. An answer that cannot be meant is asked
 // for again. Columns get their meaning in every file that is read like most.
-data::GuessedCampaign with_answers(data::GuessedCampaign campaign, const AskUser& ask);
+guess::Campaign with_answers(guess::Campaign campaign, const AskUser& ask);
 
 } // namespace frictab::job

@@ -8,10 +8,11 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
-#include "data/column_names.h"
 #include "data/computed.h"
+#include "data/name_words.h"
 #include "data/quantity.h"
 #include "data/scale.h"
+#include "guess/column_names.h"
 #include "io/csv.h"
 #include "job/open_points.h"
 #include "job/toml_tree.h"
@@ -19,9 +20,6 @@
 namespace frictab::job {
 
 namespace {
-
-using data::GuessedColumn;
-using data::GuessedFile;
 
 // Writes a line of TOML with its comment at a common column.
 std::string line(const std::string& text, const std::string& comment) {
@@ -45,11 +43,11 @@ std::string toml_texts(const std::vector<std::string>& texts) {
 }
 
 // Whether the file is read only with its own decimal sign, which has to be named.
-bool needs_decimal(const GuessedFile& file) {
+bool needs_decimal(const guess::File& file) {
   return !file.own_decimal && !file.any_decimal;
 }
 
-std::string dialect_lines(const GuessedFile& file) {
+std::string dialect_lines(const guess::File& file) {
   std::string out;
   if (file.thousands != 0)
     out += line(fmt::format("thousands = {}", toml_quoted(std::string(1, file.thousands))),
@@ -78,17 +76,17 @@ std::string dialect_lines(const GuessedFile& file) {
 
 // The number of the column, or its name in the file, without its unit where that is enough to find
 // it.
-std::string source_of(const GuessedColumn& column, const GuessedFile& file) {
+std::string source_of(const guess::Column& column, const guess::File& file) {
   if (column.number > 0) return std::to_string(column.number);
   const std::string bare = io::read_header_name(column.name).name;
   const auto alike =
-      std::count_if(file.columns.begin(), file.columns.end(), [&](const GuessedColumn& c) {
+      std::count_if(file.columns.begin(), file.columns.end(), [&](const guess::Column& c) {
         return io::read_header_name(c.name).name == bare;
       });
   return toml_quoted(alike > 1 ? column.name : bare);
 }
 
-std::string column_line(const GuessedColumn& column, const GuessedFile& file) {
+std::string column_line(const guess::Column& column, const guess::File& file) {
   const data::Quantity* quantity = data::find_quantity(column.canonical);
   const std::string source = source_of(column, file);
   std::string value = column.number > 0 ? fmt::format("{{ column = {} }}", source) : source;
@@ -111,15 +109,15 @@ std::string column_line(const GuessedColumn& column, const GuessedFile& file) {
 
 // Whether a column needs no line: it has the canonical name, and the file does not give another
 // unit.
-bool says_itself(const GuessedColumn& column) {
+bool says_itself(const guess::Column& column) {
   return column.name == column.canonical && column.number == 0;
 }
 
 // `taken`: names of lines above the rows; `tests`: the table of tests, whose column of their names
 // has its own name.
-std::string columns_lines(const GuessedFile& file, const std::set<std::string>& taken,
-                          const GuessedFile* tests = nullptr) {
-  const GuessedColumn *const own = file.find("experiment"), *const other =
+std::string columns_lines(const guess::File& file, const std::set<std::string>& taken,
+                          const guess::File* tests = nullptr) {
+  const guess::Column *const own = file.find("experiment"), *const other =
                                                                 tests ? tests->find("experiment")
                                                                       : nullptr;
   const bool two_names = own && other && own->number == 0 && own->name != other->name;
@@ -128,7 +126,7 @@ std::string columns_lines(const GuessedFile& file, const std::set<std::string>& 
     out += line("experiment = " + toml_texts({own->name, other->name}),
                 "the names of tests, in the rows and in their table");
   std::vector<std::string> canonical, others, above;
-  for (const GuessedColumn& column : file.columns)
+  for (const guess::Column& column : file.columns)
     if (taken.count(column.name) > 0 && column.above)
       continue;
     else if (column.canonical.empty() && column.above)
@@ -161,8 +159,8 @@ std::string columns_lines(const GuessedFile& file, const std::set<std::string>& 
 
 // Conditions that all files give above their rows, with values that differ; texts only where files
 // share them. The table of tests goes first.
-std::set<std::string> above_that_differ(const data::GuessedCampaign& campaign) {
-  const std::vector<GuessedFile>& files = campaign.files;
+std::set<std::string> above_that_differ(const guess::Campaign& campaign) {
+  const std::vector<guess::File>& files = campaign.files;
   struct Seen {
     std::size_t files = 0;
     bool text = false;
@@ -170,8 +168,8 @@ std::set<std::string> above_that_differ(const data::GuessedCampaign& campaign) {
     std::size_t counts_rows = 0; // files
   };
   std::map<std::string, Seen> seen;
-  for (const GuessedFile& file : files)
-    for (const GuessedColumn& column : file.columns)
+  for (const guess::File& file : files)
+    for (const guess::Column& column : file.columns)
       if (column.above && column.canonical.empty()) {
         Seen& one = seen[column.name];
         ++one.files;
@@ -185,14 +183,14 @@ std::set<std::string> above_that_differ(const data::GuessedCampaign& campaign) {
         (!one.text || 2 * one.values.size() <= files.size()))
       out.insert(name);
   if (campaign.tests)
-    for (const GuessedColumn& column : campaign.tests->columns)
+    for (const guess::Column& column : campaign.tests->columns)
       out.erase(column.name);
   return out;
 }
 
 class Writer {
 public:
-  Writer(const data::GuessedCampaign& campaign, const data::GuessedNames& names,
+  Writer(const guess::Campaign& campaign, const guess::NamePattern& names,
          const std::vector<std::string>& training)
       : campaign_(campaign), files_(campaign.files), points_(campaign), most_(points_.file()),
         names_(names), training_(training), above_(above_that_differ(campaign)),
@@ -235,7 +233,7 @@ private:
     out_.text += line("training = " + toml_texts(training_),
                       fmt::format("{} {}{}", files_.size(), noun, files_.size() == 1 ? "" : "s"));
     add_sheets();
-    for (const data::LeftFile& left : campaign_.left) {
+    for (const guess::LeftFile& left : campaign_.left) {
       out_.left.push_back(shown(left.file + ": " + left.why));
       if (left.may_list_tests && !campaign_.tests)
         out_.left.back() += "; if it has a row per test, write tests = " + toml_quoted(left.file);
@@ -274,18 +272,18 @@ private:
 
   void add_columns_of_tests() {
     if (!campaign_.tests) return;
-    GuessedFile tests = *campaign_.tests;
+    guess::File tests = *campaign_.tests;
     tests.pressure.clear();
     if (most_.find("experiment")) // stands among the columns of the rows
       std::erase_if(tests.columns, [](const auto& one) { return one.canonical == "experiment"; });
-    for (GuessedColumn& column : tests.columns)
+    for (guess::Column& column : tests.columns)
       if (column.canonical != "experiment" && points_.is_of_rows(column.canonical))
         column.canonical.clear(); // the rows have it themselves
     out_.text += "# of " + shown(tests.label()) + ":\n";
     if (most_.wide_known) {
-      GuessedColumn& names = *std::find_if(
+      guess::Column& names = *std::find_if(
           tests.columns.begin(), tests.columns.end(),
-          [](const GuessedColumn& column) { return column.canonical == "experiment"; });
+          [](const guess::Column& column) { return column.canonical == "experiment"; });
       out_.text += line("experiment = " + toml_texts({names.name, "experiment"}),
                         "the names of tests, in their table and by [data.wide]");
       tests.columns.erase(tests.columns.begin() + (&names - tests.columns.data()));
@@ -295,7 +293,7 @@ private:
 
   void add_missing() {
     std::set<std::string> markers;
-    for (const GuessedFile& file : files_)
+    for (const guess::File& file : files_)
       markers.insert(file.missing.begin(), file.missing.end());
     if (markers.empty()) return;
     out_.text += line("missing_values = " + toml_texts({markers.begin(), markers.end()}),
@@ -306,7 +304,7 @@ private:
   // A table with one row per test.
   void add_tests() {
     if (!campaign_.tests) return;
-    const GuessedFile& tests = *campaign_.tests;
+    const guess::File& tests = *campaign_.tests;
     out_.text += line("tests = " + toml_quoted(tests.file),
                       "a row per test, found by the name or its number: " +
                           shown(source_of(*tests.find("experiment"), tests)));
@@ -346,7 +344,7 @@ private:
   void ask_for_units() {
     std::vector<std::string> names;
     std::string lines;
-    for (const GuessedColumn& column : most_.columns) {
+    for (const guess::Column& column : most_.columns) {
       if (!lacks_unit(column)) continue;
       const std::string& unit = data::find_quantity(column.canonical)->unit;
       const auto others = data::other_units(unit);
@@ -369,10 +367,10 @@ private:
   }
 
   void ask_for_radius_of_rotation() {
-    const GuessedColumn* const turns = points_.rotation();
+    const guess::Column* const turns = points_.rotation();
     if (!turns) return;
     const double radius_mm = points_.example_radius_mm();
-    const std::string factor = data::turn_factor(*turns);
+    const std::string factor = guess::turn_factor(*turns);
     ask(fmt::format("At which radius is the contact? {} is a speed of rotation.",
                     shown(shown_name(*turns))),
         line(fmt::format("# v_rel_mm_s = {{ formula = {} }}",
@@ -387,7 +385,7 @@ private:
   void ask_for_temperature() {
     std::vector<std::string> names;
     std::string lines;
-    for (const GuessedColumn* column : points_.temperatures()) {
+    for (const guess::Column* column : points_.temperatures()) {
       names.push_back(shown(shown_name(*column)));
       const std::string unit = column->unit.empty() ? data::unit_in_name(column->name, "degC") : "";
       const bool of_tool = data::has_word(data::words_of_name(column->name),
@@ -410,7 +408,7 @@ private:
 
   void add_pressure_by_area() {
     if (!is_pressure_by_area()) return;
-    const GuessedColumn& force = *most_.find("F_N_N");
+    const guess::Column& force = *most_.find("F_N_N");
     const std::string unit = unit_besides(force);
     out_.text +=
         line(fmt::format("sigma_n_MPa = {{ column = {}, area_mm2 = {}{} }}",
@@ -421,9 +419,9 @@ private:
 
   void ask_for_pressure() {
     if (!points_.lacks_pressure()) return;
-    const GuessedFile& with_force =
+    const guess::File& with_force =
         !most_.find("F_N_N") && campaign_.tests ? *campaign_.tests : most_;
-    const GuessedColumn* force = with_force.find("F_N_N");
+    const guess::Column* force = with_force.find("F_N_N");
     const double area = points_.example_area_mm2();
     ask("Where does the contact normal stress come from? None was found.",
         fmt::format("# sigma_n_MPa = \"COLUMN\"\n{}"
@@ -441,7 +439,7 @@ private:
       if (points_.lacks_normal_force())
         ask("Which normal force belongs to the friction force? None was found.",
             "# F_N_N = \"COLUMN\"\n# or one value for all rows, in [data.constants] below\n");
-    } else if (const GuessedColumn* torque = points_.torque()) {
+    } else if (const guess::Column* torque = points_.torque()) {
       const double radius_mm = points_.example_radius_mm();
       const std::string radius =
           radius_mm > 0 ? fmt::format("{:.4g}", radius_mm / 1000) : "RADIUS_M";
@@ -455,7 +453,7 @@ private:
           "`value`.",
           "# tau_R_MPa = { column = \"value\", times = \"sigma_n_MPa\" } # a coefficient\n"
           "# F_R_N = \"value\"\n# tau_R_MPa = \"value\"\n");
-    } else if (const GuessedColumn* likely = points_.likely_coefficient()) {
+    } else if (const guess::Column* likely = points_.likely_coefficient()) {
       ask(fmt::format("Is {} a coefficient of friction? Its numbers are as small, and nothing else "
                       "is friction.",
                       shown(shown_name(*likely))),
@@ -465,7 +463,7 @@ private:
                        "# tau_R_MPa = {{ formula = {} }}",
                        toml_quoted(data::name_in_formulas(likely->name) + "*sigma_f_MPa/3**0.5")),
                    "if it is a friction factor m"));
-    } else if (const GuessedColumn* force = points_.only_force()) {
+    } else if (const guess::Column* force = points_.only_force()) {
       ask(fmt::format("Is {} the friction force? It is the only force left, and nothing else is "
                       "friction.",
                       shown(shown_name(*force))),
@@ -516,7 +514,7 @@ private:
     const bool plain = names_.pattern.find('\'') == std::string::npos;
     out_.text +=
         "from_name = " + (plain ? "'" + names_.pattern + "'" : toml_quoted(names_.pattern)) + "\n";
-    for (const data::NamePart& part : names_.parts)
+    for (const guess::NamePart& part : names_.parts)
       out_.text += fmt::format("# {}: {}{}\n", part.group, shown(part.values),
                                part.group == "experiment" ? " (the name of the test)" : "");
     out_.text += "# Give the groups names that say what they are; one without a meaning may go.\n";
@@ -524,7 +522,7 @@ private:
 
   // Adds rules for files that are read differently from most_, and for values in file names.
   void add_rules() {
-    for (const GuessedFile& file : files_) {
+    for (const guess::File& file : files_) {
       if (file.is_read_as(most_)) continue;
       out_.text += fmt::format("\n[[data.files]]\nmatch = {}\n", toml_quoted(file.file));
       out_.text += decimal_lines(file);
@@ -540,14 +538,14 @@ private:
   }
 
   // The decimal sign where [data] has another one.
-  std::string decimal_lines(const GuessedFile& file) const {
+  std::string decimal_lines(const guess::File& file) const {
     if (!needs_decimal(file) || file.decimal == decimal_) return "";
     return line(fmt::format("decimal = {}", toml_quoted(std::string(1, file.decimal))),
                 file.decimal == ',' ? "more cells are numbers than with a point" : "");
   }
 
   // Restores defaults for this file where [data] sets something else for the others.
-  std::string plain_lines(const GuessedFile& file) const {
+  std::string plain_lines(const guess::File& file) const {
     std::string out;
     if (file.skip_rows == 0 && most_.skip_rows > 0) out += "skip_rows = 0\n";
     if (file.skip_footer == 0 && most_.skip_footer > 0) out += "skip_footer = 0\n";
@@ -559,11 +557,11 @@ private:
     return out;
   }
 
-  const data::GuessedCampaign& campaign_;
-  const std::vector<GuessedFile>& files_;
+  const guess::Campaign& campaign_;
+  const std::vector<guess::File>& files_;
   const OpenPoints points_;
-  const GuessedFile& most_;
-  const data::GuessedNames& names_;
+  const guess::File& most_;
+  const guess::NamePattern& names_;
   const std::vector<std::string>& training_;
   const std::set<std::string> above_; // lines above the rows that are proposed as columns
   const char decimal_;                // of [data], by which the table of tests is read
@@ -572,7 +570,7 @@ private:
 
 } // namespace
 
-GuessedJob guessed_job(const data::GuessedCampaign& campaign, const data::GuessedNames& names,
+GuessedJob guessed_job(const guess::Campaign& campaign, const guess::NamePattern& names,
                        const std::vector<std::string>& training) {
   return Writer(campaign, names, training).write();
 }

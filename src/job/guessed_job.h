@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "data/sniff.h"
+#include "guess/guess.h"
 
 namespace frictab::job {
 
@@ -16,7 +16,7 @@ struct GuessedJob {
 };
 
 // `training`: names, globs or folders of the files, as in data.training.
-GuessedJob guessed_job(const data::GuessedCampaign& campaign, const data::GuessedNames& names,
+GuessedJob guessed_job(const guess::Campaign& campaign, const guess::NamePattern& names,
                        const std::vector<std::string>& training);
 
 } // namespace frictab::job

@@ -8,33 +8,31 @@
 
 #include "core/text.h"
 #include "core/units.h"
-#include "data/column_names.h"
 #include "data/computed.h"
+#include "data/name_words.h"
 #include "data/quantity.h"
 #include "data/scale.h"
+#include "guess/column_names.h"
 
 namespace frictab::job {
 
-using data::GuessedColumn;
-using data::GuessedFile;
-
 namespace {
 
-bool is_named_torque(const GuessedColumn& column) {
+bool is_named_torque(const guess::Column& column) {
   const std::string name = lower_case(column.name);
   return name.find("torque") != name.npos || name.find("drehmoment") != name.npos ||
          name.find("reibmoment") != name.npos || name == "moment" || name == "couple";
 }
 
 // Unit of a torque: the file's, the one at the end of the name, or N m; empty for other columns.
-std::string unit_of_torque(const GuessedColumn& column) {
+std::string unit_of_torque(const guess::Column& column) {
   if (!column.canonical.empty() || column.text || column.above) return "";
   if (!column.unit.empty()) return convert(column.unit, "N m") ? column.unit : "";
   const std::string unit = data::unit_in_name(column.name, "N m");
   return unit.empty() && is_named_torque(column) ? "N m" : unit;
 }
 
-bool has_unit_to_name(const GuessedColumn& column) {
+bool has_unit_to_name(const guess::Column& column) {
   const data::Quantity* quantity = data::find_quantity(column.canonical);
   return quantity && quantity->unit != "1" && !column.coefficient && !column.text &&
          column.unit.empty() && column.name != column.canonical;
@@ -42,17 +40,17 @@ bool has_unit_to_name(const GuessedColumn& column) {
 
 } // namespace
 
-std::string shown_name(const GuessedColumn& column) {
+std::string shown_name(const guess::Column& column) {
   return column.name.empty() ? fmt::format("column {}", column.number) : column.name;
 }
 
-std::string unit_besides(const GuessedColumn& column) {
+std::string unit_besides(const guess::Column& column) {
   if (!has_unit_to_name(column)) return "";
   if (!column.answered_unit.empty()) return column.answered_unit;
   return data::unit_in_name(column.name, data::find_quantity(column.canonical)->unit);
 }
 
-bool lacks_unit(const GuessedColumn& column) {
+bool lacks_unit(const guess::Column& column) {
   return has_unit_to_name(column) && unit_besides(column).empty();
 }
 
@@ -70,7 +68,7 @@ bool OpenPoints::is_of_rows(const std::string& canonical) const {
 double OpenPoints::common_area() const {
   const double area = campaign_.files.front().area_mm2;
   const bool same = std::all_of(campaign_.files.begin(), campaign_.files.end(),
-                                [&](const GuessedFile& file) { return file.area_mm2 == area; });
+                                [&](const guess::File& file) { return file.area_mm2 == area; });
   return same ? area : 0;
 }
 
@@ -102,15 +100,15 @@ bool OpenPoints::lacks_normal_force() const {
   return has("F_R_N") && !has("F_N_N") && !has("tau_R_MPa");
 }
 
-const GuessedColumn* OpenPoints::torque() const {
-  for (const GuessedColumn& column : file_.columns)
+const guess::Column* OpenPoints::torque() const {
+  for (const guess::Column& column : file_.columns)
     if (!unit_of_torque(column).empty()) return &column;
   return nullptr;
 }
 
-const GuessedColumn* OpenPoints::likely_coefficient() const {
-  const GuessedColumn* found = nullptr;
-  for (const GuessedColumn& column : file_.columns) {
+const guess::Column* OpenPoints::likely_coefficient() const {
+  const guess::Column* found = nullptr;
+  for (const guess::Column& column : file_.columns) {
     const bool has_unit = !column.unit.empty() && !convert(column.unit, "1");
     if (!column.canonical.empty() || !column.as_small || has_unit) continue;
     if (found) return nullptr;
@@ -119,37 +117,37 @@ const GuessedColumn* OpenPoints::likely_coefficient() const {
   return found;
 }
 
-std::vector<const GuessedColumn*> OpenPoints::columns() const {
-  std::vector<const GuessedColumn*> all;
-  for (const GuessedColumn& column : file_.columns)
+std::vector<const guess::Column*> OpenPoints::columns() const {
+  std::vector<const guess::Column*> all;
+  for (const guess::Column& column : file_.columns)
     all.push_back(&column);
   if (campaign_.tests)
-    for (const GuessedColumn& column : campaign_.tests->columns)
+    for (const guess::Column& column : campaign_.tests->columns)
       all.push_back(&column);
   return all;
 }
 
-const GuessedColumn* OpenPoints::rotation() const {
-  const GuessedColumn* found = nullptr;
-  for (const GuessedColumn* column : columns())
-    if (!has("v_rel_mm_s") && !data::turn_factor(*column).empty() &&
-        (!found || (data::names_wanted(*found) && !data::names_wanted(*column))))
+const guess::Column* OpenPoints::rotation() const {
+  const guess::Column* found = nullptr;
+  for (const guess::Column* column : columns())
+    if (!has("v_rel_mm_s") && !guess::turn_factor(*column).empty() &&
+        (!found || (guess::names_wanted(*found) && !guess::names_wanted(*column))))
       found = column;
   return found;
 }
 
-std::vector<const GuessedColumn*> OpenPoints::temperatures() const {
-  std::vector<const GuessedColumn*> found = columns();
+std::vector<const guess::Column*> OpenPoints::temperatures() const {
+  std::vector<const guess::Column*> found = columns();
   std::set<std::string> names;
-  std::erase_if(found, [&](const GuessedColumn* column) {
+  std::erase_if(found, [&](const guess::Column* column) {
     return has("T_contact_C") || !column->beside_contact || !names.insert(column->name).second;
   });
   return found;
 }
 
-const GuessedColumn* OpenPoints::only_force() const {
-  const GuessedColumn* found = nullptr;
-  for (const GuessedColumn& column : file_.columns) {
+const guess::Column* OpenPoints::only_force() const {
+  const guess::Column* found = nullptr;
+  for (const guess::Column& column : file_.columns) {
     const bool is_normal = data::has_word(data::words_of_name(column.name),
                                           {"normal", "vertical", "axial", "vertikal"});
     if (!column.canonical.empty() || column.text || column.above || is_normal ||
@@ -161,13 +159,13 @@ const GuessedColumn* OpenPoints::only_force() const {
   return found;
 }
 
-std::string torque_question(const GuessedColumn& torque) {
+std::string torque_question(const guess::Column& torque) {
   return fmt::format("At which radius does friction act? {} is a torque, in {}{}.",
                      printable(shown_name(torque)), printable(unit_of_torque(torque)),
                      torque.unit.empty() ? " as is assumed" : "");
 }
 
-std::string force_of_torque(const GuessedColumn& torque, const std::string& radius_m) {
+std::string force_of_torque(const guess::Column& torque, const std::string& radius_m) {
   const double newton_metres = convert(unit_of_torque(torque), "N m")->factor;
   return fmt::format("{}{}/{}", newton_metres == 1 ? "" : shortest(newton_metres) + "*",
                      data::name_in_formulas(torque.name), radius_m);

@@ -4,26 +4,26 @@
 #include <string>
 #include <vector>
 
-#include "data/sniff.h"
+#include "guess/guess.h"
 
 namespace frictab::job {
 
 // Name of the column, or "column 3".
-std::string shown_name(const data::GuessedColumn& column);
+std::string shown_name(const guess::Column& column);
 
 // Unit of its quantity that the user answered, or else that the end of its name gives; empty where
 // the file gives it or nothing does.
-std::string unit_besides(const data::GuessedColumn& column);
+std::string unit_besides(const guess::Column& column);
 
 // Whether the quantity has a unit that nothing gives.
-bool lacks_unit(const data::GuessedColumn& column);
+bool lacks_unit(const guess::Column& column);
 
 class OpenPoints {
 public:
-  explicit OpenPoints(const data::GuessedCampaign& campaign)
-      : campaign_(campaign), file_(campaign.files[data::most_common(campaign.files)]) {}
+  explicit OpenPoints(const guess::Campaign& campaign)
+      : campaign_(campaign), file_(campaign.files[guess::most_common(campaign.files)]) {}
 
-  const data::GuessedFile& file() const { return file_; } // that most are read like
+  const guess::File& file() const { return file_; } // that most are read like
   // Whether the rows, the table of tests or an answer have the quantity.
   bool has(const std::string& canonical) const;
   // Whether the rows have it, so that no column of the table of tests is needed.
@@ -40,27 +40,27 @@ public:
   bool lacks_friction() const;     // in any form
   bool lacks_normal_force() const; // for the friction force that there is
   // Torque that friction may come from; nullptr: none.
-  const data::GuessedColumn* torque() const;
+  const guess::Column* torque() const;
   // The only column without a meaning that is as small as coefficients of friction; nullptr: none,
   // or several.
-  const data::GuessedColumn* likely_coefficient() const;
+  const guess::Column* likely_coefficient() const;
   // A speed of rotation where no speed is known: measured before wanted; nullptr: none.
-  const data::GuessedColumn* rotation() const;
+  const guess::Column* rotation() const;
   // Temperatures that may be those of the contact, where none is known.
-  std::vector<const data::GuessedColumn*> temperatures() const;
+  std::vector<const guess::Column*> temperatures() const;
   // The only force without a meaning; nullptr: none, or several.
-  const data::GuessedColumn* only_force() const;
+  const guess::Column* only_force() const;
 
 private:
-  std::vector<const data::GuessedColumn*> columns() const; // of the rows, then of the tests
+  std::vector<const guess::Column*> columns() const; // of the rows, then of the tests
 
-  const data::GuessedCampaign& campaign_;
-  const data::GuessedFile& file_;
+  const guess::Campaign& campaign_;
+  const guess::File& file_;
 };
 
 // Asks for the radius of a torque.
-std::string torque_question(const data::GuessedColumn& torque);
+std::string torque_question(const guess::Column& torque);
 // Formula of the friction force from a torque at `radius_m`, a number or its name.
-std::string force_of_torque(const data::GuessedColumn& torque, const std::string& radius_m);
+std::string force_of_torque(const guess::Column& torque, const std::string& radius_m);
 
 } // namespace frictab::job

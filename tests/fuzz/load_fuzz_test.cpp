@@ -11,7 +11,7 @@
 #include "core/random.h"
 #include "data/load.h"
 #include "data/quantity.h"
-#include "data/sniff.h"
+#include "guess/guess.h"
 #include "io/file_streams.h"
 #include "io/hdf5.h"
 #include "job/guessed_job.h"
@@ -231,7 +231,7 @@ TEST_F(LoadFuzz, DamagedFilesAreGuessedOrRefused) {
     const std::string bytes = mutated(file, random, 8);
     write(bytes);
     try {
-      const data::GuessedFile guess = data::guess_file(file_.string(), "file.csv").front();
+      const guess::File guess = guess::guess_file(file_.string(), "file.csv").front();
       ASSERT_FALSE(guess.columns.empty()) << bytes;
       job::guessed_job({.files = {guess}, .tests = {}, .sheets = {}, .passed = {}}, {},
                        {"file.csv"});

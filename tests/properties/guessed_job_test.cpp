@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "data/sniff.h"
+#include "guess/guess.h"
 #include "job/guessed_job.h"
 #include "job/job.h"
 #include "support/run_command.h"
@@ -133,25 +133,25 @@ TEST(GuessedJob, IsValidForAnyFolderAndLosesNoFile) {
   std::size_t proposed = 0, with_list = 0, with_left = 0;
   for (std::uint64_t seed = 1; seed <= folders; ++seed) {
     Folder folder(seed);
-    std::vector<data::GuessedFile> guesses;
+    std::vector<guess::File> guesses;
     std::size_t without_table = 0;
     for (const std::string& file : folder.files())
       try {
-        for (data::GuessedFile& guess : data::guess_file(folder.path(file), file))
+        for (guess::File& guess : guess::guess_file(folder.path(file), file))
           guesses.push_back(std::move(guess));
       } catch (const InputError&) {
         ++without_table;
       }
     if (guesses.empty()) continue;
-    const data::GuessedCampaign campaign = data::sort_guesses(std::move(guesses));
+    const guess::Campaign campaign = guess::sort_guesses(std::move(guesses));
     EXPECT_EQ(campaign.files.size() + campaign.tests.has_value() + campaign.left.size() +
                   without_table,
               folder.files().size())
         << "seed " << seed;
     std::vector<std::string> names;
-    for (const data::GuessedFile& file : campaign.files)
+    for (const guess::File& file : campaign.files)
       names.push_back(file.file);
-    const job::GuessedJob guessed = job::guessed_job(campaign, data::guess_names(names), names);
+    const job::GuessedJob guessed = job::guessed_job(campaign, guess::guess_names(names), names);
     EXPECT_EQ(guessed.left.size(), campaign.left.size());
     folder.write("job.toml", guessed.text);
     try {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/text.h"
-#include "data/sniff.h"
+#include "guess/guess.h"
 #include "support/run_command.h"
 
 namespace frictab::guess_corpus_test {
@@ -213,7 +213,7 @@ std::string file_of(const LookAlike& rig) {
 
 // "Load (N) is F_N_N and not -" for each wrong column.
 std::vector<std::string> wrong_guesses(const LookAlike& rig, const std::string& path) {
-  const data::GuessedFile guess = data::guess_file(path, rig.rig).front();
+  const guess::File guess = guess::guess_file(path, rig.rig).front();
   const std::vector<std::string> names = split(rig.header, '|'), roles = split(rig.roles, ' ');
   std::vector<std::string> wrong;
   for (std::size_t i = 0; i < roles.size(); ++i) {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "data/sniff.h"
+#include "guess/guess.h"
 #include "io/file_streams.h"
 #include "support/run_command.h"
 #include "support/tdms_bytes.h"
@@ -168,7 +168,7 @@ TEST_F(LoadTdms, OneGroupIsTheFileSeveralAreATestEach) {
 TEST_F(LoadTdms, AGuessKnowsItsUnitsAndTime) {
   test::TdmsSegment segment;
   file("a.tdms", add(segment, "Log").bytes());
-  const auto guess = data::guess_file((directory_ / "a.tdms").string(), "a.tdms").front();
+  const auto guess = guess::guess_file((directory_ / "a.tdms").string(), "a.tdms").front();
   ASSERT_TRUE(guess.find("sigma_n_MPa"));
   EXPECT_EQ(guess.find("sigma_n_MPa")->unit, "kPa");
   EXPECT_TRUE(guess.find("time_s"));

@@ -1,64 +1,17 @@
-// Quantities by the names that rigs and offices give their columns.
-#include "data/column_names.h"
+// Likeness of names with those that are known.
+#include "guess/column_names.h"
 
 #include <algorithm>
 #include <cctype>
 
 #include "core/text.h"
 #include "core/units.h"
+#include "data/name_words.h"
 #include "data/quantity.h"
 #include "data/scale.h"
-#include "data/sniff.h"
 #include "io/csv.h"
 
-namespace frictab::data {
-
-namespace {
-
-bool is_capital(char c) {
-  return c >= 'A' && c <= 'Z';
-}
-bool is_small(char c) {
-  return c >= 'a' && c <= 'z';
-}
-
-// "NormalForce" in two words; "CoF" is one.
-std::string with_blanks_between_words(const std::string& name) {
-  std::string out;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    if (i > 0 && i + 1 < name.size() && is_small(name[i - 1]) && is_capital(name[i]) &&
-        is_small(name[i + 1]))
-      out += ' ';
-    out += name[i];
-  }
-  return out;
-}
-
-} // namespace
-
-std::string words_of_name(const std::string& name) {
-  std::string out;
-  for (const char c : lower_case(with_blanks_between_words(name)))
-    out += std::isalnum(static_cast<unsigned char>(c)) || (c & 0x80) ? c : ' ';
-  while (!out.empty() && out.back() == ' ')
-    out.pop_back();
-  while (out.find("  ") != out.npos)
-    out = replace_all(out, "  ", " ");
-  return out;
-}
-
-bool has_word(const std::string& name, std::initializer_list<std::string_view> words) {
-  const std::string padded = " " + name + " ";
-  return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
-    return padded.find(" " + std::string(word) + " ") != padded.npos;
-  });
-}
-
-bool names_sums(const std::string& name) {
-  return has_word(words_of_name(name), {"mean", "average", "avg", "std", "stdev", "mittelwert",
-                                        "mittel", "standardabweichung", "stabw", "moyenne"}) &&
-         name.find_first_of("0123456789") == name.npos;
-}
+namespace frictab::guess {
 
 namespace {
 
@@ -206,10 +159,10 @@ std::string without_channel(const std::string& name) {
     if (name.starts_with(group)) return name.substr(group.size());
   const std::size_t end = name.find('_');
   const std::size_t digits = name.find_first_of("0123456789");
-  const bool is_channel =
-      end != name.npos && digits >= 2 && digits + 2 <= end &&
-      name.find_first_not_of("0123456789", digits) == end &&
-      std::all_of(name.begin(), name.begin() + static_cast<long>(digits), is_capital);
+  const bool is_channel = end != name.npos && digits >= 2 && digits + 2 <= end &&
+                          name.find_first_not_of("0123456789", digits) == end &&
+                          std::all_of(name.begin(), name.begin() + static_cast<long>(digits),
+                                      [](unsigned char c) { return std::isupper(c) != 0; });
   return is_channel ? name.substr(end + 1) : name;
 }
 
@@ -220,24 +173,25 @@ bool has_any(const std::string& name, std::initializer_list<std::string_view> pa
 
 // Values of the surroundings, which say nothing about the contact.
 bool is_of_room(const std::string& name) {
-  return has_word(name, {"room", "ambient", "air", "raum", "umgebung", "lab", "labor", "laboratory",
-                         "hall", "halle", "climate", "klima", "environment"}) ||
+  return data::has_word(name, {"room", "ambient", "air", "raum", "umgebung", "lab", "labor",
+                               "laboratory", "hall", "halle", "climate", "klima", "environment"}) ||
          has_any(name, {"raumtemp", "umgebungstemp", "labortemp", "hallentemp", "lufttemp"});
 }
 
 // Wanted values.
 bool is_set(const std::string& name) {
-  return has_word(name, {"soll", "sollwert", "set", "setpoint", "target", "nominal", "nom",
-                         "demand", "command", "consigne"});
+  return data::has_word(name, {"soll", "sollwert", "set", "setpoint", "target", "nominal", "nom",
+                               "demand", "command", "consigne"});
 }
 
 // Temperatures of another body than the one in contact, or of another time than the row's.
 bool is_beside_contact(const std::string& name) {
   const bool at_end =
-      has_word(name, {"end", "final", "ende", "after", "nach", "start", "initial"}) ||
+      data::has_word(name, {"end", "final", "ende", "after", "nach", "start", "initial"}) ||
       has_any(name, {"endtemp", "starttemp"});
   const bool of_another =
-      has_word(name, {"oil",     "öl",     "Öl",        "oel",   "sump",    "sumpf",    "bath",
+      data::has_word(name,
+                     {"oil",     "öl",     "Öl",        "oel",   "sump",    "sumpf",    "bath",
                       "bad",     "pot",    "lubricant", "fluid", "coolant", "emulsion", "water",
                       "wasser",  "inlet",  "outlet",    "tank",  "furnace", "ofen",     "oven",
                       "chamber", "kammer", "heater",    "motor", "bearing"}) ||
@@ -261,28 +215,29 @@ constexpr TurnUnit turn_units[] = {
 
 const TurnUnit* turn_unit_in(const std::string& words) {
   for (const TurnUnit& unit : turn_units)
-    if (has_word(words, {unit.words})) return &unit;
+    if (data::has_word(words, {unit.words})) return &unit;
   return nullptr;
 }
 
 // Speeds of rotation, without regard to their unit.
 bool names_rotation(const std::string& name) {
-  return has_word(name, {"rotation", "rotational", "rotary", "spindle", "angular", "spindel"}) ||
+  return data::has_word(name,
+                        {"rotation", "rotational", "rotary", "spindle", "angular", "spindel"}) ||
          has_any(name, {"drehzahl", "drehgeschw", "winkelgeschw", "rotationsgeschw"});
 }
 
 // Times of a part of a test, which no clock shows.
 bool is_duration(const std::string& name) {
-  return has_word(name, {"stop", "stopping", "braking", "dwell", "delay", "hold", "holding",
-                         "haltezeit", "bremszeit", "verweilzeit"});
+  return data::has_word(name, {"stop", "stopping", "braking", "dwell", "delay", "hold", "holding",
+                               "haltezeit", "bremszeit", "verweilzeit"});
 }
 
 // Wanted or extreme values, scatter, and speeds of rolling, which are taken only if nothing else is
 // there.
 bool is_second_choice(const std::string& name) {
   return is_set(name) ||
-         has_word(name, {"max", "maximum", "min", "minimum", "std", "sd", "stdev", "deviation",
-                         "abweichung", "streuung", "rolling", "entrainment"});
+         data::has_word(name, {"max", "maximum", "min", "minimum", "std", "sd", "stdev",
+                               "deviation", "abweichung", "streuung", "rolling", "entrainment"});
 }
 
 // The name without the words for wanted values: "v" of "v set".
@@ -299,16 +254,17 @@ std::string without_set(const std::string& name) {
 
 // 4: the canonical name; 3: a complete name; 2: part of one; 1: a weak part, or a second choice; 0:
 // no such column.
-int likeness(const Names& names, const GuessedColumn& column) {
+int likeness(const Names& names, const Column& column) {
   if (column.name == names.canonical && !names.coefficient) return 4;
-  const Quantity* quantity = find_quantity(names.canonical);
+  const data::Quantity* quantity = data::find_quantity(names.canonical);
   const std::string wanted = names.coefficient || !quantity ? "1" : quantity->unit;
   if (quantity && !column.unit.empty() && !convert(column.unit, wanted)) return 0;
   const bool is_clock = column.clock && std::string(names.canonical) == "time_s";
   if (quantity && column.text && !is_clock) return 0;
   const std::string bare = without_channel(io::read_header_name(column.name).name),
-                    unit = quantity ? unit_in_name(bare, wanted) : "", name = words_of_name(bare),
-                    without_unit = words_of_name(bare.substr(0, bare.size() - unit.size()));
+                    unit = quantity ? data::unit_in_name(bare, wanted) : "",
+                    name = data::words_of_name(bare),
+                    without_unit = data::words_of_name(bare.substr(0, bare.size() - unit.size()));
   const std::string_view canonical = names.canonical;
   if (is_of_room(name) || (canonical == "time_s" && is_duration(name))) return 0;
   if (canonical == "v_rel_mm_s" && column.unit.empty() &&
@@ -327,8 +283,9 @@ int likeness(const Names& names, const GuessedColumn& column) {
       (quantity && canonical != "time_s" && is_set(name) && is_whole(without_set(without_unit))) ||
       (!names.coefficient && of_abaqus(name) == canonical))
     found = 3;
-  else if (has_part(names.part) || (names.coefficient && has_word(name, {"mu", "µ", "μ", "cof"})) ||
-           (is_in_newtons && has_word(name, {"friction", "reibung"})))
+  else if (has_part(names.part) ||
+           (names.coefficient && data::has_word(name, {"mu", "µ", "μ", "cof"})) ||
+           (is_in_newtons && data::has_word(name, {"friction", "reibung"})))
     found = 2;
   else if (has_part(names.weak))
     found = 1;
@@ -338,15 +295,14 @@ int likeness(const Names& names, const GuessedColumn& column) {
 
 // Marks temperatures that are, by their names, not those of a contact: of another body, of another
 // time, set, or of the air, whose humidity stands next to them.
-void doubt_temperatures(std::vector<GuessedColumn>& columns) {
-  const auto words = [](const GuessedColumn& column) {
-    return words_of_name(io::read_header_name(column.name).name);
+void doubt_temperatures(std::vector<Column>& columns) {
+  const auto words = [](const Column& column) {
+    return data::words_of_name(io::read_header_name(column.name).name);
   };
-  const bool has_humidity =
-      std::any_of(columns.begin(), columns.end(), [&](const GuessedColumn& column) {
-        return has_any(words(column), {"humid", "feucht"}) || has_word(words(column), {"rh"});
-      });
-  for (GuessedColumn& column : columns) {
+  const bool has_humidity = std::any_of(columns.begin(), columns.end(), [&](const Column& column) {
+    return has_any(words(column), {"humid", "feucht"}) || data::has_word(words(column), {"rh"});
+  });
+  for (Column& column : columns) {
     int most = 0;
     for (const Names& names : known_names())
       if (std::string_view(names.canonical).starts_with("T_"))
@@ -361,13 +317,13 @@ void doubt_temperatures(std::vector<GuessedColumn>& columns) {
 
 } // namespace
 
-void name_columns(std::vector<GuessedColumn>& columns) {
+void name_columns(std::vector<Column>& columns) {
   doubt_temperatures(columns);
   for (int least = 4; least >= 1; --least)
     for (const Names& names : known_names()) {
-      const auto taken = [&](const GuessedColumn& c) { return c.canonical == names.canonical; };
+      const auto taken = [&](const Column& c) { return c.canonical == names.canonical; };
       if (std::any_of(columns.begin(), columns.end(), taken)) continue;
-      for (GuessedColumn& column : columns)
+      for (Column& column : columns)
         if (column.canonical.empty() && !column.beside_contact &&
             likeness(names, column) >= least) {
           column.canonical = names.canonical;
@@ -377,18 +333,18 @@ void name_columns(std::vector<GuessedColumn>& columns) {
     }
 }
 
-std::string turn_factor(const GuessedColumn& column) {
+std::string turn_factor(const Column& column) {
   if (!column.canonical.empty() || column.text || column.above) return "";
-  const std::string name = words_of_name(column.name);
+  const std::string name = data::words_of_name(column.name);
   if (has_any(name, {"strok", "hub", "cycl", "zykl", "freq"})) return "";
   const TurnUnit* const unit =
-      turn_unit_in(column.unit.empty() ? name : words_of_name(column.unit));
+      turn_unit_in(column.unit.empty() ? name : data::words_of_name(column.unit));
   if (unit) return *unit->factor == 0 ? "1" : unit->factor;
   return column.unit.empty() && names_rotation(name) ? turn_units->factor : "";
 }
 
-bool names_wanted(const GuessedColumn& column) {
-  return is_set(words_of_name(column.name));
+bool names_wanted(const Column& column) {
+  return is_set(data::words_of_name(column.name));
 }
 
-} // namespace frictab::data
+} // namespace frictab::guess

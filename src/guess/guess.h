@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace frictab::data {
+namespace frictab::guess {
 
-struct GuessedColumn {
+struct Column {
   std::string name;          // in the file
   std::size_t number = 0;    // from 1, where the name does not find the column; else 0
   std::string unit;          // as given in the file; else empty
@@ -30,7 +30,7 @@ struct GuessedColumn {
 };
 
 // A file, or one sheet of a workbook.
-struct GuessedFile {
+struct File {
   std::string file;
   std::string sheet;               // empty: a file without sheets, or with one
   std::vector<std::string> passed; // sheets of the workbook without a table
@@ -55,18 +55,19 @@ struct GuessedFile {
   std::string wide_pattern;
   bool wide_known = false;          // a table of tests has these names
   std::vector<std::string> missing; // numbers that seem to stand for no value: "-9999"
-  std::vector<GuessedColumn> columns;
+  std::vector<Column> columns;
   std::size_t row_count = 0; // of all lines below the header
   double area_mm2 = 0;       // of contact, given above the header; 0: none
   // Radius of a body in contact, by a length above the rows; 0: none.
   double radius_mm = 0, inner_radius_mm = 0;
   std::string pressure; // formula of the normal stress, from a force and the area of contact
   std::string friction; // formula of the friction force, from a torque and its radius
-  std::set<std::size_t> rows_seen; // a number for the quantities of each row, equal for equal rows
+  std::set<std::size_t>
+      rows_seen; // a number for the data::quantities of each row, equal for equal rows
 
-  const GuessedColumn* find(const std::string& canonical) const; // nullptr if there is none
+  const Column* find(const std::string& canonical) const; // nullptr if there is none
   // True if the keys that read the other file read this one as well.
-  bool is_read_as(const GuessedFile& other) const;
+  bool is_read_as(const File& other) const;
   std::string label() const; // the name of the test, if the file is one
 };
 
@@ -75,7 +76,7 @@ struct NamePart {
   std::string group;  // name of its group
   std::string values; // "20, 50, 100": some of them
 };
-struct GuessedNames {
+struct NamePattern {
   // A regular expression with named groups; empty: no pattern found.
   std::string pattern;
   std::vector<NamePart> parts;
@@ -84,7 +85,7 @@ struct GuessedNames {
 // Guesses from the first 64 KiB of a text file (or sheet), or from all of an HDF5 file
 // or one of data/rig_files.h. One guess
 // per file, and per sheet of a workbook that is a table. Throws InputError if there is none.
-std::vector<GuessedFile> guess_file(const std::string& path, const std::string& named);
+std::vector<File> guess_file(const std::string& path, const std::string& named);
 
 // A file that is not proposed for reading.
 struct LeftFile {
@@ -93,9 +94,9 @@ struct LeftFile {
   bool may_list_tests = false;
 };
 
-struct GuessedCampaign {
-  std::vector<GuessedFile> files;   // rows of tests
-  std::optional<GuessedFile> tests; // one row per test: its column experiment has their labels
+struct Campaign {
+  std::vector<File> files;   // rows of tests
+  std::optional<File> tests; // one row per test: its column experiment has their labels
   // Sheets of one workbook, or equal for all of them: names or "*"; empty: no choice is needed.
   std::vector<std::string> sheets;
   std::vector<std::string> passed;              // names of sheets that are not read
@@ -104,17 +105,17 @@ struct GuessedCampaign {
 };
 
 // Index of the file that most files are read like; of equals, the first with a clock and friction.
-std::size_t most_common(const std::vector<GuessedFile>& files);
+std::size_t most_common(const std::vector<File>& files);
 
 // Sorts guesses: the table of tests is found by a column whose texts are the labels of at least
 // half of the others, or have their numbers; files without the clock or the friction that most
 // files have are left, and so are older versions of a file; sheets of a workbook that are read in
 // another way than most are passed.
-GuessedCampaign sort_guesses(std::vector<GuessedFile> guesses);
+Campaign sort_guesses(std::vector<File> guesses);
 
 // Finds folders that differ, and parts of the files' own names between _ - and blanks: numbers
 // before a unit, and texts that occur in at least two files; a text that differs in all files names
 // the test.
-GuessedNames guess_names(const std::vector<std::string>& files);
+NamePattern guess_names(const std::vector<std::string>& files);
 
-} // namespace frictab::data
+} // namespace frictab::guess

@@ -1,0 +1,19 @@
+// Words in the names of columns.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace frictab::data {
+
+// The words of a name in lower case, with single blanks between: "NormalForce_[N]" is "normal force
+// n".
+std::string words_of_name(const std::string& name);
+// Expects the words of a name.
+bool has_word(const std::string& name, std::initializer_list<std::string_view> words);
+
+// True for the name of a line that sums up others: "Mean", "Mittelwert".
+bool names_sums(const std::string& name);
+
+} // namespace frictab::data
