@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
-#include "data/name_words.h"
 #include "data/computed.h"
+#include "data/name_words.h"
 #include "data/quantity.h"
 #include "data/test_table.h"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/pattern.h"
 #include "core/text.h"
 
 namespace frictab::data {
@@ -47,6 +48,14 @@ bool has_word(const std::string& name, std::initializer_list<std::string_view> w
   return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
     return padded.find(" " + std::string(word) + " ") != padded.npos;
   });
+}
+
+std::string plain_name(const std::string& name) {
+  return replace_all(words_of_name(name), " ", "_");
+}
+
+bool fits(const char* pattern, const std::string& text) {
+  return Pattern(pattern, {}).search(text).has_value();
 }
 
 bool names_sums(const std::string& name) {

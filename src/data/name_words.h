@@ -13,6 +13,11 @@ std::string words_of_name(const std::string& name);
 // Expects the words of a name.
 bool has_word(const std::string& name, std::initializer_list<std::string_view> words);
 
+// The words of a name with _ between them: "Mass loss [mg]" is mass_loss_mg.
+std::string plain_name(const std::string& name);
+// True if a regular expression is found in a text.
+bool fits(const char* pattern, const std::string& text);
+
 // True for the name of a line that sums up others: "Mean", "Mittelwert".
 bool names_sums(const std::string& name);
 

@@ -12,10 +12,9 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/pattern.h"
 #include "core/text.h"
-#include "data/name_words.h"
 #include "data/middle.h"
+#include "data/name_words.h"
 #include "data/quantity.h"
 
 namespace frictab::data {
@@ -218,11 +217,8 @@ bool names_tests(const Column& column) {
         return std::any_of(text.begin(), text.end(),
                            [](unsigned char c) { return std::isalpha(c); });
       });
-  return has_letters && Pattern("^(test|versuch|experiment|specimen) "
-                                "(id|no|nr|number|nummer|name)$",
-                                {})
-                            .search(words_of_name(column.name))
-                            .has_value();
+  return has_letters && fits("^(test|versuch|experiment|specimen)_(id|no|nr|number|nummer|name)$",
+                             plain_name(column.name));
 }
 
 class RecordingFinder {

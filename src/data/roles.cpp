@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -14,19 +12,18 @@
 #include <fmt/format.h>
 
 #include "core/no_value.h"
-#include "core/pattern.h"
 #include "core/text.h"
 #include "core/units.h"
-#include "data/clear_levels.h"
-#include "data/name_words.h"
 #include "data/computed.h"
 #include "data/disguise.h"
 #include "data/middle.h"
+#include "data/name_words.h"
 #include "data/quantity.h"
 #include "data/recordings.h"
+#include "data/repeated_columns.h"
 #include "data/scale.h"
 #include "data/signs.h"
-#include "expr/expr.h"
+#include "data/verdicts.h"
 
 namespace frictab::data {
 
@@ -35,8 +32,6 @@ namespace {
 constexpr std::array<const char*, 11> role_words = {"",        "state",   "response", "setting",
                                                     "channel", "outcome", "label",    "order",
                                                     "clock",   "test",    "ignore"};
-
-constexpr const char* verdict_why = "a verdict on the test, no cause";
 
 // A column with at most most_held values within a test, each for at least rows_held rows, was set
 // by the rig.
@@ -92,84 +87,6 @@ constexpr NameRule name_rules[] = {
 // Names of readings of friction.
 constexpr const char* friction_names =
     "(^|[^a-z])(cof|mu|friction|torque|drag|shear|pull|f_?[xtr])([^a-z]|$)|reib|friction|torque";
-
-// Names and texts of a verdict on a test, which somebody passed on it when it was over.
-constexpr const char* verdict_names =
-    "^((is|test|run|versuch|messung|data)_)?"
-    "(in|un)?(valid(ity|ated)?|g\\S*ltig(keit)?|usable|verwendbar|brauchbar|accept(ed|able)?|"
-    "pass(ed)?|fail(ed)?|ok|n?io|outlier|ausrei\\S*er|excluded?|reject(ed)?|discard(ed)?|"
-    "use(_it)?|do_not_use)(_(test|run|versuch|flag|status))?$";
-constexpr const char* judged_names =
-    "verdict|urteil|bewertung|befund|status|quality|qualit|check|flag|rating|result|ergebnis";
-constexpr const char* remark_of_the_bad = "do not use|don't use|not valid|invalid|discard|nicht "
-                                          "(verwenden|verwertbar)|ung\\S*ltig|verwerfen";
-constexpr const char* names_of_the_bad = // true of a test that failed
-    "^(\\w+_)?(in|un)(valid|g\\S*ltig|usable|brauchbar)|fail|outlier|ausrei|exclude|reject|discard|"
-    "do_not_use";
-constexpr std::array yes_words{"true", "yes", "ja", "y", "j", "1", "x", "wahr"};
-constexpr std::array no_words{"false", "no", "nein", "n", "0", "falsch", "-"};
-constexpr std::array good_words{"ok",          "i.o.",    "i.o",  "io",     "i. o.",    "valid",
-                                "g\u00fcltig", "gueltig", "pass", "passed", "accepted", "use"};
-constexpr std::array bad_words{
-    "nok",    "n.ok",     "not ok",     "not o.k.",      "n.i.o.",    "n.i.o",
-    "nio",    "n. i. o.", "invalid",    "ung\u00fcltig", "ungueltig", "fail",
-    "failed", "rejected", "do not use", "not valid",     "excluded",  "nicht verwenden"};
-// A surface may be good or bad as well: only of a column that is named like a verdict.
-constexpr std::array good_or_bad{"good", "gut", "bad", "schlecht"};
-
-// In lower case, with _ between words: "Mass loss [mg]" is mass_loss_mg.
-std::string plain_name(const std::string& name) {
-  return replace_all(words_of_name(name), " ", "_");
-}
-
-bool fits(const char* pattern, const std::string& plain) {
-  return Pattern(pattern, {}).search(plain).has_value();
-}
-
-template <class Words> bool is_one_of(const Words& words, const std::string& text) {
-  return std::find(words.begin(), words.end(), text) != words.end();
-}
-
-// The texts of a verdict on tests that are bad; nullopt for another column. Yes and no need a name
-// that says what they answer; "ok" and "nok" do not.
-std::optional<std::set<std::string>> bad_of_verdict(const std::string& name,
-                                                    const std::set<std::string>& texts) {
-  constexpr std::size_t most = 3; // with an empty cell
-  const std::string plain = plain_name(name);
-  if (texts.size() < 2 || texts.size() > most) return {};
-  const bool named = fits(verdict_names, plain), of_the_bad = fits(names_of_the_bad, plain),
-             judged = named || fits(judged_names, plain);
-  std::set<std::string> bad;
-  std::size_t answers = 0;
-  for (const std::string& text : texts) {
-    const std::string word = lower_case(trimmed(text));
-    const bool is_yes = is_one_of(yes_words, word), is_no = is_one_of(no_words, word);
-    const bool graded = judged && is_one_of(good_or_bad, word);
-    if (is_one_of(bad_words, word) || (graded && (word == "bad" || word == "schlecht")) ||
-        (named && (of_the_bad ? is_yes : is_no)))
-      bad.insert(text);
-    answers += is_yes || is_no;
-    if (!word.empty() && !is_yes && !is_no && !graded && !is_one_of(good_words, word) &&
-        !is_one_of(bad_words, word))
-      return {};
-  }
-  if (bad.empty() || (!named && answers > 0)) return {};
-  return bad;
-}
-
-// Texts of a column while they are few; its numbers only if it is named like a verdict.
-std::set<std::string> texts_of(const Column& column) {
-  constexpr std::size_t few = 4;
-  if (column.levels.empty() && !fits(verdict_names, plain_name(column.name))) return {};
-  std::set<double> values;
-  for (std::size_t i = 0; i < column.values.size() && values.size() < few; ++i)
-    if (!std::isnan(column.values[i])) values.insert(column.values[i]);
-  std::set<std::string> texts;
-  for (const double value : values)
-    texts.insert(column.levels.empty() ? shortest(value)
-                                       : column.levels[static_cast<std::size_t>(value)]);
-  return texts;
-}
 
 Given role_by_name(const std::string& name, bool within) {
   const std::string plain = plain_name(name);
@@ -270,7 +187,7 @@ public:
     const Look look(parts_, name);
     if (!look.is_text && !look.within && look.values.size() > 1)
       if (const Given set = nominal(name, look.values.size()); !set.why.empty()) return set;
-    if (is_verdict(name)) return {Role::ignore, verdict_why};
+    if (is_verdict(parts_, name)) return {Role::ignore, "a verdict on the test, no cause"};
     Given given = look.is_text ? of_text(name, look) : of_numbers(name, look);
     if (given.role != Role::setting && given.role != Role::channel && given.role != Role::outcome)
       return given;
@@ -307,13 +224,6 @@ private:
       return {Role::response, friction + " is computed from it"};
     if (!state.empty()) return {Role::state, state + " is computed from it"};
     return {};
-  }
-
-  bool is_verdict(const std::string& name) const {
-    std::set<std::string> texts;
-    for (const Dataset* part : parts_)
-      if (const Column* column = part->find(name)) texts.merge(texts_of(*column));
-    return bad_of_verdict(name, texts).has_value();
   }
 
   static std::string question(const std::string& name, const std::string& why) {
@@ -545,8 +455,7 @@ bool may_follow_friction(Role role) {
 }
 
 bool is_judgement(const Column& column) {
-  return bad_of_verdict(column.name, texts_of(column)).has_value() ||
-         role_by_name(column.name, false).role == Role::ignore;
+  return is_verdict(column) || role_by_name(column.name, false).role == Role::ignore;
 }
 
 bool is_order(const Column& column) {
@@ -554,273 +463,23 @@ bool is_order(const Column& column) {
          (column.role == Role::undecided && role_by_name(column.name, false).role == Role::order);
 }
 
-namespace {
-
-// Texts of the tests of all parts; empty for a column that changes within a test.
-std::vector<std::string> texts_of_tests(std::span<Dataset* const> parts, const std::string& name) {
-  std::vector<std::string> texts;
-  for (const Dataset* part : parts) {
-    const Column* column = part->find(name);
-    if (!column) return {};
-    for (std::size_t e = 0; e < part->experiments.size(); ++e) {
-      const double first = column->values[part->first_row[e]];
-      for (std::size_t i = part->first_row[e]; i < part->first_row[e + 1]; ++i)
-        if (column->values[i] != first) return {};
-      texts.push_back(column->levels.empty() ? fmt::format("{}", first)
-                                             : column->levels[static_cast<std::size_t>(first)]);
-    }
-  }
-  return texts;
-}
-
-void set_role(std::span<Dataset* const> parts, const std::string& name, const Given& given) {
-  for (Dataset* part : parts)
-    for (Column& column : part->columns)
-      if (column.name == name) {
-        column.role = given.role;
-        column.why = given.why;
-      }
-}
-
-// Parts of file names are called name1, x2_MPa, ...
-bool is_part_of_name(const std::string& name) {
-  return fits("^(name|x)[0-9]+($|_)", name);
-}
-
-// Leaves out columns that repeat another one in every test: they cannot be causes of their own.
-void drop_repeated_columns(std::span<Dataset* const> parts) {
-  std::map<std::vector<std::string>, std::vector<std::string>> alike; // texts -> columns
-  for (const Column& column : parts.front()->columns)
-    if ((column.role == Role::label || column.role == Role::setting ||
-         (column.role == Role::test && !column.levels.empty())) &&
-        column.why != set_by_job && !find_quantity(column.name))
-      if (auto texts = texts_of_tests(parts, column.name); !texts.empty())
-        alike[std::move(texts)].push_back(column.name);
-  for (auto& [texts, names] : alike) {
-    if (std::set<std::string>(texts.begin(), texts.end()).size() < 2) continue;
-    std::stable_partition(names.begin(), names.end(),
-                          [](const std::string& name) { return !is_part_of_name(name); });
-    for (std::size_t i = 1; i < names.size(); ++i)
-      set_role(parts, names[i], {Role::ignore, "the same as " + names.front() + " in every test"});
-  }
-}
-
-// The texts of a verdict, or of remarks, on tests that are bad.
-std::set<std::string> bad_texts(std::span<Dataset* const> parts, const std::string& name) {
-  const Pattern remark(remark_of_the_bad, {});
-  std::set<std::string> texts, bad;
-  for (const Dataset* part : parts)
-    if (const Column* column = part->find(name)) {
-      texts.merge(texts_of(*column));
-      for (const std::string& level : column->levels)
-        if (remark.search(lower_case(level))) bad.insert(level);
-    }
-  return bad_of_verdict(name, texts).value_or(bad);
-}
-
-// Notes the tests that are judged to be bad and are used, and the way to leave them out.
-void report_bad_tests(std::span<Dataset* const> parts, const std::string& name) {
-  const std::set<std::string> bad = bad_texts(parts, name);
-  std::vector<std::string> tests, quoted;
-  for (const std::string& text : bad)
-    quoted.push_back("\"" + text + "\"");
-  for (const Dataset* part : parts)
-    if (const Column* column = part->find(name))
-      for (std::size_t e = 0; e < part->experiments.size(); ++e) {
-        const auto begin = column->values.begin() + static_cast<long>(part->first_row[e]),
-                   end = column->values.begin() + static_cast<long>(part->first_row[e + 1]);
-        if (std::any_of(begin, end, [&](double value) {
-              return column->levels.empty()
-                         ? bad.count(shortest(value)) > 0
-                         : bad.count(column->levels[static_cast<std::size_t>(value)]) > 0;
-            }))
-          tests.push_back(part->experiments[e]);
-      }
-  if (tests.empty()) return;
-  constexpr std::size_t shown = 3;
-  const std::size_t more = tests.size() - std::min(tests.size(), shown);
-  tests.resize(tests.size() - more);
-  const std::string key = expr::is_name(name) ? name : "\"" + name + "\"";
-  parts.front()->implausible.push_back(
-      fmt::format("{} is {} in '{}'{}: judged to be bad, and used; data.drop = {{ {} = [{}] }} "
-                  "leaves such rows "
-                  "out",
-                  name, join(quoted, " or "), join(tests, "', '"), and_more(more, "test"), key,
-                  join(quoted, ", ")));
-}
-
-// ---- names of combinations ----
-
-// Names that people give to combinations of settings.
-constexpr const char* combination_names =
-    "^((test|versuchs?|mess|exp|experiment|replicates?|repeat|wiederhol\\w*|parameter|process|run|"
-    "sample|proben|load)_?)?(group|gruppe|series|serie|reihe|condition|bedingung|combination|combo|"
-    "kombination|configuration|config|case|variante?|block|cell|zelle|design_?point)"
-    "(en|s)?(_?(id|no|nr|number|nummer|name))?$";
-
-// Setting of the tests: one value of each.
-struct Factor {
-  std::string name;
-  std::vector<std::size_t> of; // level of each test
-  std::size_t count = 0;
-  std::vector<std::string> texts; // of each test
-};
-
-// Recorded columns with values that tests share.
-std::optional<Factor> factor_of(std::span<Dataset* const> parts, const std::string& name) {
-  Factor factor{name, {}, 0, texts_of_tests(parts, name)};
-  const std::set<std::string> levels(factor.texts.begin(), factor.texts.end());
-  if (levels.size() < 2 || 2 * levels.size() > factor.texts.size()) return {};
-  for (const std::string& text : factor.texts)
-    factor.of.push_back(static_cast<std::size_t>(std::distance(levels.begin(), levels.find(text))));
-  factor.count = levels.size();
-  return factor;
-}
-
-// States that were run at clear levels. Their texts are the tests' means.
-std::optional<Factor> factor_of_state(std::span<Dataset* const> parts, const Quantity& state) {
-  std::vector<double> means;
-  for (const Dataset* part : parts) {
-    if (!part->has(state.name)) return {};
-    const auto values = part->values(state.name);
-    for (std::size_t e = 0; e < part->experiments.size(); ++e)
-      means.push_back(
-          std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(part->first_row[e]),
-                          values.begin() + static_cast<std::ptrdiff_t>(part->first_row[e + 1]),
-                          0.0) /
-          static_cast<double>(part->first_row[e + 1] - part->first_row[e]));
-  }
-  if (!std::all_of(means.begin(), means.end(), [](double x) { return std::isfinite(x); }))
-    return {};
-  Factor factor{state.name, {}, 0, {}};
-  for (double& mean : means) {
-    factor.texts.push_back(fmt::format("{}", mean));
-    if (state.log_axis && mean > 0) mean = std::log(mean);
-  }
-  ClearLevels levels = clear_levels(means, 0);
-  if (levels.count < 2) return {};
-  factor.of = std::move(levels.of);
-  factor.count = levels.count;
-  return factor;
-}
-
-// Words and numbers of a text: "base", "4" and "mpa" of "Base_4MPa".
-std::vector<std::string> pieces_of(const std::string& text) {
-  std::vector<std::string> pieces;
-  int before = 0;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const int kind = std::isdigit(byte) || c == '.'       ? 1
-                     : std::isalpha(byte) || byte >= 0x80 ? 2
-                                                          : 0;
-    if (kind != 0 && kind != before) pieces.emplace_back();
-    if (kind != 0) pieces.back() += static_cast<char>(std::tolower(byte));
-    before = kind;
-  }
-  return pieces;
-}
-
-// Whether the name's text of every test holds the factor's: a word, or a number to within a tenth.
-bool is_named_in(const Factor& name, const Factor& factor) {
-  constexpr double near = 0.1;
-  for (std::size_t e = 0; e < name.of.size(); ++e) {
-    const std::vector<std::string> there = pieces_of(name.texts[e]);
-    double number = 0;
-    const char* const end = factor.texts[e].data() + factor.texts[e].size();
-    const auto read = std::from_chars(factor.texts[e].data(), end, number);
-    const bool is_number = read.ec == std::errc() && read.ptr == end;
-    const auto holds = [&](const std::string& piece) {
-      return std::find(there.begin(), there.end(), piece) != there.end();
-    };
-    const auto is_near = [&](const std::string& piece) {
-      double value = 0;
-      return std::from_chars(piece.data(), piece.data() + piece.size(), value).ec == std::errc() &&
-             std::abs(value - number) <= near * std::abs(number);
-    };
-    const std::vector<std::string> own = pieces_of(factor.texts[e]);
-    if (is_number ? std::none_of(there.begin(), there.end(), is_near)
-                  : own.empty() || !std::all_of(own.begin(), own.end(), holds))
-      return false;
-  }
-  return true;
-}
-
-// Whether each level of `name` has one level of the factor.
-bool has_one_each(const Factor& name, const Factor& factor) {
-  std::map<std::size_t, std::size_t> level;
-  for (std::size_t e = 0; e < name.of.size(); ++e)
-    if (level.emplace(name.of[e], factor.of[e]).first->second != factor.of[e]) return false;
-  return factor.count < name.count;
-}
-
-std::size_t count_combinations(const std::vector<const Factor*>& factors) {
-  std::set<std::vector<std::size_t>> all;
-  for (std::size_t e = 0; e < factors.front()->of.size(); ++e) {
-    std::vector<std::size_t> at;
-    for (const Factor* factor : factors)
-      at.push_back(factor->of[e]);
-    all.insert(std::move(at));
-  }
-  return all.size();
-}
-
-// The settings whose combinations a column names, if its own name or its texts say so: one level
-// for each combination. Empty otherwise, as for a lubricant that was tried at one load alone.
-std::vector<std::string> named_combination(const Factor& column, bool is_text,
-                                           const std::vector<Factor>& factors) {
-  std::vector<const Factor*> refined, in_texts;
-  for (const Factor& factor : factors) {
-    if (factor.name == column.name || !has_one_each(column, factor)) continue;
-    refined.push_back(&factor);
-    if (is_text && is_named_in(column, factor)) in_texts.push_back(&factor);
-  }
-  const bool by_name = fits(combination_names, plain_name(column.name));
-  for (const auto& some : {in_texts, by_name ? refined : in_texts}) {
-    if (some.size() < 2 || count_combinations(some) != column.count) continue;
-    std::vector<std::string> names;
-    for (const Factor* factor : some)
-      names.push_back(factor->name);
-    return names;
-  }
-  return {};
-}
-
-// Leaves out columns that name combinations of the others: they would explain all that those do,
-// and could not be set to anything new.
-void drop_names_of_combinations(std::span<Dataset* const> parts) {
-  std::vector<Factor> factors;
-  for (const Column& column : parts.front()->columns) {
-    const Quantity* const state = find_quantity(column.name);
-    const bool is_state = state && state->state && column.name != "s_mm";
-    if (!is_state && column.role != Role::label && column.role != Role::setting) continue;
-    if (auto factor = is_state ? factor_of_state(parts, *state) : factor_of(parts, column.name))
-      factors.push_back(std::move(*factor));
-  }
-  for (const Factor& factor : factors) {
-    const Column& column = *parts.front()->find(factor.name);
-    if (find_quantity(column.name) || column.why == set_by_job) continue;
-    const std::vector<std::string> names =
-        named_combination(factor, !column.levels.empty(), factors);
-    if (!names.empty())
-      set_role(parts, factor.name, {Role::ignore, "names combinations of " + join(names, ", ")});
-  }
-}
-
-} // namespace
-
 void find_roles(std::span<Dataset* const> parts, const DataOptions& options, FaultList& faults) {
   check_names(*parts.front(), options, faults);
   RoleFinder finder(parts, options);
   for (const Column& column : parts.front()->columns) {
     const Given given = finder.of(column);
-    set_role(parts, column.name, given);
+    for (Dataset* part : parts)
+      for (Column& own : part->columns)
+        if (own.name == column.name) {
+          own.role = given.role;
+          own.why = given.why;
+        }
     if (given.role == Role::ignore && given.why != set_by_job) report_bad_tests(parts, column.name);
     if (given.role == Role::response && !find_quantity(column.name))
       parts.front()->notes.push_back(fmt::format(
           "{} belongs to the measured friction, no cause of it: {}", column.name, given.why));
   }
-  drop_repeated_columns(parts);
-  drop_names_of_combinations(parts);
+  ignore_repeated_columns(parts);
 }
 
 } // namespace frictab::data

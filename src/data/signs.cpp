@@ -11,10 +11,10 @@
 
 #include "core/no_value.h"
 #include "core/text.h"
-#include "data/name_words.h"
 #include "data/computed.h"
 #include "data/leave_out.h"
 #include "data/middle.h"
+#include "data/name_words.h"
 #include "data/quantity.h"
 #include "io/csv.h"
 
