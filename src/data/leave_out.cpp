@@ -250,9 +250,12 @@ void leave_out_impossible(Part& part, const Reading& options) {
     if (known == data.apart.end())
       known = data.apart.insert(known, {found.check, impossible_text(found.check), 0, {}});
     if (++known->rows > RowsApart::named) continue;
-    known->first.push_back(fmt::format(
-        "{} in test '{}' ({:.4g}{})", format_place(part.place(found.row)), data.experiments[e],
-        found.value, found.check == "friction_coefficient" ? "" : " MPa"));
+    known->first.push_back(fmt::format("{} in test '{}' ({:.4g}{})",
+                                       format_place(part.place(found.row)), data.experiments[e],
+                                       found.value,
+                                       found.check == "friction_coefficient" ? ""
+                                       : found.check == "dropout"            ? " degC"
+                                                                             : " MPa"));
   }
   for (const RowsApart& one : data.apart)
     data.dropped.push_back({one.what, one.rows});

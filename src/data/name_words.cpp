@@ -58,6 +58,12 @@ bool fits(const char* pattern, const std::string& text) {
   return Pattern(pattern, {}).search(text).has_value();
 }
 
+bool names_surroundings(const std::string& name) {
+  return has_word(name, {"room", "ambient", "air", "raum", "umgebung", "lab", "labor", "laboratory",
+                         "hall", "halle", "climate", "klima", "environment", "rh", "dewpoint"}) ||
+         fits("humid|feucht|raumtemp|umgebungstemp|labortemp|hallentemp|lufttemp|dew point", name);
+}
+
 bool names_sums(const std::string& name) {
   return has_word(words_of_name(name), {"mean", "average", "avg", "std", "stdev", "mittelwert",
                                         "mittel", "standardabweichung", "stabw", "moyenne"}) &&

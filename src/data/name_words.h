@@ -18,6 +18,10 @@ std::string plain_name(const std::string& name);
 // True if a regular expression is found in a text.
 bool fits(const char* pattern, const std::string& text);
 
+// True for a quantity of the surroundings, which does not depend on the contact: the air's
+// humidity, the temperature of the room. Expects the words of a name.
+bool names_surroundings(const std::string& name);
+
 // True for the name of a line that sums up others: "Mean", "Mittelwert".
 bool names_sums(const std::string& name);
 

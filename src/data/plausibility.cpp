@@ -13,6 +13,7 @@
 
 #include "core/text.h"
 #include "data/condense.h"
+#include "data/dropouts.h"
 #include "data/equal_tests.h"
 #include "data/scale.h"
 #include "data/tests_apart.h"
@@ -610,7 +611,9 @@ Implausible test_apart(const Dataset& data) {
                   "say of its states{}",
                   data.experiments[apart.front().test], apart.front().factor,
                   data.experiments.size() - 1, and_more(apart.size() - 1, "test")),
-      "look at it before it is fitted: another unit, another lubricant, a failed test?"};
+      fmt::format("another unit, another lubricant, a failed test? data.drop = {{ experiment = "
+                  "[\"{}\"] }} leaves it out",
+                  data.experiments[apart.front().test])};
 }
 
 Implausible copied_test(const Dataset& data) {
@@ -701,8 +704,8 @@ double end_of_noise(std::span<const double> tau) {
                                    : middle + deviations * Course(tau).scatter;
 }
 
-// Finds nothing: spikes are left out during reading.
-Implausible spike(const Dataset&) {
+// Finds nothing: such rows are left out during reading.
+Implausible left_out_already(const Dataset&) {
   return {};
 }
 
@@ -728,7 +731,8 @@ constexpr Check checks[] = {{"no_friction", no_friction, Sees::campaign},
                             {"high_coefficient", high_coefficient, Sees::rows},
                             {"no_coefficient", no_coefficient, Sees::tests},
                             {"shear_yield", shear_yield, Sees::rows},
-                            {"spike", spike, Sees::rows},
+                            {"spike", left_out_already, Sees::rows},
+                            {"dropout", left_out_already, Sees::rows},
                             {"temperature", temperature, Sees::campaign},
                             {"speed", speed, Sees::rows},
                             {"sliding_speed", sliding_speed, Sees::rows},
@@ -855,6 +859,12 @@ std::vector<ImpossibleRow> impossible_rows(const Dataset& data, std::span<const 
           add(i, "friction_coefficient", mu);
       }
     }
+    for (const char* name : {"T_contact_C", "T_tool_C"}) {
+      if (allowed.count("dropout") > 0 || !data.has(name)) continue;
+      const auto temperature = data.values(name).subspan(begin, rows);
+      for (const std::size_t i : dropouts_in(temperature))
+        if (!is_found[i]) add(begin + i, "dropout", temperature[i]);
+    }
     if (allowed.count("spike") > 0) continue;
     for (const std::size_t i : spikes_of(tau.subspan(begin, rows), pressure.subspan(begin, rows),
                                          place.subspan(begin, rows)))
@@ -868,6 +878,8 @@ std::vector<ImpossibleRow> impossible_rows(const Dataset& data, std::span<const 
 std::string impossible_text(const std::string& check) {
   if (check == "shear_yield") return "tau_R_MPa above the shear yield stress sigma_f_MPa/sqrt(3)";
   if (check == "spike") return "a spike: tau_R_MPa far above the rows around it";
+  if (check == "dropout")
+    return "a temperature that jumps to one value and back: a sensor that drops out";
   return fmt::format("tau_R_MPa/sigma_n_MPa above {} in size and far from that of its test",
                      largest_mu);
 }
@@ -890,6 +902,8 @@ void tell(const Implausible& one, Dataset& data, const std::vector<std::string>&
     faults.add(
         place, text,
         fmt::format("{}; if it is right: data.allow_implausible = [\"{}\"]", one.hint, one.check));
+  else if (one.check == "test_apart" && !is_allowed)
+    data.cautions.push_back(one.what + "; " + one.hint);
   else // a finding that is only a note includes its hint
     data.implausible.push_back(one.certain && !is_allowed ? text + ": " + one.hint : text);
 }
@@ -898,7 +912,8 @@ void tell(const Implausible& one, Dataset& data, const std::vector<std::string>&
 
 bool is_more_than_few(const RowsApart& apart, const Dataset& data) {
   constexpr double few = 0.05;
-  return static_cast<double>(apart.rows) > few * static_cast<double>(rows_with_apart(data));
+  return apart.check != "dropout" && // a sensor of its own, which says nothing of the stresses
+         static_cast<double>(apart.rows) > few * static_cast<double>(rows_with_apart(data));
 }
 
 void check_plausibility(Dataset& data, const std::vector<std::string>& allowed, const Place& place,

@@ -29,7 +29,8 @@ void count_implausible(const Dataset& rows, std::vector<Implausible>& counted);
 void merge_implausible(const std::vector<Implausible>& more, std::vector<Implausible>& counted);
 
 // A row that no rig can measure: tau_R above the shear yield stress; a coefficient above the
-// largest possible one and 1.5 times that of its test; or a spike. The first two count only beyond
+// largest possible one and 1.5 times that of its test; a temperature in which the sensor dropped
+// out (dropouts.h); or a spike. The first two count only beyond
 // the scatter of their test (four standard deviations above its median). A spike is one to three
 // rows 1.5 times as high as their neighbours (3 times in the five rows at an end of the test or
 // next to left-out rows, where friction may peak), by more than eight times the scatter of the
@@ -38,7 +39,7 @@ void merge_implausible(const std::vector<Implausible>& more, std::vector<Implaus
 struct ImpossibleRow {
   std::size_t row;
   std::string check; // its name
-  double value;      // of tau_R_MPa, or of the coefficient
+  double value;      // of tau_R_MPa, the coefficient or the temperature
 };
 // Returns the impossible rows, by row; `place`: row of each in its file, which shows missing rows.
 // Skips the checks in `allowed`.
@@ -46,7 +47,8 @@ std::vector<ImpossibleRow> impossible_rows(const Dataset& data, std::span<const 
                                            const std::set<std::string>& allowed);
 // Description of the rows that a check finds.
 std::string impossible_text(const std::string& check);
-// True if such rows are more than 5 % of a campaign, too many for single bad readings.
+// True if such rows are more than 5 % of a campaign, too many for single bad readings. Drop-outs of
+// temperature sensors never are.
 bool is_more_than_few(const RowsApart& apart, const Dataset& data);
 
 // Counts force faults without contact, before such rows are left out.

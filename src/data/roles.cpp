@@ -22,6 +22,7 @@
 #include "data/recordings.h"
 #include "data/repeated_columns.h"
 #include "data/scale.h"
+#include "data/settings.h"
 #include "data/signs.h"
 #include "data/verdicts.h"
 
@@ -40,6 +41,7 @@ constexpr std::size_t most_held = 12, rows_held = 5;
 struct Given {
   Role role = Role::undecided;
   std::string why;
+  bool moves_by_noise = false; // within tests: their means are meant
 };
 
 // Names of columns that cannot be causes, independent of their contents. The first match counts;
@@ -74,6 +76,11 @@ constexpr NameRule name_rules[] = {
      When::per_test, Role::outcome},
     {"(^|_)(std(_?dev|_?abw)?|st_?dev|sd|standard_?(deviation|abweichung)|streuung|"
      "uncertainty|unsicherheit)(_|$)",
+     When::per_test, Role::outcome},
+    // Shapes of rings and cups, from which friction is read off
+    {"(^|_)height_?ratio(_|$)|barrel|bulge|ausbauch|(^|_)(h|od|id|l)_?1(_|$)|^f_?max(_|$)|"
+     "(^|_)(id|od|(inner|outer)_?diameter|(innen|au\\S*en)durchmesser)_?"
+     "(end|final|change|top|bottom|\\S*nderung)(_|$)",
      When::per_test, Role::outcome},
     // A friction, temperature or forming force of a whole test
     {"(^|_)(mean|avg|average|mittl\\w*|max\\w*|peak|final|end)_(\\w+_)?"
@@ -150,16 +157,15 @@ private:
     if (!is_text) look_at_numbers({column.values.data() + begin, end - begin});
   }
 
+  // The range of a few rows, or of nine tenths of many: their ends are noise.
   void look_at_numbers(std::span<const double> of_test) {
-    double low = of_test.front(), high = low, sum = 0;
-    for (const double value : of_test) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-      sum += value;
-    }
+    constexpr std::size_t many = 20;
+    const double sum = std::accumulate(of_test.begin(), of_test.end(), 0.0);
     if (!std::isfinite(sum)) return;
     means.push_back(sum / static_cast<double>(of_test.size()));
-    ranges.push_back(high - low);
+    const double tail = of_test.size() < many ? 0 : 0.05;
+    const std::vector<double> values(of_test.begin(), of_test.end());
+    ranges.push_back(quantile_of(values, 1 - tail) - quantile_of(values, tail));
   }
 };
 
@@ -374,19 +380,23 @@ private:
     if (look.values.size() <= most_held && look.rows > look.tests &&
         look.held * (rows_held + 1) >= (look.rows - look.tests) * rows_held)
       return {Role::setting, fmt::format("held at {} values within tests", look.values.size())};
-    if (hardly_moves(look)) {
+    if (hardly_moves(name, look)) {
       const auto [low, high] = std::minmax_element(look.means.begin(), look.means.end());
-      return {Role::setting, fmt::format("moves by {:.2g} in a test, {:.4g} to {:.4g} between them",
-                                         median_of(look.ranges), *low, *high)};
+      return {Role::setting,
+              fmt::format("moves by {:.2g} in a test, {:.4g} to {:.4g} between them",
+                          median_of(look.ranges), *low, *high),
+              true};
     }
     return {Role::channel, "varies within tests, measured along with friction"};
   }
 
   // Whether a column is all but constant in each test, and much more so than friction, from which
-  // it can therefore not follow: the air's humidity. Another reading of a state is none.
-  bool hardly_moves(const Look& look) const {
-    constexpr double most = 0.03, of_friction = 1.0 / 3, of_state = 0.95;
+  // it can therefore not follow. Of the surroundings a larger share is noise: the air's humidity.
+  // Another reading of a state is none.
+  bool hardly_moves(const std::string& name, const Look& look) const {
+    constexpr double most = 0.03, of_surroundings = 0.25, of_friction = 1.0 / 3, of_state = 0.95;
     const double share = look.share_within();
+    if (names_surroundings(words_of_name(name)) && share <= of_surroundings) return true;
     if (!(share <= most) || !parts_.front()->has("tau_R_MPa") ||
         !(share <= of_friction * Look(parts_, "tau_R_MPa").share_within()))
       return false;
@@ -463,17 +473,38 @@ bool is_order(const Column& column) {
          (column.role == Role::undecided && role_by_name(column.name, false).role == Role::order);
 }
 
+namespace {
+
+void set_role(std::span<Dataset* const> parts, const std::string& name, const Given& given) {
+  for (Dataset* part : parts)
+    for (Column& column : part->columns) {
+      if (column.name != name) continue;
+      column.role = given.role;
+      column.why = given.why;
+    }
+  if (!given.moves_by_noise) return;
+  take_mean_of_tests(parts, name);
+  parts.front()->notes.push_back(
+      fmt::format("{} {}: the mean of each test is taken", name, given.why));
+}
+
+void look_at_setting(std::span<Dataset* const> parts, const std::string& name) {
+  const Look look(parts, name);
+  if (!look.within) fill_missing_setting(parts, name);
+  if (!look.within && look.rows == look.tests && look.values.size() > look.tests / 2)
+    ask_if_reading(parts, name);
+}
+
+} // namespace
+
 void find_roles(std::span<Dataset* const> parts, const DataOptions& options, FaultList& faults) {
   check_names(*parts.front(), options, faults);
   RoleFinder finder(parts, options);
   for (const Column& column : parts.front()->columns) {
     const Given given = finder.of(column);
-    for (Dataset* part : parts)
-      for (Column& own : part->columns)
-        if (own.name == column.name) {
-          own.role = given.role;
-          own.why = given.why;
-        }
+    set_role(parts, column.name, given);
+    if (given.role == Role::setting && column.levels.empty() && !find_quantity(column.name))
+      look_at_setting(parts, column.name);
     if (given.role == Role::ignore && given.why != set_by_job) report_bad_tests(parts, column.name);
     if (given.role == Role::response && !find_quantity(column.name))
       parts.front()->notes.push_back(fmt::format(

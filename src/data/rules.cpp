@@ -66,6 +66,8 @@ constexpr ReadingRule all_rules[] = {
      "left out up to 5 % of a campaign, else kept",
      by_allowing,
      {1, 425940, "rows"}},
+    {"rows", "dropout", "a temperature that jumps by 30 K or more to one value and back",
+     "left out", by_allowing, not_measured},
     {"rows", "high_coefficient", "tau_R_MPa/sigma_n_MPa of 1 to 3.6", remarked, by_allowing,
      of_campaigns},
     {"rows", "no_load", "friction where sigma_n_MPa is 0", told, by_allowing, of_campaigns},

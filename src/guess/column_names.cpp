@@ -171,13 +171,6 @@ bool has_any(const std::string& name, std::initializer_list<std::string_view> pa
                      [&](std::string_view part) { return name.find(part) != name.npos; });
 }
 
-// Values of the surroundings, which say nothing about the contact.
-bool is_of_room(const std::string& name) {
-  return data::has_word(name, {"room", "ambient", "air", "raum", "umgebung", "lab", "labor",
-                               "laboratory", "hall", "halle", "climate", "klima", "environment"}) ||
-         has_any(name, {"raumtemp", "umgebungstemp", "labortemp", "hallentemp", "lufttemp"});
-}
-
 // Wanted values.
 bool is_set(const std::string& name) {
   return data::has_word(name, {"soll", "sollwert", "set", "setpoint", "target", "nominal", "nom",
@@ -266,7 +259,7 @@ int likeness(const Names& names, const Column& column) {
                     name = data::words_of_name(bare),
                     without_unit = data::words_of_name(bare.substr(0, bare.size() - unit.size()));
   const std::string_view canonical = names.canonical;
-  if (is_of_room(name) || (canonical == "time_s" && is_duration(name))) return 0;
+  if (data::names_surroundings(name) || (canonical == "time_s" && is_duration(name))) return 0;
   if (canonical == "v_rel_mm_s" && column.unit.empty() &&
       (names_rotation(name) || turn_unit_in(name)))
     return 0;
