@@ -12,15 +12,15 @@ namespace frictab::data {
 namespace {
 
 constexpr double least_jump_K = 30, usual_steps = 10;
-constexpr std::size_t least_rows = 10; // of a test
+constexpr std::size_t shortest_test_rows = 10; // of a test
 
-struct Run {
+struct EqualRun {
   std::size_t begin, end;
   double value;
 };
 
-std::vector<Run> runs_of_equal(std::span<const double> values) {
-  std::vector<Run> runs;
+std::vector<EqualRun> runs_of_equal(std::span<const double> values) {
+  std::vector<EqualRun> runs;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (i > 0 && values[i] == values[i - 1])
       ++runs.back().end;
@@ -40,9 +40,9 @@ double usual_step(std::span<const double> values) {
 
 std::vector<std::size_t> dropouts_in(std::span<const double> temperature_C) {
   const auto is_number = [](double x) { return std::isfinite(x); };
-  if (temperature_C.size() < least_rows || !std::ranges::all_of(temperature_C, is_number))
+  if (temperature_C.size() < shortest_test_rows || !std::ranges::all_of(temperature_C, is_number))
     return {};
-  const std::vector<Run> runs = runs_of_equal(temperature_C);
+  const std::vector<EqualRun> runs = runs_of_equal(temperature_C);
   const double jump = std::max(least_jump_K, usual_steps * usual_step(temperature_C));
   const auto jumps = [&](std::size_t a, std::size_t b) {
     return std::abs(runs[a].value - runs[b].value) >= jump;

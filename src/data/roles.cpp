@@ -164,8 +164,8 @@ private:
     if (!std::isfinite(sum)) return;
     means.push_back(sum / static_cast<double>(of_test.size()));
     const double tail = of_test.size() < many ? 0 : 0.05;
-    const std::vector<double> values(of_test.begin(), of_test.end());
-    ranges.push_back(quantile_of(values, 1 - tail) - quantile_of(values, tail));
+    const std::vector<double> readings(of_test.begin(), of_test.end());
+    ranges.push_back(quantile_of(readings, 1 - tail) - quantile_of(readings, tail));
   }
 };
 
