@@ -76,7 +76,7 @@ std::string explicit_head(const Exporter& exporter, const ExportRequest& request
   head.text = {{"head", all.text.at("head")},
                {"from", all.text.at("from")},
                {"n_props", all.text.at("n_props")}};
-  return fortran::without_last_break(render_template("abaqus/explicit_head.f", head));
+  return render_part("abaqus/explicit_head.f", head);
 }
 
 GivenState explicit_property() {

@@ -161,7 +161,7 @@ std::string body(const ForceRoutine& routine, const ExportRequest& request,
   add_states(values, inputs);
   add_past(values, request, inputs);
   add_speed_scale(values, request, inputs);
-  return fortran::without_last_break(render_template("abaqus/explicit_force.f", values));
+  return render_part("abaqus/explicit_force.f", values);
 }
 
 std::string file_of(const ForceRoutine& routine) {
@@ -185,8 +185,7 @@ std::string source(const ForceRoutine& routine, const Exporter& self, const Expo
   const std::size_t n_x = std::max(core.n_x, inputs.size());
   TemplateValues values;
   values.text = {{"head", explicit_head(self, request, inputs, remarks(routine, request, inputs))},
-                 {"arguments", fortran::without_last_break(render_template(
-                                   "abaqus/" + routine.entry + "/arguments.f", {}))},
+                 {"arguments", render_part("abaqus/" + routine.entry + "/arguments.f", {})},
                  {"body", body(routine, request, inputs, n_x)},
                  {"core", core.text}};
   return render_template("abaqus/" + routine.entry + "/" + file_of(routine), values);

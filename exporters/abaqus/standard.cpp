@@ -107,8 +107,7 @@ void add_states(TemplateValues& values, std::size_t n) {
   TemplateValues own;
   own.text = numbers;
   values.text.insert(numbers.begin(), numbers.end());
-  values.text["states_text"] =
-      fortran::without_last_break(render_template("abaqus/frictab_states.f", own));
+  values.text["states_text"] = render_part("abaqus/frictab_states.f", own);
 }
 
 nlohmann::ordered_json state_variables(std::vector<std::pair<std::string, std::string>> all,

@@ -28,7 +28,7 @@ std::string quit(Solver solver) {
   TemplateValues values;
   values.text["include"] = names(solver).include;
   values.text["routine"] = names(solver).message;
-  return fortran::without_last_break(render_template("abaqus/frictab_quit.f", values));
+  return render_part("abaqus/frictab_quit.f", values);
 }
 
 LawSelector interaction(Solver solver, const std::string& argument, const std::string& letters) {

@@ -120,7 +120,7 @@ std::string values_in_source(const Table& table, const std::string& comment) {
                  {"n_values", std::to_string(numbers.size())},
                  {"values", number_lines(numbers, 98, "    ")}};
   values.flags["has_axes"] = !table.axes.empty();
-  return without_last_break(render_template("c/frictab_baked.c", values));
+  return render_part("c/frictab_baked.c", values);
 }
 
 std::string values_file(const Table& table, const std::string& comment) {
@@ -129,7 +129,7 @@ std::string values_file(const Table& table, const std::string& comment) {
   add_values_file(values, numbers);
   values.text["value_comment"] = comment;
   values.text["crc32"] = std::to_string(values_crc32(numbers));
-  return without_last_break(render_template("c/frictab_values.c", values));
+  return render_part("c/frictab_values.c", values);
 }
 
 std::string table_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {

@@ -136,7 +136,7 @@ std::string gradient_functions(const ExportRequest& request,
   values.text["piece_gradient"] = has_piece ? piece_gradient(table, inputs) : "";
   values.text["piece_call"] = has_piece ? piece_gradient_call(table, inputs, variables) : "";
   values.offered = {"names"}; // used by the head of frictab_tau_R, which is not part of this text
-  return without_last_break(render_template("c/frictab_gradient.c", values));
+  return render_part("c/frictab_gradient.c", values);
 }
 
 } // namespace frictab::c_target

@@ -87,11 +87,6 @@ std::string optimisation(const Table& table) {
   return table.is_direct() ? "-O3" : "-O2";
 }
 
-std::string without_last_break(std::string text) {
-  if (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
-}
-
 namespace {
 
 std::size_t index_of(const std::vector<InputArgument>& inputs, const std::string& name) {
@@ -165,7 +160,7 @@ std::string helpers(const std::string& text) {
   values.flags = {{"uses_min", calls("ft_min(")},
                   {"uses_max", calls("ft_max(")},
                   {"uses_where", calls("ft_where_le(")}};
-  return without_last_break(render_template("c/frictab_helpers.c", values));
+  return render_part("c/frictab_helpers.c", values);
 }
 
 namespace {
@@ -235,13 +230,14 @@ std::string outside_functions(const Table& table, const std::vector<InputArgumen
   values.lists["without_range"] = items(without_range(table, inputs));
   values.lists["ends"] = range_ends(table, inputs);
   values.flags["has_ends"] = !values.lists["ends"].empty();
-  return without_last_break(render_template("c/frictab_outside.c", values));
+  return render_part("c/frictab_outside.c", values);
 }
 
 std::string direct_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
   Variables variables = variables_of(table, table.combine, inputs);
   TemplateValues values;
+  values.flags["in_file"] = false;
   add_state(values, table, inputs, variables);
   const std::string law = piece(table, inputs);
   const std::string gradient = gradient_functions(request, inputs);

@@ -56,9 +56,6 @@ std::string value_comment(const table::Table& table);
 // vectorises fully only at -O3.
 std::string optimisation(const table::Table& table);
 
-// Removes the line break at the end of a template's text.
-std::string without_last_break(std::string text);
-
 // Returns the names of the states in the law's own formula, in the order of the arguments.
 std::vector<std::string> piece_states(const table::Table& table,
                                       const std::vector<codegen::InputArgument>& inputs,

@@ -146,7 +146,7 @@ std::string piece(const Table& table, const std::vector<InputArgument>& inputs) 
   add_layer_data(values, law.formula.layer);
   values.text["quantity"] = models::quantity_name(table.quantity);
   values.text["parameters"] = law.states.empty() ? "void" : lines(law.states);
-  return without_last_break(render_template("c/frictab_piece.c", values));
+  return render_part("c/frictab_piece.c", values);
 }
 
 namespace {
@@ -212,7 +212,7 @@ std::string piece_gradient(const Table& table, const std::vector<InputArgument>&
   add_slopes(values, table, inputs, law);
   law.states.push_back("double* by");
   values.text["parameters"] = lines(law.states);
-  return without_last_break(render_template("c/frictab_piece_gradient.c", values));
+  return render_part("c/frictab_piece_gradient.c", values);
 }
 
 } // namespace frictab::c_target

@@ -53,7 +53,7 @@ std::string coefficient(const table::Table& table, Coefficient kind) {
                  {"pressure", std::to_string(pressure)},
                  {"least", fortran_number(least_pressure)},
                  {"most", most_text()}};
-  return without_last_break(render_template("fortran/frictab_coef.f", values));
+  return render_part("fortran/frictab_coef.f", values);
 }
 
 bool same_at_every_pressure(const table::Table& table, Coefficient kind) {
@@ -96,7 +96,7 @@ std::string constants_data(const std::vector<SolverInput>& inputs) {
   TemplateValues fill;
   fill.text = {{"common", constants_common(values.size())},
                {"data", fixed_form_data("cst", values)}};
-  return without_last_break(render_template("fortran/frictab_constants.f", fill));
+  return render_part("fortran/frictab_constants.f", fill);
 }
 
 } // namespace frictab::codegen::fortran

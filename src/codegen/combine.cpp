@@ -253,7 +253,7 @@ std::string comment_lines(const std::string& text) {
 // Returns the ftquit with which the entry ends the analysis if a contact has no law.
 std::string own_quit(const Combination& c, const std::string& stem) {
   const std::set<std::string> names = linked_names({{"quit.f", c.quit}});
-  return fortran::without_last_break(with_stem(c.quit, names, c.entry, stem));
+  return without_last_break(with_stem(c.quit, names, c.entry, stem));
 }
 
 std::string combined_source(const Combination& c, const std::vector<ExportRequest>& laws,
@@ -261,8 +261,8 @@ std::string combined_source(const Combination& c, const std::vector<ExportReques
   TemplateValues values;
   values.text = {{"title", c.exporter.title},
                  {"version", tool_version()},
-                 {"arguments", fortran::without_last_break(c.arguments)},
-                 {"guard", fortran::without_last_break(c.by.guard)},
+                 {"arguments", without_last_break(c.arguments)},
+                 {"guard", without_last_break(c.by.guard)},
                  {"argument", c.by.argument},
                  {"stem", entry_stem(laws.front())},
                  {"quit", own_quit(c, entry_stem(laws.front()))}};
@@ -278,7 +278,7 @@ std::string combined_source(const Combination& c, const std::vector<ExportReques
         {"condition", condition(laws[i].law_name, c.by)},
         {"call", fixed_form(fmt::format("  call {}{}({})", stem(laws[i]), c.entry, names))}};
     values.lists["laws"].push_back(law);
-    values.lists["sources"].push_back(item(fortran::without_last_break(sources[i])));
+    values.lists["sources"].push_back(item(without_last_break(sources[i])));
   }
   return render_template("fortran/frictab_combined.f", values);
 }

@@ -73,13 +73,19 @@ std::string add_parts(TemplateValues& values, const ExportRequest& request,
   const Piece slopes = gradient ? gradient_unit(request, values, options.units) : Piece{};
   for (const Piece& unit : {law, slopes})
     helpers.insert(helpers.end(), unit.helpers.begin(), unit.helpers.end());
-  for (const auto& [helper, flag] :
-       {std::pair{"ftmin", "uses_min"}, {"ftmax", "uses_max"}, {"ftwhle", "uses_where"}})
-    values.flags[flag] = std::count(helpers.begin(), helpers.end(), helper) > 0;
+  const auto uses = [&](const char* helper) {
+    return std::count(helpers.begin(), helpers.end(), helper) > 0;
+  };
+  Lines& extremes = values.lists["extremes"];
+  for (const auto& [helper, relation] : {std::pair{"ftmin", ".lt."}, {"ftmax", ".gt."}}) {
+    if (!uses(helper)) continue;
+    extremes.emplace_back();
+    extremes.back().text = {{"name", helper}, {"relation", relation}};
+  }
+  values.flags["uses_where"] = uses("ftwhle");
   values.flags["has_piece"] = has_piece;
   values.text["piece"] = law.text;
   values.text["gradient_text"] = slopes.text;
-  values.flags["gradient"] = gradient;
   return law.data;
 }
 
@@ -138,7 +144,7 @@ std::string head_text(const ExportRequest& request, const std::vector<SolverInpu
                   {"release", comments(head.release)},
                   {"states", comments(state_lines(request, inputs))},
                   {"outside", comments(remarks)}};
-  return without_last_break(render_template("fortran/frictab_head.f", values));
+  return render_part("fortran/frictab_head.f", values);
 }
 
 // Returns ftload and the units that it calls.
@@ -151,7 +157,7 @@ std::string values_unit(const ExportRequest& request, const std::vector<double>&
   values.flags["externals"] = options.units == Units::external;
   values.flags["asks_solver"] = !options.directory_routine.empty();
   values.text["outdir"] = options.directory_routine;
-  return without_last_break(render_template("fortran/frictab_values.f", values));
+  return render_part("fortran/frictab_values.f", values);
 }
 
 } // namespace
@@ -182,9 +188,8 @@ Core core(const ExportRequest& request, const CoreOptions& options) {
   std::string& stops = values.text["stop"];
   if (external && !options.quit.empty() && refuses(table)) stops = stop(request) + "\n";
   if (!stops.empty() || file || options.quits) stops += options.quit;
-  values.flags["ends"] = !stops.empty();
   out.data = join(std::vector<std::string>{looked_up.data, weights}, "\n");
-  out.text = without_last_break(render_template("fortran/frictab_core.f", values));
+  out.text = render_part("fortran/frictab_core.f", values);
   return out;
 }
 

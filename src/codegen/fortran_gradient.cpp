@@ -109,7 +109,7 @@ Piece gradient_unit(const ExportRequest& request, const TemplateValues& core, Un
                   {"log_value", table.log_value}};
   values.text["wish"] = units == Units::external ? ", .true." : "";
   add_units(values, units);
-  out.text = without_last_break(render_template("fortran/frictab_gradient.f", values));
+  out.text = render_part("fortran/frictab_gradient.f", values);
   return out;
 }
 

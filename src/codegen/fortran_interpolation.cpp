@@ -241,7 +241,7 @@ std::string data_text(const Table& table, const Data& data, const std::vector<do
                         table.log_value ? "ln " : "", models::quantity_name(table.quantity)))}};
   values.flags = {
       {"cubic", is_cubic(table)}, {"in_file", in_file}, {"uses_guide", !data.guide.empty()}};
-  return without_last_break(render_template("fortran/frictab_data.f", values));
+  return render_part("fortran/frictab_data.f", values);
 }
 
 // One program unit: the value, its derivatives, or both, chosen by a flag.

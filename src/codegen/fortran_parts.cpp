@@ -42,7 +42,7 @@ std::string locks(const std::string& stem, bool windows) {
   TemplateValues values;
   values.text["stem"] = stem;
   values.flags["windows"] = windows;
-  return without_last_break(render_template("fortran/frictab_locks.f", values));
+  return render_part("fortran/frictab_locks.f", values);
 }
 
 std::string in_apostrophes(std::string_view name) {
@@ -172,7 +172,7 @@ std::string weights(const UnitLayer& l) {
   values.text["data_bias"] = fixed_form_data("bias", l.bias);
   values.text["data_gain"] = fixed_form_data("gain", l.gain);
   values.text["data_offs"] = fixed_form_data("offs", l.offset);
-  return without_last_break(render_template("fortran/frictab_weights.f", values));
+  return render_part("fortran/frictab_weights.f", values);
 }
 
 // Symbol for the derivative of the result by the weighted sum of feature f's units.
@@ -275,11 +275,6 @@ Lines stopped_sides(const Table& table) {
 
 } // namespace
 
-std::string without_last_break(std::string text) {
-  if (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
-}
-
 Piece piece(const Table& table, bool gradient, Units units) {
   TemplateValues values;
   const LayeredFormula formula = split_layer(*table.extension);
@@ -308,7 +303,7 @@ Piece piece(const Table& table, bool gradient, Units units) {
   values.text["data"] = units == Units::external ? out.data : "";
   out.helpers = helpers_of(join(code.lines, "\n"));
   values.lists["helpers"] = items(out.helpers);
-  out.text = without_last_break(render_template("fortran/frictab_piece.f", values));
+  out.text = render_part("fortran/frictab_piece.f", values);
   return out;
 }
 

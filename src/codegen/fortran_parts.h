@@ -68,7 +68,4 @@ Piece piece(const table::Table& table, bool gradient, Units units);
 // Returns "x(index) relation limit" for each side of that kind.
 Lines sides(const table::Table& table, table::Outside kind);
 
-// Removes the line break at the end of a template's text, for insertion into another template.
-std::string without_last_break(std::string text);
-
 } // namespace frictab::codegen::fortran

@@ -16,7 +16,7 @@ namespace frictab::codegen::fortran {
 std::string quit(const std::string& statement) {
   TemplateValues values;
   values.text["statement"] = statement;
-  return without_last_break(render_template("fortran/frictab_quit.f", values));
+  return render_part("fortran/frictab_quit.f", values);
 }
 
 std::string say() {
@@ -53,7 +53,7 @@ std::string stop(const ExportRequest& request) {
   }
   values.text["n_x"] = std::to_string(std::max<std::size_t>(table.inputs().size(), 1));
   values.lists["refusing"] = refusing;
-  return without_last_break(render_template("fortran/frictab_refuse.f", values));
+  return render_part("fortran/frictab_refuse.f", values);
 }
 
 bool refuses(const table::Table& table) {

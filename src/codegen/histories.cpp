@@ -134,6 +134,14 @@ bool calls(const Lines& histories, const char* part, const std::string& function
   });
 }
 
+// Lists those of these functions that the texts call; others come along with the first of a group.
+Lines called(const Lines& histories, const char* part, const std::vector<std::string>& groups) {
+  Lines out;
+  for (const std::string& group : groups)
+    if (calls(histories, part, group.substr(0, group.find(',')))) out.push_back(item(group));
+  return out;
+}
+
 // Returns the column of a name; null if there is none.
 const double* column_of(const std::string& name, const std::vector<SolverInput>& inputs,
                         std::span<const double* const> columns) {
@@ -260,13 +268,19 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
     if (is(input, C::per_time)) own.flags["time_of_its_own"] = false;
     histories.push_back(RuleText(input, i + 1, time, units).values());
   }
-  own.flags["has_mean"] = calls(histories, "now", "ftmean");
-  own.flags["has_most"] = calls(histories, "now", "ftmost");
-  own.flags["has_ratio"] = calls(histories, "now", "ftrat");
-  own.flags["has_turn"] = calls(histories, "now", "ftturn");
-  own.flags["has_rise"] = calls(histories, "now", "ftrise");
-  own.flags["has_recent"] = calls(histories, "now", "ftlate");
-  own.flags["has_theta"] = calls(histories, "now", "ftthta");
+  own.lists["now_calls"] = called(
+      histories, "now",
+      {"ftmost", "ftmean", "ftrat", "ftturn, ftrsng", "ftrise", "ftlate", "ftthta", "ftgrow"});
+  own.lists["next_calls"] =
+      called(histories, "next", {"ftmost", "ftturn", "ftfrst", "ftlate", "ftaged", "ftslpd"});
+  for (const auto& [flag, function] : {std::pair{"has_mean", "ftmean"},
+                                       {"has_most", "ftmost"},
+                                       {"has_ratio", "ftrat"},
+                                       {"has_turn", "ftturn"},
+                                       {"has_rise", "ftrise"},
+                                       {"has_recent", "ftlate"},
+                                       {"has_theta", "ftthta"}})
+    own.flags[flag] = calls(histories, "now", function);
   own.flags["has_aging"] = calls(histories, "next", "ftaged");
   own.flags["has_slipping"] = calls(histories, "next", "ftslpd");
   own.flags["has_area"] = first_area(inputs) > 0;
@@ -278,8 +292,7 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
               {"slowest", fortran_number(second.to_canonical(data::slowest_speed))},
               {"at_peak", fortran_number(data::at_peak)},
               {"a", own.flags["has_area"] ? ", a" : ""}};
-  values.text["histories_text"] =
-      without_last_break(render_template("fortran/frictab_histories.f", own));
+  values.text["histories_text"] = render_part("fortran/frictab_histories.f", own);
 }
 
 TemplateValues area_of_driver(const ExportRequest&, const std::vector<SolverInput>& inputs) {

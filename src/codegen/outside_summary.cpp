@@ -70,7 +70,7 @@ std::string fortran::outside_summary(const Exporter& exporter, const ExportReque
   values.text = {{"locks", locks("ft", windows)},
                  {"model", fortran::in_apostrophes(request.table.model)},
                  {"n_x", std::to_string(std::max<std::size_t>(request.table.inputs().size(), 1))}};
-  return without_last_break(render_template("fortran/frictab_seen.f", values));
+  return render_part("fortran/frictab_seen.f", values);
 }
 
 } // namespace frictab::codegen

@@ -33,11 +33,6 @@ Texts texts_at(const json& object, const char* key) {
   return at != object.end() && at->is_array() ? at->get<Texts>() : Texts{};
 }
 
-std::string without_last_break(std::string text) {
-  if (text.ends_with('\n')) text.pop_back();
-  return text;
-}
-
 std::string wrapped(const std::string& text) {
   return join(wrap_text(text, page_width), "\n");
 }
@@ -223,7 +218,6 @@ void add_compiling(TemplateValues& values, const json& recipe) {
       stand_ins += fmt::format("A `{}` next to it stands for that of the solver:\n```\n{}```\n",
                                name, text.get<std::string>());
   values.flags["in_solver"] = !in_solver.empty();
-  values.flags["stand_ins"] = !stand_ins.empty();
   values.text["in_solver"] = join(in_solver, "\n");
   values.text["build"] = bullets(build);
   values.text["alone"] = join(alone, "\n");

@@ -1,6 +1,6 @@
 // The strict template renderer. @{name} inserts text; @for item in list ... @end and @if flag ...
 // @else ... @end have lines of their own (leading blanks allowed), which are removed. "@@" is one
-// @.
+// @. A line "@include path" of a built-in template stands for the lines of another one.
 #pragma once
 
 #include <map>
@@ -44,7 +44,11 @@ std::vector<std::string_view> embedded_paths(std::string_view folder);
 // Fills a line with @{name} and no other template syntax; values that it does not name stay unused.
 std::string insert_names(std::string_view line, const std::map<std::string, std::string>& names);
 
-// Equals render(embedded_template(path), "templates/" + path, values).
+// Renders embedded_template(path) with the templates that it includes, as "templates/" + path.
 std::string render_template(std::string_view path, const TemplateValues& values);
+
+// Returns the same without the line break at the end, for insertion into another template.
+std::string render_part(std::string_view path, const TemplateValues& values);
+std::string without_last_break(std::string text);
 
 } // namespace frictab

@@ -14,14 +14,7 @@ C     The bits of infinity; above them lies NaN.
 @if reads_states
       double precision hist(@{n_hist})
 @end
-@if has_ends
-      logical ftout
-      external ftout
-@end
-@if refuses
-      logical ftstop
-      external ftstop
-@end
+@include fortran/range_checks.f
 @if unknown
       double precision ftqnan
       external ftqnan
@@ -250,6 +243,4 @@ C           them in 5 and 6: increments are small against their sum.
       return
       end
 C
-@if has_histories
 @{histories_text}
-@end

@@ -1,12 +1,7 @@
 C     frictional shear stress tau_R @{from}.
 @{head}
 C
-C     PROPS (PROPERTIES=@{n_props}; a property the deck does not give
-C     takes the value in brackets):
-@for line in properties
-C     @{line.text}
-@end
-C
+@include abaqus/properties.f
 @for line in remarks
 C     @{line.text}
 @end

@@ -15,17 +15,7 @@
 
 static inline double ft_tau(
     @{parameters}) {
-@for input in used
-@if input.converted
-  const double @{input.name} = @{input.canonical};
-@end
-@end
-@for constant in constants
-@if constant.renamed
-  /* @{constant.comment} */
-@end
-  const double @{constant.name} = @{constant.value};
-@end
+@include c/states.c
   const double @{value} = @{piece_call};
 @for name in unused
   (void)@{name.text};
@@ -47,25 +37,4 @@ static inline double ft_tau(
   return tau;
 }
 
-double frictab_tau_R(
-    @{parameters}) {
-  return ft_tau(
-      @{names});
-}
-
-@{outside}
-
-void frictab_tau_R_batch(
-    size_t n,
-    @{arrays},
-    double* tau) {
-  size_t i;
-@for name in unused_arrays
-  (void)@{name.text};
-@end
-  for (i = 0; i < n; ++i)
-    tau[i] = ft_tau(
-        @{items});
-}
-
-@{gradient}
+@include c/entries.c

@@ -15,17 +15,7 @@ static double ft_no_gradient(double tau, double* derivative) {
 double frictab_tau_R_gradient(
     @{parameters},
     double* derivative) {
-@for input in used
-@if input.converted
-  const double @{input.name} = @{input.canonical};
-@end
-@end
-@for constant in constants
-@if constant.renamed
-  /* @{constant.comment} */
-@end
-  const double @{constant.name} = @{constant.value};
-@end
+@include c/states.c
 @for state in through_value
   double @{state.text} = 0.0;
 @end

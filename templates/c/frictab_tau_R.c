@@ -72,17 +72,7 @@ static const ft_axis ft_axes[@{n_axes}] = {
 @end
 FT_INLINE double ft_tau(
     @{parameters}) {
-@for input in used
-@if input.converted
-  const double @{input.name} = @{input.canonical};
-@end
-@end
-@for constant in constants
-@if constant.renamed
-  /* @{constant.comment} */
-@end
-  const double @{constant.name} = @{constant.value};
-@end
+@include c/states.c
 @if has_axes
   double u[@{n_axes}];
 @end
@@ -124,35 +114,4 @@ FT_INLINE double ft_tau(
   }
 }
 
-double frictab_tau_R(
-    @{parameters}) {
-@if in_file
-  if (!ft_ready()) return (double)NAN;
-@end
-  return ft_tau(
-      @{names});
-}
-
-@{outside}
-
-void frictab_tau_R_batch(
-    size_t n,
-    @{arrays},
-    double* tau) {
-  size_t i;
-@for name in unused_arrays
-  (void)@{name.text};
-@end
-@if in_file
-  if (!ft_ready()) {
-    for (i = 0; i < n; ++i)
-      tau[i] = (double)NAN;
-    return;
-  }
-@end
-  for (i = 0; i < n; ++i)
-    tau[i] = ft_tau(
-        @{items});
-}
-
-@{gradient}
+@include c/entries.c

@@ -30,13 +30,7 @@ C     where x holds one@{refused_text}.
 @for line in variables
 @{line.text}
 @end
-@for constant in constants
-      double precision @{constant.name}
-@if constant.renamed
-C     @{constant.comment}
-@end
-@{constant.statement}
-@end
+@include fortran/named_constants.f
 @if extends
       logical beyond
 @end

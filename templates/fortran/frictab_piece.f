@@ -27,13 +27,7 @@ C     is held at an end.
       double precision @{name.text}
 @end
 @end
-@for constant in constants
-      double precision @{constant.name}
-@if constant.renamed
-C     @{constant.comment}
-@end
-@{constant.statement}
-@end
+@include fortran/named_constants.f
 @if has_layer
 C     @{units} units of tanh, @{outputs} outputs: unit i belongs to output
 C     1 + mod(i-1, @{outputs}).

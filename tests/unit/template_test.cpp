@@ -169,6 +169,12 @@ TEST(Template, FindsEmbeddedFilesAndThrowsForOthers) {
   EXPECT_THROW(embedded_template("c/none"), std::logic_error);
 }
 
+TEST(Template, IncludesTheLinesOfOthers) {
+  EXPECT_THAT(std::string(embedded_template("c/frictab_piece.c")), HasSubstr("@include c/"));
+  EXPECT_THROW(render_template("c/frictab_piece.c", {}), std::logic_error);
+  EXPECT_EQ(without_last_break("a\n\n"), "a\n");
+}
+
 } // namespace
 
 } // namespace frictab::template_test

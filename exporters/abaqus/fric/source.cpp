@@ -71,8 +71,7 @@ std::string fric_source(const ExportRequest& request, const std::vector<SolverIn
   abaqus::add_routine(values, *find_exporter("abaqus_fric"), request, inputs, gives(request), true,
                       {.further_properties = critical});
   values.text["critical"] = std::to_string(critical.front().number);
-  values.text["arguments"] =
-      fortran::without_last_break(render_template("abaqus/fric/arguments.f", {}));
+  values.text["arguments"] = render_part("abaqus/fric/arguments.f", {});
   // Least slip: a millionth of a millimetre, if neither the deck nor the solver gives a length.
   values.text["least_slip"] = fortran_number(solver_unit("mm", request.units).from_canonical(1e-6));
   abaqus::add_states(values, state_count(inputs));

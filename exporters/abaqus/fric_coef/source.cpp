@@ -109,7 +109,7 @@ std::string coef_source(const ExportRequest& request, const std::vector<SolverIn
   values.text["reads"] = fortran::reads(inputs, gives(request), "", 4);
   values.text["slopes"] = fortran::slopes(inputs, gives(request), {}, 4);
   values.flags["new"] = newer;
-  values.text["arguments"] = fortran::without_last_break(arguments(request));
+  values.text["arguments"] = without_last_break(arguments(request));
   values.text["most"] = fortran::most_text();
   abaqus::add_states(values, state_count(inputs));
   return render_template("abaqus/fric_coef/frictab_fric_coef.f", values);

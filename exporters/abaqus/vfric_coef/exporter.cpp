@@ -75,8 +75,7 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
   TemplateValues values;
   values.text = {{"head", abaqus::explicit_head(*find_exporter("abaqus_vfric_coef"), request,
                                                 inputs, remarks(request))},
-                 {"arguments", fortran::without_last_break(
-                                   render_template("abaqus/vfric_coef/arguments.f", {}))},
+                 {"arguments", render_part("abaqus/vfric_coef/arguments.f", {})},
                  {"n_x", std::to_string(core.n_x)},
                  {"reads_once", fortran::reads(inputs, gives(request), "once")},
                  {"reads_point", fortran::reads(inputs, gives(request), "point", 2)},

@@ -169,8 +169,7 @@ std::string usrbcc_source(const ExportRequest& request, const std::vector<Solver
   values.text["constants"] = fortran::constants_data(inputs);
   values.text["coefficient"] = fortran::coefficient(table, kind);
   values.text["core"] = fortran::core(request, {.unknown = refuses, .quit = quit()}).text;
-  values.text["arguments"] =
-      fortran::without_last_break(render_template("deform/usrbcc/arguments.f", {}));
+  values.text["arguments"] = render_part("deform/usrbcc/arguments.f", {});
   values.flags["histories"] = takes_history(inputs);
   Lines& warmest = values.lists["warmest"];
   for (const std::size_t state : peak_temperatures(inputs))

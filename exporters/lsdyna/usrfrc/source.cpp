@@ -86,8 +86,7 @@ std::string usrfrc_source(const ExportRequest& request, const std::vector<Solver
                      .quits = true,
                      .summary = fortran::outside_summary(*find_exporter("lsdyna_usrfrc"), request)})
           .text;
-  values.text["arguments"] =
-      fortran::without_last_break(render_template("lsdyna/usrfrc/arguments.f", {}));
+  values.text["arguments"] = render_part("lsdyna/usrfrc/arguments.f", {});
   values.flags["has_ends"] = !frictab::table::all_ends(table).empty();
   add_speed_scale(values, request, inputs);
   values.flags["uses_temperature"] = takes(inputs, "T_contact_C");

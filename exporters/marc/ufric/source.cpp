@@ -106,7 +106,7 @@ std::string ufric_source(const ExportRequest& request, const std::vector<SolverI
   const SolverUnit stress = solver_unit("MPa", request.units);
   values.lists["result"] = fortran::comments(result_lines(chosen, stress.name));
   values.text["result_name"] = coulomb ? "friction coefficient mu" : "shear factor m";
-  values.text["arguments"] = fortran::without_last_break(arguments(request));
+  values.text["arguments"] = without_last_break(arguments(request));
   values.text["n_slip"] = std::to_string(chosen.slip_components);
   values.text["stress_convert"] = to_canonical_text(stress, Notation::fortran);
   values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));

@@ -12,12 +12,7 @@ C     Stick is elastic: TAU = tau_R/gc * elastic slip, up to the
 C     critical elastic slip gc; beyond it the point slips under tau_R,
 C     along its slip. gc is property @{critical}, else 0.005*CHRLNGTH.
 C
-C     PROPS (PROPERTIES=@{n_props}; a property the deck does not give
-C     takes the value in brackets):
-@for line in properties
-C     @{line.text}
-@end
-C
+@include abaqus/properties.f
 C     STATEV (DEPVAR=@{depvar}), by contact point, at the end of the increment:
 C     1 accumulated slip under pressure (@{length}), 2 friction work per
 C     area (@{stress}*@{length}), 3 peak pressure (@{stress}), 4 increments in which
@@ -55,14 +50,7 @@ C     and what TAU changes by per change of the limit
       external ftqnan
       logical ftnan
       external ftnan, ftsize
-@if has_ends
-      logical ftout
-      external ftout
-@end
-@if refuses
-      logical ftstop
-      external ftstop
-@end
+@include fortran/range_checks.f
 @if has_histories
 C     What histories add to the derivatives by speed and temperature
       double precision hv, ht
@@ -339,7 +327,5 @@ C     Length of a vector in the contact plane
 C
 @{states_text}
 C
-@if has_histories
 @{histories_text}
-@end
 @{core}

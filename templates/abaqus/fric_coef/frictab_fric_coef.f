@@ -8,12 +8,7 @@ C     Below @{smallest} MPa, and without pressure, the coefficient is that
 C     at @{smallest} MPa. At most @{most}.
 C     NaN in gives NaN in fCoef, with derivatives 0.
 C
-C     PROPS (PROPERTIES=@{n_props}; a property the deck does not give
-C     takes the value in brackets):
-@for line in properties
-C     @{line.text}
-@end
-C
+@include abaqus/properties.f
 @if new
 C     State variables (DEPVAR=@{depvar}), at the end of the increment:
 C     1 friction work per area (@{stress}*@{length}), 2 peak pressure (@{stress}),

@@ -71,15 +71,7 @@ C       sums lies behind them.
       end do
       end
 C
-C     Sets a state variable, and another one to what is rounded off it.
-      subroutine ftput(st, i, j, value, nst)
-      include 'vaba_param.inc'
-      dimension st(nst)
-      real*8 value
-      st(i) = real(value, kind(st))
-      if (j .gt. 0) st(j) = real(value - st(i), kind(st))
-      end
-C
+@include abaqus/put_state.f
 C     One increment of VFRIC (ftincr in src/codegen/driven_path.h).
 C     par: time increment, whether there are temperatures, values of
 C     the main surface (0, 1 or n), step, increment, directions of

@@ -129,9 +129,7 @@ C     The larger of both; NaN where one is.
       end
 C
 @end
-@if has_histories
 @{histories_text}
-@end
 @{constants}
 @{coefficient}
 @{core}

@@ -56,14 +56,7 @@ C     Slip and work before this cycle; a sum as UFHIST holds it
       double precision fttau, ftqnan, ftlost
       logical ftnan
       external fttau, ftqnan, ftlost, ftnan
-@if has_ends
-      logical ftout
-      external ftout
-@end
-@if refuses
-      logical ftstop
-      external ftstop
-@end
+@include fortran/range_checks.f
 @if has_histories
       double precision past(@{n_histories}), next(@{n_histories}), dtime
 @end
@@ -261,7 +254,5 @@ C     A pressed node without area ends the analysis.
       return
       end
 C
-@if has_histories
 @{histories_text}
-@end
 @{core}
