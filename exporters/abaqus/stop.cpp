@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "codegen/fortran_build.h"
 #include "codegen/fortran_parts.h"
 
 namespace frictab::abaqus {
@@ -56,20 +57,20 @@ std::string directory_routine(Solver solver) {
 
 void add_stand_ins(BuildVariant& variant, Solver solver) {
   const auto& [include, message, directory, combining] = names(solver);
-  variant.command.push_back("@{dir}/solver.f");
-  variant.extra["solver.f"] = fmt::format(
-      "C     Stand-ins for the solver's routines: the first comes back, where the solver ends the\n"
-      "C     analysis; the second knows no directory.\n"
-      "      subroutine {}(lop, text, intv, realv, charv)\n"
-      "      include '{}'\n"
-      "      character*(*) text, charv(*)\n"
-      "      dimension intv(*), realv(*)\n"
-      "      end\n"
-      "      subroutine {}(dir, length)\n"
-      "      character*(*) dir\n"
-      "      length = 0\n"
-      "      end\n",
-      message, include, directory);
+  fortran::add_source(variant, "solver.f",
+                      fmt::format("C     Stand-ins for the solver's routines: the first comes "
+                                  "back, where the solver ends the\n"
+                                  "C     analysis; the second knows no directory.\n"
+                                  "      subroutine {}(lop, text, intv, realv, charv)\n"
+                                  "      include '{}'\n"
+                                  "      character*(*) text, charv(*)\n"
+                                  "      dimension intv(*), realv(*)\n"
+                                  "      end\n"
+                                  "      subroutine {}(dir, length)\n"
+                                  "      character*(*) dir\n"
+                                  "      length = 0\n"
+                                  "      end\n",
+                                  message, include, directory));
 }
 
 } // namespace frictab::abaqus

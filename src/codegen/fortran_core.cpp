@@ -96,17 +96,11 @@ std::string add_formula(TemplateValues& values, const ExportRequest& request,
   const std::string tau = "fttau";
   Variables variables(table, table.combine, Language::fortran);
   Statements code = variables.statements({{table.combine, tau}});
-  std::vector<std::string> names;
-  values.lists["states"] = fixed_lines(states_from_x(table, variables, table.combine, names));
-  names.insert(names.end(), code.names.begin(), code.names.end());
-  std::erase(names, tau);
   for (const std::string& line : moved(code.results[0], tau))
     code.lines.push_back(line);
-  const std::vector<std::string> helpers = helpers_of(join(code.lines, "\n"));
+  const std::vector<std::string> helpers =
+      add_declarations(values, table, variables, table.combine, code, tau);
   values.lists["statements"] = fixed_lines(code.lines);
-  values.lists["constants"] = constant_lines(table, variables);
-  values.lists["helpers"] = items(helpers);
-  values.lists["variables"] = declarations(names);
   values.text["value"] = variables.name("value");
   values.flags["log_value"] = table.log_value;
   return add_parts(values, request, options, helpers);
@@ -116,9 +110,8 @@ std::vector<std::string> argument_lines(const Table& table) {
   std::vector<std::string> lines;
   const std::vector<InputArgument> arguments = entry_arguments(table, "mm-t-s");
   for (const std::string& name : table.inputs())
-    for (const InputArgument& argument : arguments)
-      if (argument.name == name)
-        lines.push_back(fmt::format("x({}) {}, {}", lines.size() + 1, name, argument.meaning));
+    lines.push_back(fmt::format("x({}) {}, {}", lines.size() + 1, name,
+                                argument_named(arguments, name).meaning));
   if (lines.empty()) lines.push_back("x(1) is not used");
   return lines;
 }
@@ -167,7 +160,7 @@ Core core(const ExportRequest& request, const CoreOptions& options) {
   const bool file = values_in_file(request), external = options.units == Units::external;
   TemplateValues values;
   Core out;
-  out.n_x = std::max<std::size_t>(table.inputs().size(), 1);
+  out.n_x = inputs_size(table);
   values.text["n_x"] = std::to_string(out.n_x);
   values.flags["uses_unknown"] = options.unknown || file || (options.gradient && refuses(table));
   values.flags["in_file"] = file;

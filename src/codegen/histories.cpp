@@ -11,6 +11,7 @@
 #include "codegen/number_text.h"
 #include "codegen/solver_units.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "data/derived.h"
 
 namespace frictab::codegen {
@@ -113,13 +114,10 @@ private:
   }
 
   std::string statements(std::string_view lines) const {
-    std::string out;
-    while (!lines.empty()) {
-      const std::size_t end = std::min(lines.find('\n'), lines.size());
-      out += (out.empty() ? "" : "\n") + fixed_form(insert_names(lines.substr(0, end), names_));
-      lines.remove_prefix(std::min(end + 1, lines.size()));
-    }
-    return out;
+    std::vector<std::string> out;
+    for (const std::string_view line : lines_of(lines))
+      out.push_back(fixed_form(insert_names(line, names_)));
+    return join(out, "\n");
   }
 
   HistoryRule rule_;

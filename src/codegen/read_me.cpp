@@ -8,6 +8,7 @@
 
 #include "codegen/deck.h"
 #include "codegen/number_text.h"
+#include "codegen/recipe.h"
 #include "codegen/source_check.h"
 #include "core/template.h"
 #include "core/text.h"
@@ -38,13 +39,10 @@ std::string wrapped(const std::string& text) {
 }
 
 std::string bullets(const Texts& texts) {
-  Texts lines;
+  Texts items;
   for (const std::string& text : texts)
-    for (std::string indent = "* "; const std::string& line : wrap_text(text, page_width - 2)) {
-      lines.push_back(indent + line);
-      indent = "  ";
-    }
-  return join(lines, "\n");
+    items.push_back("* " + join(wrap_text(text, page_width - 2, "  "), "\n"));
+  return join(items, "\n");
 }
 
 std::string with_unit(const std::string& meaning, const std::string& unit) {
@@ -274,11 +272,7 @@ SourceBundle explained(SourceBundle files, const Exporter& exporter) {
       files[script] = script_text(recipe);
   }
   files["README.md"] = read_me(recipe, exporter);
-  files.erase("recipe.json");
-  recipe["files"] = json::array();
-  for (const auto& [path, text] : files)
-    recipe["files"].push_back(path);
-  recipe["files"].push_back("recipe.json");
+  recipe["files"] = recipe_files(files);
   files["recipe.json"] = io::json_text(recipe);
   return files;
 }

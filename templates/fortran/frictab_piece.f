@@ -19,7 +19,7 @@ C     is held at an end.
 @else
       double precision@{in} x(@{n_x})
 @end
-@for line in declarations
+@for line in variables
 @{line.text}
 @end
 @if externals
