@@ -1,6 +1,7 @@
 // The strict template renderer. @{name} inserts text; @for item in list ... @end and @if flag ...
-// @else ... @end have lines of their own (leading blanks allowed), which are removed. "@@" is one
-// @. A line "@include path" of a built-in template stands for the lines of another one.
+// @else ... @end have lines of their own (leading blanks allowed), which are removed. A line with
+// @{list...} is written once per item, with @{item.text} in its place. "@@" is one @. A line
+// "@include path" of a built-in template stands for the lines of another one.
 #pragma once
 
 #include <map>

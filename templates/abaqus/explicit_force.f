@@ -162,9 +162,7 @@ C           Of sums what they gain, of all others the value itself
             do i = 1, @{n_histories}
               from(i) = hist(3+i)
             end do
-@for sum in sums
-            from(@{sum.text}) = 0.0D0
-@end
+            from(@{sums...}) = 0.0D0
             call ftnext(from, press, speed, @{temperature_now}@{area_now}, pmax,
      &        stress, slip, dtime, next)
 @end

@@ -1,6 +1,4 @@
 C     PROPS (PROPERTIES=@{n_props}; a property the deck does not give
 C     takes the value in brackets):
-@for line in properties
-C     @{line.text}
-@end
+C     @{properties...}
 C

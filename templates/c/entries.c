@@ -14,9 +14,7 @@ void frictab_tau_R_batch(
     @{arrays},
     double* tau) {
   size_t i;
-@for name in unused_arrays
-  (void)@{name.text};
-@end
+  (void)@{unused_arrays...};
 @if in_file
   if (!ft_ready()) {
     for (i = 0; i < n; ++i)

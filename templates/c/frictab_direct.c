@@ -17,20 +17,14 @@ static inline double ft_tau(
     @{parameters}) {
 @include c/states.c
   const double @{value} = @{piece_call};
-@for name in unused
-  (void)@{name.text};
-@end
+  (void)@{unused...};
   double tau;
   {
     /* the formula of the header, in MPa; its value is @{value} */
-@for statement in statements
-    const double @{statement.text};
-@end
+    const double @{statements...};
     tau = @{result};
   }
-@for side in refusing
-  tau = @{side.text} ? (double)NAN : tau; /* outside = error */
-@end
+  tau = @{refusing...} ? (double)NAN : tau; /* outside = error */
 @for input in used
   tau = @{input.name} != @{input.name} ? @{input.name} : tau; /* NaN in, NaN out */
 @end

@@ -41,14 +41,10 @@ static double ft_piece(
     @{parameters}) {
 @include c/clamped_states.c
 @if has_layer
-@for statement in before
-  const double @{statement.text};
-@end
+  const double @{before...};
   double unit[@{units}], net[@{outputs}];
 @include c/layer_sums.c
 @end
-@for statement in statements
-  const double @{statement.text};
-@end
+  const double @{statements...};
   return @{result};
 }

@@ -6,18 +6,14 @@ static double ft_piece_gradient(
     @{parameters}) {
 @include c/clamped_states.c
 @if has_layer
-@for statement in before
-  const double @{statement.text};
-@end
+  const double @{before...};
   double unit[@{units}], net[@{outputs}], adjoint[@{outputs}];
 @for feature in features
   double slope@{feature.index} = 0.0;
 @end
 @include c/layer_sums.c
 @end
-@for statement in statements
-  const double @{statement.text};
-@end
+  const double @{statements...};
 @if has_layer
 @for output in by_outputs
   adjoint[@{output.index}] = @{output.name};
@@ -32,9 +28,7 @@ static double ft_piece_gradient(
   }
 @end
   {
-@for statement in slope_statements
-    const double @{statement.text};
-@end
+    const double @{slope_statements...};
 @for slope in slopes
     by[@{slope.place}] = @{slope.text};
 @end

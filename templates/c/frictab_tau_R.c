@@ -77,9 +77,7 @@ FT_INLINE double ft_tau(
   double u[@{n_axes}];
 @end
   double @{value};
-@for name in unused
-  (void)@{name.text};
-@end
+  (void)@{unused...};
 @for input in used
 @if input.formula_only
   if (@{input.name} != @{input.name}) return @{input.name}; /* NaN in, NaN out */
@@ -97,9 +95,7 @@ FT_INLINE double ft_tau(
 @if log_value
   @{value} = exp(@{value});
 @end
-@for side in refusing
-  if (@{side.text}) return (double)NAN; /* outside = error */
-@end
+  if (@{refusing...}) return (double)NAN; /* outside = error */
 @if extends
   if (/* outside = law */
       @{extending})
@@ -107,9 +103,7 @@ FT_INLINE double ft_tau(
 @end
   /* the formula of the header, in MPa; its value is @{value} */
   {
-@for statement in statements
-    const double @{statement.text};
-@end
+    const double @{statements...};
     return @{result};
   }
 }

@@ -1,8 +1,6 @@
 @{stop}
 C     tau_R in MPa of the state x in canonical units:
-@for line in arguments
-C     @{line.text}
-@end
+C     @{arguments...}
       @{pure_tau}double precision function fttau(x)
       implicit none
       double precision@{in} x(@{n_x})
@@ -20,13 +18,9 @@ C     @{line.text}
 @if has_piece
       double precision ftpiec
 @end
-@for name in helpers
-      double precision @{name.text}
+      double precision @{helpers...}
 @end
-@end
-@for line in variables
-@{line.text}
-@end
+@{variables...}
 @include fortran/named_constants.f
 @if externals
       logical ftnan
@@ -69,12 +63,8 @@ C     @{line.text}
      &  @{value} = ftpiec(x)
 @end
 C     the formula at the head; its value is @{value}
-@for line in states
-@{line.text}
-@end
-@for line in statements
-@{line.text}
-@end
+@{states...}
+@{statements...}
       return
       end
 C

@@ -51,6 +51,18 @@ TEST(Template, RepeatsALoopPerItemAndDropsDirectiveLines) {
             "<\n1!\n2!\n>\n");
 }
 
+TEST(Template, RepeatsALineWithAListPerItem) {
+  TemplateValues row, values = text({{"mark", "!"}});
+  row.lists["cells"] = items({"a", "", "b"});
+  values.lists["rows"] = {row};
+  EXPECT_EQ(
+      render("<\n@for r in rows\n- @{r.cells...}@{mark}\n  @{r.cells...}\n@end\n>", "t", values),
+      "<\n- a!\n- !\n- b!\n  a\n  b\n>");
+  EXPECT_THAT(message("a @{rows...}\n", values), HasSubstr("there is no text 'each.text'"));
+  EXPECT_THAT(message("a @{row...}\n", values),
+              HasSubstr("t.c:1:3: error: there is no list 'row'"));
+}
+
 TEST(Template, NestsLoopsAndChoicesOfItems) {
   TemplateValues inner = text({{"v", "x"}}), row, values;
   row.flags["big"] = true;

@@ -1,9 +1,7 @@
 C     FRIC for Abaqus/Standard (*FRICTION, USER): frictional stress
 C     with its derivatives, limit tau_R @{from}.
 @{head}
-@for line in coefficient
-C     @{line.text}
-@end
+C     @{coefficient...}
 C     Below @{smallest} MPa the coefficient tau_R/p is that at @{smallest} MPa,
 C     so that friction begins at 0 with the pressure.
 C     NaN in gives NaN in TAU; STATEV stay as they were.
@@ -19,17 +17,13 @@ C     area (@{stress}*@{length}), 3 peak pressure (@{stress}), 4 increments in w
 C     the state was outside the range, 5 and 6 elastic slip (@{length}),
 C     7 coefficient tau_R/p, @{stamp} the increment these belong to,
 C     @{first} to @{depvar} numbers 1 to @{n_states} at its start.
-@for line in histories
-C     @{line.text}
-@end
+C     @{histories...}
 C     With fewer there is no history: slip and work count as 0, the
 C     peak pressure is the pressure, elastic slip follows from TAU.
 C
 C     DDTDDP and the coupling of directions are not symmetric: *STEP,
 C     UNSYMM=YES.
-@for line in source
-C     @{line.text}
-@end
+C     @{source...}
 C
 @{arguments}
 C
