@@ -167,12 +167,12 @@ std::string source(const ForceRoutine& routine, const Exporter& self, const Expo
                 .summary = fortran::outside_summary(self, request),
                 .directory_routine = directory_routine(Solver::explicit_)});
   const std::size_t n_x = std::max(core.n_x, inputs.size());
-  TemplateValues values;
-  values.text = {{"head", explicit_head(self, request, inputs, remarks(routine, request, inputs))},
-                 {"arguments", render_part("abaqus/" + routine.entry + "/arguments.f", {})},
-                 {"body", body(routine, request, inputs, n_x)},
-                 {"core", core.text}};
-  return render_template("abaqus/" + routine.entry + "/" + file_of(routine), values);
+  return render_template(
+      "abaqus/" + routine.entry + "/" + file_of(routine),
+      {.text = {{"head", explicit_head(self, request, inputs, remarks(routine, request, inputs))},
+                {"arguments", render_part("abaqus/" + routine.entry + "/arguments.f", {})},
+                {"body", body(routine, request, inputs, n_x)},
+                {"core", core.text}}});
 }
 
 } // namespace

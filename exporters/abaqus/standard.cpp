@@ -90,10 +90,8 @@ void add_states(TemplateValues& values, std::size_t n) {
                                                       {"stamp", std::to_string(n + 1)},
                                                       {"first", std::to_string(n + 2)},
                                                       {"depvar", std::to_string(states_size(n))}};
-  TemplateValues own;
-  own.text = numbers;
   values.text.insert(numbers.begin(), numbers.end());
-  values.text["states_text"] = render_part("abaqus/frictab_states.f", own);
+  values.text["states_text"] = render_part("abaqus/frictab_states.f", {.text = numbers});
 }
 
 nlohmann::ordered_json state_variables(std::vector<std::pair<std::string, std::string>> all,

@@ -26,10 +26,8 @@ const Names& names(Solver solver) {
 } // namespace
 
 std::string quit(Solver solver) {
-  TemplateValues values;
-  values.text["include"] = names(solver).include;
-  values.text["routine"] = names(solver).message;
-  return render_part("abaqus/frictab_quit.f", values);
+  return render_part("abaqus/frictab_quit.f", {.text = {{"include", names(solver).include},
+                                                        {"routine", names(solver).message}}});
 }
 
 LawSelector interaction(Solver solver, const std::string& argument, const std::string& letters) {

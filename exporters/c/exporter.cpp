@@ -100,12 +100,10 @@ std::string kernel(const Table& table) {
 
 std::string values_in_source(const Table& table, const std::string& comment) {
   const std::vector<double> numbers = baked_values(table);
-  TemplateValues values;
-  values.text = {{"value_comment", comment},
-                 {"n_values", std::to_string(numbers.size())},
-                 {"values", number_block(numbers)}};
-  values.flags["has_axes"] = !table.axes.empty();
-  return render_part("c/frictab_baked.c", values);
+  return render_part("c/frictab_baked.c", {.text = {{"value_comment", comment},
+                                                    {"n_values", std::to_string(numbers.size())},
+                                                    {"values", number_block(numbers)}},
+                                           .flags = {{"has_axes", !table.axes.empty()}}});
 }
 
 std::string values_file(const Table& table, const std::string& comment) {

@@ -128,11 +128,9 @@ std::string value_comment(const Table& table) {
 
 std::string helpers(const std::string& text) {
   const auto calls = [&](const char* helper) { return text.find(helper) != std::string::npos; };
-  TemplateValues values;
-  values.flags = {{"uses_min", calls("ft_min(")},
-                  {"uses_max", calls("ft_max(")},
-                  {"uses_where", calls("ft_where_le(")}};
-  return render_part("c/frictab_helpers.c", values);
+  return render_part("c/frictab_helpers.c", {.flags = {{"uses_min", calls("ft_min(")},
+                                                       {"uses_max", calls("ft_max(")},
+                                                       {"uses_where", calls("ft_where_le(")}}});
 }
 
 namespace {
@@ -164,12 +162,14 @@ Lines range_ends(const Table& table, const std::vector<InputArgument>& inputs) {
   for (const table::AxisEnds& end : table::all_ends(table)) {
     const InputArgument& input = argument_named(inputs, end.name);
     const std::size_t number = ends.size();
-    TemplateValues one;
-    one.text = {{"canonical", canonical(input, "")},   {"element", canonical(input, "[i]")},
-                {"name", comment_text(end.name)},      {"low", c_number(end.low)},
-                {"high", c_number(end.high)},          {"bit", std::to_string(1u << number)},
-                {"first", std::to_string(2 * number)}, {"second", std::to_string(2 * number + 1)}};
-    ends.push_back(one);
+    ends.push_back({.text = {{"canonical", canonical(input, "")},
+                             {"element", canonical(input, "[i]")},
+                             {"name", comment_text(end.name)},
+                             {"low", c_number(end.low)},
+                             {"high", c_number(end.high)},
+                             {"bit", std::to_string(1u << number)},
+                             {"first", std::to_string(2 * number)},
+                             {"second", std::to_string(2 * number + 1)}}});
   }
   return ends;
 }

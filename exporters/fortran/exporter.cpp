@@ -46,14 +46,13 @@ void add_arguments(TemplateValues& values, const ExportRequest& request,
   Lines& used = values.lists["used"];
   for (const std::string& name : request.table.inputs()) {
     const InputArgument& input = argument_named(inputs, name);
-    TemplateValues one;
-    one.text = {{"index", std::to_string(used.size() + 1)},
-                {"place", std::to_string(&input - inputs.data() + 1)},
-                {"name", comment_text(name)},
-                {"canonical", canonical(input)},
-                {"element", canonical(input, "(ft_i)")},
-                {"factor", from_canonical_text(per(stress, input.solver), Notation::fortran)}};
-    used.push_back(one);
+    used.push_back(
+        {.text = {{"index", std::to_string(used.size() + 1)},
+                  {"place", std::to_string(&input - inputs.data() + 1)},
+                  {"name", comment_text(name)},
+                  {"canonical", canonical(input)},
+                  {"element", canonical(input, "(ft_i)")},
+                  {"factor", from_canonical_text(per(stress, input.solver), Notation::fortran)}}});
   }
   values.text["names"] = continued(names);
   values.text["items"] = continued(elements);
@@ -67,12 +66,10 @@ void add_axes(TemplateValues& values, const Table& table,
               const std::vector<InputArgument>& inputs) {
   Lines& axes = values.lists["axes"];
   for (const table::AxisEnds& axis : table::all_ends(table)) {
-    TemplateValues one;
-    one.text = {{"canonical", canonical(argument_named(inputs, axis.name))},
-                {"low", fortran_number(axis.low)},
-                {"high", fortran_number(axis.high)},
-                {"bit", std::to_string(axes.size())}};
-    axes.push_back(one);
+    axes.push_back({.text = {{"canonical", canonical(argument_named(inputs, axis.name))},
+                             {"low", fortran_number(axis.low)},
+                             {"high", fortran_number(axis.high)},
+                             {"bit", std::to_string(axes.size())}}});
   }
 }
 

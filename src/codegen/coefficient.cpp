@@ -36,16 +36,15 @@ std::string most_text() {
 
 std::string coefficient(const table::Table& table, Coefficient kind) {
   const std::optional<std::size_t> pressure = input_index(table, "sigma_n_MPa");
-  TemplateValues values;
-  values.flags = {{"coulomb", kind == Coefficient::coulomb},
-                  {"capped", kind != Coefficient::stress},
-                  {"shear", kind == Coefficient::shear},
-                  {"takes_pressure", pressure.has_value()}};
-  values.text = {{"n_x", std::to_string(inputs_size(table))},
-                 {"pressure", std::to_string(pressure ? *pressure + 1 : 0)},
-                 {"least", fortran_number(least_pressure)},
-                 {"most", most_text()}};
-  return render_part("fortran/frictab_coef.f", values);
+  return render_part("fortran/frictab_coef.f",
+                     {.text = {{"n_x", std::to_string(inputs_size(table))},
+                               {"pressure", std::to_string(pressure ? *pressure + 1 : 0)},
+                               {"least", fortran_number(least_pressure)},
+                               {"most", most_text()}},
+                      .flags = {{"coulomb", kind == Coefficient::coulomb},
+                                {"capped", kind != Coefficient::stress},
+                                {"shear", kind == Coefficient::shear},
+                                {"takes_pressure", pressure.has_value()}}});
 }
 
 std::string coefficient_name(Coefficient kind) {
@@ -98,9 +97,9 @@ std::string constants_data(const std::vector<SolverInput>& inputs) {
     values[i] = input.fallback.value_or(0.0);
   }
   faults.throw_if_any();
-  TemplateValues fill;
-  fill.text = {{"common", constants_common(inputs)}, {"data", fixed_form_data("cst", values)}};
-  return render_part("fortran/frictab_constants.f", fill);
+  return render_part(
+      "fortran/frictab_constants.f",
+      {.text = {{"common", constants_common(inputs)}, {"data", fixed_form_data("cst", values)}}});
 }
 
 void add_coefficient(TemplateValues& values, const ExportRequest& request,

@@ -263,12 +263,11 @@ std::string combined_source(const Combination& c, const std::vector<ExportReques
        "Each law follows as it is alone, its program units under letters of its own."});
   const std::string names = argument_names(c.arguments);
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    TemplateValues law;
-    law.text = {
-        {"about", comment_lines(about_law(laws[i]))},
-        {"condition", condition(laws[i].law_name, c.by)},
-        {"call", fixed_form(fmt::format("  call {}{}({})", stem(laws[i]), c.entry, names))}};
-    values.lists["laws"].push_back(law);
+    values.lists["laws"].push_back(
+        {.text = {
+             {"about", comment_lines(about_law(laws[i]))},
+             {"condition", condition(laws[i].law_name, c.by)},
+             {"call", fixed_form(fmt::format("  call {}{}({})", stem(laws[i]), c.entry, names))}}});
     values.lists["sources"].push_back(item(without_last_break(sources[i])));
   }
   return render_template("fortran/frictab_combined.f", values);

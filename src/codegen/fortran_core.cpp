@@ -52,11 +52,9 @@ void add_coordinates(TemplateValues& values, const Table& table) {
 // Adds the behaviour beyond the ends of the axes and of clamped inputs.
 void add_ends(TemplateValues& values, const Table& table) {
   for (const table::AxisEnds& axis : table::all_ends(table)) {
-    TemplateValues one;
-    one.text = {{"index", std::to_string(axis.input + 1)},
-                {"low", fortran_number(axis.low)},
-                {"high", fortran_number(axis.high)}};
-    values.lists["ends"].push_back(one);
+    values.lists["ends"].push_back({.text = {{"index", std::to_string(axis.input + 1)},
+                                             {"low", fortran_number(axis.low)},
+                                             {"high", fortran_number(axis.high)}}});
   }
   values.flags["has_ends"] = !values.lists["ends"].empty();
   values.lists["extending"] = table.is_direct() ? Lines{} : sides(table, table::Outside::law);
@@ -130,14 +128,13 @@ std::string head_text(const ExportRequest& request, const std::vector<SolverInpu
   std::vector<std::string> remarks = outside_rule(request.table, head.error_action);
   for (const std::string& line : values_file_lines(request, head.directory_routine))
     remarks.push_back(line);
-  TemplateValues values;
-  values.text["version"] = tool_version();
-  values.flags["of_a_release"] = !head.release.empty();
-  values.lists = {{"about", comments(about(request))},
-                  {"release", comments(head.release)},
-                  {"states", comments(state_lines(request, inputs))},
-                  {"outside", comments(remarks)}};
-  return render_part("fortran/frictab_head.f", values);
+  return render_part("fortran/frictab_head.f",
+                     {.text = {{"version", tool_version()}},
+                      .flags = {{"of_a_release", !head.release.empty()}},
+                      .lists = {{"about", comments(about(request))},
+                                {"release", comments(head.release)},
+                                {"states", comments(state_lines(request, inputs))},
+                                {"outside", comments(remarks)}}});
 }
 
 // Returns ftload and the units that it calls.

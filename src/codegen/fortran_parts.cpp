@@ -31,11 +31,9 @@ const char* relation(const Side& side) {
 }
 
 TemplateValues test_of(const Side& side, double limit) {
-  TemplateValues test;
-  test.text = {{"index", std::to_string(side.input + 1)},
-               {"relation", relation(side)},
-               {"limit", fortran_number(limit)}};
-  return test;
+  return {.text = {{"index", std::to_string(side.input + 1)},
+                   {"relation", relation(side)},
+                   {"limit", fortran_number(limit)}}};
 }
 
 } // namespace
@@ -48,10 +46,8 @@ Lines comments(const std::vector<std::string>& texts, std::size_t indent) {
 }
 
 std::string locks(const std::string& stem, bool windows) {
-  TemplateValues values;
-  values.text["stem"] = stem;
-  values.flags["windows"] = windows;
-  return render_part("fortran/frictab_locks.f", values);
+  return render_part("fortran/frictab_locks.f",
+                     {.text = {{"stem", stem}}, .flags = {{"windows", windows}}});
 }
 
 std::string in_apostrophes(std::string_view name) {
@@ -165,10 +161,9 @@ const LayerSpelling layer_spelling = {"net({})", 1, "b{}"};
 std::string weights(const UnitLayer& l) {
   TemplateValues values;
   for (std::size_t f = 0; f < l.features.size(); ++f) {
-    TemplateValues feature;
-    feature.text = {{"index", std::to_string(f)},
-                    {"data", fixed_form_data(fmt::format("wt{}", f), l.weight[f])}};
-    values.lists["features"].push_back(feature);
+    values.lists["features"].push_back(
+        {.text = {{"index", std::to_string(f)},
+                  {"data", fixed_form_data(fmt::format("wt{}", f), l.weight[f])}}});
   }
   values.text["units"] = std::to_string(l.units());
   values.text["outputs"] = std::to_string(l.outputs);

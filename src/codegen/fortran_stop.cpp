@@ -12,9 +12,7 @@
 namespace frictab::codegen::fortran {
 
 std::string quit(const std::string& statement) {
-  TemplateValues values;
-  values.text["statement"] = statement;
-  return render_part("fortran/frictab_quit.f", values);
+  return render_part("fortran/frictab_quit.f", {.text = {{"statement", statement}}});
 }
 
 std::string say() {

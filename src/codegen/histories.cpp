@@ -82,12 +82,10 @@ public:
                {"distance", distance_of(input)}} {}
 
   TemplateValues values() const {
-    TemplateValues out;
-    out.text = {{"comment", comment_},
-                {"now", statements(rule_.now)},
-                {"next", statements(rule_.next)},
-                {"slope", statements(rule_.slope)}};
-    return out;
+    return {.text = {{"comment", comment_},
+                     {"now", statements(rule_.now)},
+                     {"next", statements(rule_.next)},
+                     {"slope", statements(rule_.slope)}}};
   }
 
 private:
@@ -295,8 +293,7 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
 
 TemplateValues area_of_driver(const ExportRequest&, const std::vector<SolverInput>& inputs) {
   const std::size_t area = first_area(inputs);
-  TemplateValues values;
-  values.flags["has_area"] = area > 0;
+  TemplateValues values{.flags = {{"has_area", area > 0}}};
   if (area > 0) values.text["first_area"] = std::to_string(area);
   return values;
 }

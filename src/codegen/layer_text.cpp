@@ -10,9 +10,7 @@ namespace frictab::codegen {
 namespace {
 
 TemplateValues numbered_name(std::size_t index, const std::string& name) {
-  TemplateValues values;
-  values.text = {{"index", std::to_string(index)}, {"name", name}};
-  return values;
+  return {.text = {{"index", std::to_string(index)}, {"name", name}}};
 }
 
 } // namespace

@@ -16,10 +16,10 @@ namespace frictab {
 // only blanks precede @{name} in its line, every line of the text gets these blanks. A line with
 // nothing but @{name} is removed if the text is empty.
 struct TemplateValues {
-  std::map<std::string, std::string> text;
-  std::map<std::string, bool> flags;
+  std::map<std::string, std::string> text = {};
+  std::map<std::string, bool> flags = {};
   // Items of `@for x in list`, whose names are written as @{x.name}.
-  std::map<std::string, std::vector<TemplateValues>> lists;
+  std::map<std::string, std::vector<TemplateValues>> lists = {};
   // Names that a template may leave unused, because many templates share these values.
   std::set<std::string> offered = {};
 };

@@ -86,9 +86,7 @@ std::size_t state_count(const std::vector<SolverInput>& inputs) {
 }
 
 std::string FricCoef::arguments(const ExportRequest& request) const {
-  TemplateValues values;
-  values.flags["new"] = is_2024(request);
-  return render_template("abaqus/fric_coef/arguments.f", values);
+  return render_template("abaqus/fric_coef/arguments.f", {.flags = {{"new", is_2024(request)}}});
 }
 
 SourceBundle FricCoef::sources(const ExportRequest& request, const Inputs& inputs) const {

@@ -82,10 +82,9 @@ std::string Ufric::quit() const {
 
 std::string Ufric::arguments(const ExportRequest& request) const {
   const int components = choices(request).slip_components;
-  TemplateValues values;
-  values.text = {{"n_coord", std::to_string(components + 1)},
-                 {"n_slip", std::to_string(components)}};
-  return render_template("marc/ufric/arguments.f", values);
+  return render_template("marc/ufric/arguments.f",
+                         {.text = {{"n_coord", std::to_string(components + 1)},
+                                   {"n_slip", std::to_string(components)}}});
 }
 
 SourceBundle Ufric::sources(const ExportRequest& request, const Inputs& inputs) const {

@@ -111,9 +111,7 @@ void add_layer_data(TemplateValues& values, const UnitLayer& l,
                     const std::vector<std::string>& names) {
   Lines features;
   for (std::size_t f = 0; f < l.features.size(); ++f) {
-    TemplateValues feature;
-    feature.text["weights"] = number_block(l.weight[f]);
-    features.push_back(feature);
+    features.push_back({.text = {{"weights", number_block(l.weight[f])}}});
   }
   values.lists["features"] = features;
   values.text["feature_names"] = join(names, ", ");
@@ -159,9 +157,8 @@ void add_values(TemplateValues& values, const std::vector<double>& numbers) {
   const std::span<const double> all = numbers;
   Lines& chunks = values.lists["chunks"];
   for (std::size_t i = 0; i < all.size(); i += chunk_size) {
-    TemplateValues chunk;
-    chunk.text["text"] = number_block(all.subspan(i, std::min(chunk_size, all.size() - i)));
-    chunks.push_back(chunk);
+    chunks.push_back(
+        {.text = {{"text", number_block(all.subspan(i, std::min(chunk_size, all.size() - i)))}}});
   }
 }
 
@@ -259,11 +256,9 @@ void add_entry(TemplateValues& values, const ExportRequest& request,
   values.lists["arguments"] = items(comment_lines(argument_texts(request, all), comment_width));
   values.lists["call"] = call;
   for (const AxisEnds& axis : table::all_ends(table)) {
-    TemplateValues end;
-    end.text = {{"value", canonical(inputs[axis.input])},
-                {"low", number(axis.low)},
-                {"high", number(axis.high)}};
-    values.lists["ends"].push_back(end);
+    values.lists["ends"].push_back({.text = {{"value", canonical(inputs[axis.input])},
+                                             {"low", number(axis.low)},
+                                             {"high", number(axis.high)}}});
   }
   values.lists["ends"];
 }
