@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "codegen/explicit_account.h"
 #include "codegen/fortran_build.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
@@ -26,18 +27,13 @@ std::string both(const ForceNames& names, const std::string& secondary, const st
 
 BuildVariant variant(const std::string& name, const std::string& real, int dimension, double eps,
                      const std::vector<std::string>& files) {
-  BuildVariant out;
-  out.name = name;
-  out.command = fortran::library_command({"-I@{dir}"});
-  for (const std::string& file : files)
-    out.command.push_back("@{dir}/" + file);
+  BuildVariant out = fortran::library_variant(name, eps, files, {"-I@{dir}"});
   out.extra["vaba_param.inc"] =
       fmt::format("C     Stand-in for the solver's include, for tests outside the solver.\n"
                   "      implicit {} (a-h,o-z)\n"
                   "      parameter (j_sys_Dimension={}, n_vec_Length=136)\n"
                   "      parameter (maxblk=n_vec_Length)\n",
                   real, dimension);
-  out.eps = eps;
   return out;
 }
 
@@ -76,7 +72,7 @@ std::string explicit_head(const Exporter& exporter, const ExportRequest& request
   head.text = {{"head", all.text.at("head")},
                {"from", all.text.at("from")},
                {"n_props", all.text.at("n_props")}};
-  return fortran::without_last_break(render_template("abaqus/explicit_head.f", head));
+  return render_part("abaqus/explicit_head.f", head);
 }
 
 GivenState explicit_property() {

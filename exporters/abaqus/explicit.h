@@ -75,13 +75,6 @@ private:
 // Notes of `explain` for both: unknown states, state variables, precision, sides that refuse.
 std::string force_notes(const std::string& state_name, const std::string& state_by);
 
-// State variables that both force routines keep for every law, by number from 1: slip, work per
-// area, peak pressure, increments outside the range, and the parts of the first two lost to
-// rounding in the solver's precision. Those of codegen/histories.h follow, then the parts of these
-// lost to rounding; last, for output, the frictional shear stress and its share of the pressure.
-inline constexpr unsigned explicit_states = 6, shown_states = 2;
-std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
-
 // Returns the file's head: comments from the second line on. `remarks` follow the properties.
 std::string explicit_head(const codegen::Exporter& exporter, const codegen::ExportRequest& request,
                           const std::vector<codegen::SolverInput>& inputs,

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "codegen/coefficient.h"
+#include "codegen/explicit_account.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
@@ -30,38 +31,21 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-struct StateVariable {
-  std::string name, unit, meaning;
-};
-
 std::vector<StateVariable> state_variables(const ExportRequest& request,
                                            const std::vector<SolverInput>& inputs) {
-  const std::string length = solver_unit("mm", request.units).name;
-  const std::string stress = solver_unit("MPa", request.units).name;
-  const std::string work = solver_unit("MPa*mm", request.units).name;
-  std::vector<StateVariable> all = {
-      {"slip", length, "accumulated slip under pressure"},
-      {"friction_work", work, "friction work per area"},
-      {"peak_pressure", stress, "peak pressure"},
-      {"n_outside", "1", "increments in which the state was outside the range"},
-      {"slip_remainder", length, "what the solver's precision rounds off 1"},
-      {"friction_work_remainder", work, "what the solver's precision rounds off 2"}};
-  for (const HistoryState& state :
-       with_remainders(history_states(inputs, request.units), explicit_states))
-    all.push_back({state.name, state.unit, state.meaning});
-  all.push_back({"tau_R", stress, "frictional shear stress of the last increment in contact"});
-  all.push_back(
-      {"mu", "1",
-       fmt::format("that over the pressure, at least {:.6g} {}",
-                   solver_unit("MPa", request.units).from_canonical(fortran::least_pressure),
-                   stress)});
-  return all;
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  return explicit_state_variables(
+      inputs, request.units,
+      {.slip = "accumulated slip under pressure",
+       .step = "increment",
+       .mu = fmt::format("that over the pressure, at least {:.6g} {}",
+                         stress.from_canonical(fortran::least_pressure), stress.name)});
 }
 
 std::vector<std::string> remarks(const ForceRoutine& routine, const ExportRequest& request,
                                  const std::vector<SolverInput>& inputs) {
   std::vector<std::string> lines = {fmt::format("{} (DEPVAR={}), by {}:", routine.state_name,
-                                                state_count(inputs), routine.state_by)};
+                                                explicit_state_count(inputs), routine.state_by)};
   const std::vector<StateVariable> states = state_variables(request, inputs);
   for (std::size_t i = 0; i < states.size(); ++i)
     lines.push_back(fmt::format("{} {}{}", i + 1, states[i].meaning,
@@ -123,7 +107,7 @@ void add_past(TemplateValues& values, const ExportRequest& request,
   values.text["grows"] = join(grows, ",");
   values.text["n_hist"] = std::to_string(3 + states.size());
   values.text["n_histories"] = std::to_string(states.size());
-  values.text["n_kept"] = std::to_string(state_count(inputs) - shown_states);
+  values.text["n_kept"] = std::to_string(explicit_state_count(inputs) - shown_states);
   values.text["before_rest"] = std::to_string(explicit_states + states.size());
 }
 
@@ -145,8 +129,8 @@ std::string body(const ForceRoutine& routine, const ExportRequest& request,
                  {"state", routine.state + "("},
                  {"of_point", "," + routine.of_point + ")"},
                  {"kind", routine.state},
-                 {"at_stress", std::to_string(state_count(inputs) - 1)},
-                 {"at_mu", std::to_string(state_count(inputs))},
+                 {"at_stress", std::to_string(explicit_state_count(inputs) - 1)},
+                 {"at_mu", std::to_string(explicit_state_count(inputs))},
                  {"nodes", routine.nodes},
                  {"node", routine.node},
                  {"step", routine.step},
@@ -161,7 +145,7 @@ std::string body(const ForceRoutine& routine, const ExportRequest& request,
   add_states(values, inputs);
   add_past(values, request, inputs);
   add_speed_scale(values, request, inputs);
-  return fortran::without_last_break(render_template("abaqus/explicit_force.f", values));
+  return render_part("abaqus/explicit_force.f", values);
 }
 
 std::string file_of(const ForceRoutine& routine) {
@@ -183,20 +167,15 @@ std::string source(const ForceRoutine& routine, const Exporter& self, const Expo
                 .summary = fortran::outside_summary(self, request),
                 .directory_routine = directory_routine(Solver::explicit_)});
   const std::size_t n_x = std::max(core.n_x, inputs.size());
-  TemplateValues values;
-  values.text = {{"head", explicit_head(self, request, inputs, remarks(routine, request, inputs))},
-                 {"arguments", fortran::without_last_break(render_template(
-                                   "abaqus/" + routine.entry + "/arguments.f", {}))},
-                 {"body", body(routine, request, inputs, n_x)},
-                 {"core", core.text}};
-  return render_template("abaqus/" + routine.entry + "/" + file_of(routine), values);
+  return render_template(
+      "abaqus/" + routine.entry + "/" + file_of(routine),
+      {.text = {{"head", explicit_head(self, request, inputs, remarks(routine, request, inputs))},
+                {"arguments", render_part("abaqus/" + routine.entry + "/arguments.f", {})},
+                {"body", body(routine, request, inputs, n_x)},
+                {"core", core.text}}});
 }
 
 } // namespace
-
-std::size_t state_count(const std::vector<SolverInput>& inputs) {
-  return explicit_states + 2 * history_count(inputs) + shown_states;
-}
 
 std::string force_notes(const std::string& state_name, const std::string& state_by) {
   return fmt::format(
@@ -246,17 +225,12 @@ void ForceTarget::add_recipe(json& out, const ExportRequest& request, const Inpu
       {"name", "fTangential(1,k)"},
       {"meaning", "-max(-tau_R*area, min(tau_R*area, fStickForce)); other components 0"}};
   out["state_variables_by"] = routine_.state_by;
-  json states = json::array();
-  for (const StateVariable& state : state_variables(request, inputs))
-    states.push_back({{"number", states.size() + 1},
-                      {"name", state.name},
-                      {"unit", state.unit},
-                      {"meaning", state.meaning}});
-  out["state_variables"] = states;
+  out["state_variables"] = state_variables_json(state_variables(request, inputs));
   out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
   add_compile(out, files_of(routine_, request));
   add_deck(out,
-           friction_deck(routine_.user, state_count(inputs), inputs, speed_scale(request, inputs),
+           friction_deck(routine_.user, explicit_state_count(inputs), inputs,
+                         speed_scale(request, inputs),
                          routine_.deck_tail + field_lines(inputs) + contact_fields_lines(request)));
 }
 

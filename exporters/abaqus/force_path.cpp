@@ -154,12 +154,17 @@ private:
   static bool presses(const Given& g) { return g.normal > 0 && g.area > 0; }
   double seconds_of_increment() const { return path_.time.to_canonical(time_) * factor_; }
 
-  // A state variable as the mean of the columns; 0 if there are too few.
-  double mean(const Point& point, double ExplicitVariables::*variable, std::size_t number) const {
-    double sum = 0;
-    for (const ExplicitVariables& column : point.columns)
-      sum += column.*variable;
-    return account_.keeps(number) ? sum / double(columns_) : 0;
+  // The state variables that the law takes, as the mean of the columns.
+  ExplicitVariables mean(const Point& point) const {
+    ExplicitVariables sum;
+    for (const ExplicitVariables& column : point.columns) {
+      sum.slip += column.slip;
+      sum.work += column.work;
+      sum.peak += column.peak;
+    }
+    for (double* x : {&sum.slip, &sum.work, &sum.peak})
+      *x /= double(columns_);
+    return account_.kept(sum);
   }
 
   double both(double secondary, double main) const {
@@ -174,14 +179,8 @@ private:
     GivenStates out;
     out.pressure = path_.stress.to_canonical(g.normal / g.area);
     out.speed = time_ > 0 ? move / seconds_of_increment() : 0;
-    out.slip = path_.length.to_canonical(mean(point, &ExplicitVariables::slip, 1)) + move;
-    out.work = path_.length.to_canonical(
-        path_.stress.to_canonical(mean(point, &ExplicitVariables::work, 2)));
-    out.peak_pressure =
-        std::max(path_.stress.to_canonical(mean(point, &ExplicitVariables::peak, 3)), out.pressure);
-    out.area = path_.length.to_canonical(path_.length.to_canonical(g.area));
+    account_.fill(out, mean(point), point.memory, move, g.area);
     out.properties = call_.properties;
-    if (account_.keeps_histories()) out.memory = &point.memory;
     if (has_temperature_)
       out.temperature = path_.celsius.to_canonical(both(g.temperature, main.main_temperature));
     for (std::size_t f = 0; f < g.fields.size(); ++f)
@@ -226,16 +225,12 @@ private:
     if (beyond > 0 && beyond < grown) slip = move * beyond / grown;
     const double force_before = known ? size_of(g.before) : std::abs(force);
     const double pressure = g.normal / g.area, stress = std::abs(force) / g.area;
-    const double peak = std::max(mean(point, &ExplicitVariables::peak, 3), pressure);
+    const double peak = std::max(mean(point).peak, pressure);
     const double work = 0.5 * (force_before + std::abs(force)) / g.area * slip;
+    const ExplicitChange change = {slip, work, pressure, stress, path_.is_outside(x)};
     for (ExplicitVariables& column : point.columns)
-      account_.add(column, {slip, work, pressure, stress, path_.is_outside(x)});
-    const double seconds = seconds_of_increment();
-    const double slipped = path_.length.to_canonical(slip);
-    point.memory.advance(
-        {path_.stress.to_canonical(pressure), seconds > 0 ? slipped / seconds : 0, followed_,
-         path_.length.to_canonical(path_.length.to_canonical(g.area))},
-        {path_.stress.to_canonical(peak), path_.stress.to_canonical(stress), slipped, seconds});
+      account_.add(column, change);
+    account_.advance(point.memory, change, peak, g.area, seconds_of_increment(), followed_);
     return force;
   }
 
@@ -256,7 +251,7 @@ private:
 } // namespace
 
 void ForceTarget::follow(DrivenPath& path) const {
-  const std::size_t all = state_count(path.inputs);
+  const std::size_t all = explicit_state_count(path.inputs);
   path.drive_at_both_paces([&] { return ForcePath(path, routine_, all, 1); });
   if (routine_.entry == "vfriction") path.drive(ForcePath(path, routine_, all, 4), 0.25); // edges
   for (const std::size_t fewer :

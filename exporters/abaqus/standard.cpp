@@ -34,20 +34,6 @@ std::vector<std::string> coefficient_lines(bool frozen) {
           "pressure grows within one increment."};
 }
 
-BuildVariant variant(const std::string& file, bool ends) {
-  BuildVariant out;
-  out.name = "double";
-  out.command = fortran::library_command({"-I@{dir}"});
-  out.command.push_back("@{dir}/" + file);
-  out.extra["aba_param.inc"] =
-      "C     Stand-in for the solver's include, for tests outside the solver.\n"
-      "      implicit real*8 (a-h,o-z)\n"
-      "      parameter (nprecd=2)\n";
-  out.eps = 0x1p-53;
-  if (ends) add_stand_ins(out, Solver::standard);
-  return out;
-}
-
 } // namespace
 
 ExportOption coefficient_option() {
@@ -57,8 +43,8 @@ ExportOption coefficient_option() {
           "what the last increment left, which converges more easily"};
 }
 
-bool coefficient_is_frozen(const Exporter& exporter, const ExportRequest& request) {
-  return exporter.option(request, "abaqus_coefficient") == "start_of_increment";
+bool coefficient_is_frozen(const ExportRequest& request) {
+  return request.option_or_empty("abaqus_coefficient") == "start_of_increment";
 }
 
 double smallest_pressure(const frictab::table::Table& table) {
@@ -74,7 +60,7 @@ bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportR
   head.directory_routine = directory_routine(Solver::standard);
   fortran::add_head(values, exporter, request, inputs, head);
   add_units(values, request);
-  const bool refuses = values.flags["refuses"], frozen = coefficient_is_frozen(exporter, request);
+  const bool refuses = values.flags["refuses"], frozen = coefficient_is_frozen(request);
   unknown = unknown || refuses || fortran::needs_unknown(inputs, gives);
   values.text["core"] =
       fortran::core(request, {.unknown = unknown,
@@ -104,11 +90,8 @@ void add_states(TemplateValues& values, std::size_t n) {
                                                       {"stamp", std::to_string(n + 1)},
                                                       {"first", std::to_string(n + 2)},
                                                       {"depvar", std::to_string(states_size(n))}};
-  TemplateValues own;
-  own.text = numbers;
   values.text.insert(numbers.begin(), numbers.end());
-  values.text["states_text"] =
-      fortran::without_last_break(render_template("abaqus/frictab_states.f", own));
+  values.text["states_text"] = render_part("abaqus/frictab_states.f", {.text = numbers});
 }
 
 nlohmann::ordered_json state_variables(std::vector<std::pair<std::string, std::string>> all,
@@ -145,7 +128,13 @@ void compare_kept(DrivenPath& path, const std::string& pattern, std::vector<std:
 }
 
 BuildVariant standard_variant(const ExportRequest& request, const std::string& file) {
-  return variant(file, fortran::ends(request));
+  BuildVariant out = fortran::library_variant("double", 0x1p-53, {file}, {"-I@{dir}"});
+  out.extra["aba_param.inc"] =
+      "C     Stand-in for the solver's include, for tests outside the solver.\n"
+      "      implicit real*8 (a-h,o-z)\n"
+      "      parameter (nprecd=2)\n";
+  if (fortran::ends(request)) add_stand_ins(out, Solver::standard);
+  return out;
 }
 
 } // namespace frictab::abaqus

@@ -17,8 +17,7 @@ namespace frictab::abaqus {
 
 // The option abaqus_coefficient; true if the request has start_of_increment.
 codegen::ExportOption coefficient_option();
-bool coefficient_is_frozen(const codegen::Exporter& exporter,
-                           const codegen::ExportRequest& request);
+bool coefficient_is_frozen(const codegen::ExportRequest& request);
 
 // Pressure (MPa) below which the coefficient tau_R/p is constant, because tau_R need not vanish
 // with p: 1, or the low end of a range that starts below 1.

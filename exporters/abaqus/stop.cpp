@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "codegen/fortran_build.h"
 #include "codegen/fortran_parts.h"
 
 namespace frictab::abaqus {
@@ -25,10 +26,8 @@ const Names& names(Solver solver) {
 } // namespace
 
 std::string quit(Solver solver) {
-  TemplateValues values;
-  values.text["include"] = names(solver).include;
-  values.text["routine"] = names(solver).message;
-  return fortran::without_last_break(render_template("abaqus/frictab_quit.f", values));
+  return render_part("abaqus/frictab_quit.f", {.text = {{"include", names(solver).include},
+                                                        {"routine", names(solver).message}}});
 }
 
 LawSelector interaction(Solver solver, const std::string& argument, const std::string& letters) {
@@ -56,20 +55,20 @@ std::string directory_routine(Solver solver) {
 
 void add_stand_ins(BuildVariant& variant, Solver solver) {
   const auto& [include, message, directory, combining] = names(solver);
-  variant.command.push_back("@{dir}/solver.f");
-  variant.extra["solver.f"] = fmt::format(
-      "C     Stand-ins for the solver's routines: the first comes back, where the solver ends the\n"
-      "C     analysis; the second knows no directory.\n"
-      "      subroutine {}(lop, text, intv, realv, charv)\n"
-      "      include '{}'\n"
-      "      character*(*) text, charv(*)\n"
-      "      dimension intv(*), realv(*)\n"
-      "      end\n"
-      "      subroutine {}(dir, length)\n"
-      "      character*(*) dir\n"
-      "      length = 0\n"
-      "      end\n",
-      message, include, directory);
+  fortran::add_source(variant, "solver.f",
+                      fmt::format("C     Stand-ins for the solver's routines: the first comes "
+                                  "back, where the solver ends the\n"
+                                  "C     analysis; the second knows no directory.\n"
+                                  "      subroutine {}(lop, text, intv, realv, charv)\n"
+                                  "      include '{}'\n"
+                                  "      character*(*) text, charv(*)\n"
+                                  "      dimension intv(*), realv(*)\n"
+                                  "      end\n"
+                                  "      subroutine {}(dir, length)\n"
+                                  "      character*(*) dir\n"
+                                  "      length = 0\n"
+                                  "      end\n",
+                                  message, include, directory));
 }
 
 } // namespace frictab::abaqus

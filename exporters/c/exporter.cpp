@@ -10,14 +10,11 @@
 #include "codegen/entry_text.h"
 #include "codegen/number_text.h"
 #include "codegen/prefix.h"
-#include "codegen/read_me.h"
-#include "codegen/recipe.h"
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
 #include "core/template.h"
 #include "core/text.h"
 #include "core/version.h"
-#include "io/json.h"
 #include "parts.h"
 #include "table/axis_search.h"
 #include "table/spline.h"
@@ -43,16 +40,6 @@ std::string header(const ExportRequest& request, const std::vector<InputArgument
   values.lists["inputs"] = items(argument_lines(request, inputs));
   values.lists["notes"] = items(entry_notes(request));
   return render_template("c/frictab_tau_R.h", values);
-}
-
-template <class Numbers> std::string number_block(const Numbers& numbers) {
-  std::vector<std::string> texts;
-  for (const auto number : numbers)
-    if constexpr (std::is_integral_v<std::remove_const_t<decltype(number)>>)
-      texts.push_back(std::to_string(number));
-    else
-      texts.push_back(c_number(number));
-  return number_lines(texts, 98, "    ");
 }
 
 TemplateValues axis_values(const table::TableAxis& axis, std::size_t index, long stride,
@@ -95,7 +82,7 @@ void add_axes(TemplateValues& values, const Table& table, const std::vector<Inpu
     axes.push_back(axis_values(table.axes[a], a, stride, variables.name(table.axes[a].name)));
   }
   values.lists["axes"] = axes;
-  const std::vector<std::string> extending = extending_sides(table, variables);
+  const std::vector<std::string> extending = tests_of(table, variables, table::Outside::law);
   values.flags["extends"] = !extending.empty();
   values.text["extending"] = join(extending, " ||\n");
   values.text["piece"] = extending.empty() ? "" : piece(table, inputs);
@@ -112,15 +99,11 @@ std::string kernel(const Table& table) {
 }
 
 std::string values_in_source(const Table& table, const std::string& comment) {
-  std::vector<std::string> numbers;
-  for (const double value : baked_values(table))
-    numbers.push_back(c_number(value));
-  TemplateValues values;
-  values.text = {{"value_comment", comment},
-                 {"n_values", std::to_string(numbers.size())},
-                 {"values", number_lines(numbers, 98, "    ")}};
-  values.flags["has_axes"] = !table.axes.empty();
-  return without_last_break(render_template("c/frictab_baked.c", values));
+  const std::vector<double> numbers = baked_values(table);
+  return render_part("c/frictab_baked.c", {.text = {{"value_comment", comment},
+                                                    {"n_values", std::to_string(numbers.size())},
+                                                    {"values", number_block(numbers)}},
+                                           .flags = {{"has_axes", !table.axes.empty()}}});
 }
 
 std::string values_file(const Table& table, const std::string& comment) {
@@ -129,7 +112,7 @@ std::string values_file(const Table& table, const std::string& comment) {
   add_values_file(values, numbers);
   values.text["value_comment"] = comment;
   values.text["crc32"] = std::to_string(values_crc32(numbers));
-  return without_last_break(render_template("c/frictab_values.c", values));
+  return render_part("c/frictab_values.c", values);
 }
 
 std::string table_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
@@ -158,30 +141,6 @@ std::string table_source(const ExportRequest& request, const std::vector<InputAr
   return render_template("c/frictab_tau_R.c", values);
 }
 
-std::string recipe(const Exporter& self, const ExportRequest& request,
-                   const std::vector<InputArgument>& inputs, const SourceBundle& files) {
-  nlohmann::ordered_json out = recipe_head(self, request, "frictab_tau_R", files);
-  const std::string one = join(parameters(inputs, "double"), ", ");
-  const std::string many = "size_t n, " + join(parameters(inputs, "const double*"), ", ");
-  out["prototypes"] = {"double frictab_tau_R(" + one + ")",
-                       "double frictab_tau_R_gradient(" + one + ", double* derivative)",
-                       "unsigned frictab_outside(" + one + ")",
-                       "void frictab_tau_R_batch(" + many + ", double* tau)",
-                       "void frictab_tau_R_gradient_batch(" + many +
-                           ", double* tau, double* derivative)",
-                       "void frictab_count_outside(" + many + ", unsigned long* counts)"};
-  describe_entry(out, request, inputs);
-  const std::string gcc = "gcc " + optimisation(request.table) + " -std=c99 -ffp-contract=off ";
-  out["compile"] = {gcc + "-c frictab_tau_R.c",
-                    gcc + "-fPIC -shared -o libfrictab_tau_R.so frictab_tau_R.c -lm"};
-  if (!request.table.is_direct())
-    out["compile_note"] = "with -march=native the same bits, in half the time where the table is "
-                          "cubic; for the machine that runs it only";
-  out["input_deck"] = nullptr;
-  out["table"] = recipe_table(request);
-  return io::json_text(out);
-}
-
 const char* const target_notes =
     "One .c and one .h file, no allocation, no input or output (except for the values of a large "
     "table, see the option), safe from any thread. "
@@ -195,20 +154,7 @@ public:
                      .order = 10,
                      .title = "C99 function",
                      .signature_source = "verified: ours, fixed by frictab's contract",
-                     .notes = target_notes,
-                     .options = {values_option(), prefix_option()}}) {}
-
-  SourceBundle generate(const ExportRequest& request) const override {
-    check_request(request);
-    const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
-    SourceBundle files;
-    files["frictab_tau_R.h"] = header(request, inputs);
-    files["frictab_tau_R.c"] =
-        request.table.is_direct() ? direct_source(request, inputs) : table_source(request, inputs);
-    add_values_file(files, request);
-    files["recipe.json"] = recipe(*this, request, inputs, files);
-    return with_prefix(explained(files, *this), request);
-  }
+                     .notes = target_notes}) {}
 
   std::vector<BuildVariant> variants(const ExportRequest& request) const override {
     BuildVariant build;
@@ -225,6 +171,34 @@ public:
                      "-lm"};
     build.eps = 0x1p-53;
     return {build};
+  }
+
+private:
+  SourceBundle sources(const ExportRequest& request, const Arguments& inputs) const override {
+    return {{"frictab_tau_R.h", header(request, inputs)},
+            {"frictab_tau_R.c", request.table.is_direct() ? direct_source(request, inputs)
+                                                          : table_source(request, inputs)}};
+  }
+
+  void add_interface(json& recipe, const ExportRequest&, const Arguments& inputs) const override {
+    const std::string one = join(parameters(inputs, "double"), ", ");
+    const std::string many = "size_t n, " + join(parameters(inputs, "const double*"), ", ");
+    recipe["prototypes"] = {"double frictab_tau_R(" + one + ")",
+                            "double frictab_tau_R_gradient(" + one + ", double* derivative)",
+                            "unsigned frictab_outside(" + one + ")",
+                            "void frictab_tau_R_batch(" + many + ", double* tau)",
+                            "void frictab_tau_R_gradient_batch(" + many +
+                                ", double* tau, double* derivative)",
+                            "void frictab_count_outside(" + many + ", unsigned long* counts)"};
+  }
+
+  void add_compile(json& recipe, const ExportRequest& request) const override {
+    const std::string gcc = "gcc " + optimisation(request.table) + " -std=c99 -ffp-contract=off ";
+    recipe["compile"] = {gcc + "-c frictab_tau_R.c",
+                         gcc + "-fPIC -shared -o libfrictab_tau_R.so frictab_tau_R.c -lm"};
+    if (!request.table.is_direct())
+      recipe["compile_note"] = "with -march=native the same bits, in half the time where the table "
+                               "is cubic; for the machine that runs it only";
   }
 };
 

@@ -6,10 +6,10 @@
 
 #include "codegen/baked_table.h"
 #include "codegen/entry_arguments.h"
+#include "codegen/entry_text.h"
 #include "codegen/number_text.h"
 #include "codegen/values_file.h"
 #include "core/text.h"
-#include "expr/derivative.h"
 #include "parts.h"
 
 namespace frictab::c_target {
@@ -18,11 +18,6 @@ using namespace codegen;
 using table::Table;
 
 namespace {
-
-// True for states that may change the value inside the formula.
-bool acts_through_value(const Table& table, const InputArgument& input) {
-  return input.axis || (table.extension && expr::symbols(*table.extension).count(input.name));
-}
 
 // Slopes of the value by its states, by name of the state.
 using Slopes = std::map<std::string, std::string>;
@@ -36,7 +31,7 @@ Slopes add_states(TemplateValues& values, const Table& table,
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (!inputs[i].used) continue;
     values.lists["used"][used++].text["place"] = std::to_string(i);
-    if (!acts_through_value(table, inputs[i])) continue;
+    if (!acts_through_value(table, inputs[i].name)) continue;
     const std::string& slope = slopes[inputs[i].name] =
         variables.slope(variables.name("value"), inputs[i].name);
     values.lists["through_value"].push_back(item(slope));
@@ -79,16 +74,10 @@ void add_formula(TemplateValues& values, const ExportRequest& request,
                  const Slopes& slopes) {
   const Table& table = request.table;
   const SolverUnit stress = solver_unit("MPa", request.units);
-  // The slope is needed only if some state changes the value.
-  const bool changes = std::any_of(inputs.begin(), inputs.end(), [&](const InputArgument& input) {
-    return acts_through_value(table, input);
-  });
-  const std::string tau = "tau_R";
-  std::vector<Wanted> wanted{{table.combine, tau},
-                             {changes ? derivative(table.combine, "value") : expr::Expr(0.0),
-                              variables.slope(tau, "value")}};
+  std::vector<std::string> states;
   for (const InputArgument& input : inputs)
-    wanted.push_back({derivative(table.combine, input.name), variables.slope(tau, input.name)});
+    states.push_back(input.name);
+  const std::vector<Wanted> wanted = tangent_formulas(table, "tau_R", states, variables);
   const Statements code = variables.statements(wanted);
   values.lists["statements"] = items(code.lines);
   values.text["result"] = in_units(code.results[0], request.units);
@@ -96,7 +85,7 @@ void add_formula(TemplateValues& values, const ExportRequest& request,
   values.lists["slopes"];
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const bool direct = !wanted[2 + i].formula.is_constant(0);
-    const bool through = by_value && acts_through_value(table, inputs[i]);
+    const bool through = by_value && acts_through_value(table, inputs[i].name);
     if (!direct && !through) continue; // the derivative is 0
     std::string sum = direct ? code.results[2 + i] : "";
     if (through)
@@ -121,22 +110,22 @@ std::string gradient_functions(const ExportRequest& request,
                                const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
   Variables variables = variables_of(table, table.combine, inputs);
-  const std::vector<std::string> extending = extending_sides(table, variables);
+  const std::vector<std::string> extending = tests_of(table, variables, table::Outside::law);
   const bool has_piece = table.is_direct() || !extending.empty();
   TemplateValues values;
   add_state(values, table, inputs, variables);
   const Slopes slopes = add_states(values, table, inputs, variables);
   add_axis_slopes(values, table, variables, slopes);
   values.flags["in_file"] = values_in_file(request);
-  values.lists["unused"] = items(unused(inputs));
+  values.lists["unused"] = items(unused_arguments(inputs));
   add_formula(values, request, inputs, variables, slopes);
-  values.lists["refusing"] = items(refusing_sides(table, variables));
+  values.lists["refusing"] = items(tests_of(table, variables, table::Outside::error));
   values.flags["has_piece"] = has_piece;
   values.text["extending"] = join(extending, " ||\n");
   values.text["piece_gradient"] = has_piece ? piece_gradient(table, inputs) : "";
   values.text["piece_call"] = has_piece ? piece_gradient_call(table, inputs, variables) : "";
   values.offered = {"names"}; // used by the head of frictab_tau_R, which is not part of this text
-  return without_last_break(render_template("c/frictab_gradient.c", values));
+  return render_part("c/frictab_gradient.c", values);
 }
 
 } // namespace frictab::c_target

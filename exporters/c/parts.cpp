@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include "codegen/baked_table.h"
+#include "codegen/entry_text.h"
 #include "codegen/number_text.h"
 #include "codegen/prefix.h"
+#include "codegen/sides.h"
 #include "codegen/table_text.h"
 #include "core/text.h"
 #include "core/version.h"
@@ -28,13 +30,6 @@ std::vector<std::string> parameters(const std::vector<InputArgument>& inputs,
   for (const InputArgument& input : inputs)
     pieces.push_back(fmt::format("{} {}", type, input.argument));
   return pieces;
-}
-
-std::vector<std::string> unused(const std::vector<InputArgument>& inputs) {
-  std::vector<std::string> names;
-  for (const InputArgument& input : inputs)
-    if (!input.used) names.push_back(input.argument);
-  return names;
 }
 
 std::string lines(const std::vector<std::string>& pieces) {
@@ -83,47 +78,21 @@ Lines constants_of(const Table& table, const Variables& variables) {
   return constants;
 }
 
-std::string optimisation(const Table& table) {
-  return table.is_direct() ? "-O3" : "-O2";
-}
-
-std::string without_last_break(std::string text) {
-  if (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
-}
-
-namespace {
-
-std::size_t index_of(const std::vector<InputArgument>& inputs, const std::string& name) {
-  std::size_t i = 0;
-  while (inputs[i].name != name)
-    ++i;
-  return i;
-}
-
-std::vector<std::string> sides(const Table& table, const Variables& variables, Outside kind) {
-  const bool refuses = kind == Outside::error;
+std::vector<std::string> tests_of(const Table& table, const Variables& variables, Outside answer) {
   std::vector<std::string> tests;
-  for (const table::AxisEnds& axis : table::axis_ends(table)) {
-    const std::string& x = variables.name(axis.name);
-    if (axis.below == kind)
-      tests.push_back(x + " < " + c_number(refuses ? axis.refused_below : axis.low));
-    if (axis.above == kind)
-      tests.push_back(x + " > " + c_number(refuses ? axis.refused_above : axis.high));
-  }
+  for (const Side& side : sides(table, answer))
+    tests.push_back(
+        fmt::format("{} {} {}", variables.name(side.axis), side.sign(), c_number(side.limit)));
   return tests;
 }
-
-} // namespace
 
 void add_state(TemplateValues& values, const Table& table, const std::vector<InputArgument>& inputs,
                const Variables& variables) {
   Lines used;
-  std::vector<std::string> names, arrays, unused_arrays;
+  std::vector<std::string> names, arrays;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     names.push_back(inputs[i].argument);
     arrays.push_back(inputs[i].used ? inputs[i].argument + "[i]" : "0.0");
-    if (!inputs[i].used) unused_arrays.push_back(inputs[i].argument);
     if (!inputs[i].used) continue;
     TemplateValues input;
     input.text = {{"name", variables.name(inputs[i].name)}, {"canonical", canonical(inputs[i])}};
@@ -133,7 +102,7 @@ void add_state(TemplateValues& values, const Table& table, const std::vector<Inp
   values.lists["used"] = used;
   values.lists["constants"] = constants_of(table, variables);
   values.text["value"] = variables.name("value");
-  values.lists["unused_arrays"] = items(unused_arrays);
+  values.lists["unused_arrays"] = items(unused_arguments(inputs));
   values.text["parameters"] = lines(parameters(inputs, "double"));
   values.text["arrays"] = lines(parameters(inputs, "const double*"));
   values.text["names"] = lines(names);
@@ -146,26 +115,22 @@ std::string add_tau_R(TemplateValues& values, const ExportRequest& request,
   const Statements code = variables.statements({{table.combine, "tau_R"}});
   values.lists["statements"] = items(code.lines);
   values.text["result"] = in_units(code.results[0], request.units);
-  values.lists["refusing"] = items(refusing_sides(table, variables));
-  values.lists["unused"] = items(unused(inputs));
+  values.lists["refusing"] = items(tests_of(table, variables, Outside::error));
+  values.lists["unused"] = items(unused_arguments(inputs));
   if (!symbols(table.combine).count("value"))
     values.lists["unused"].push_back(item(variables.name("value")));
   return join(code.lines, "\n");
 }
 
 std::string value_comment(const Table& table) {
-  return comment_text(
-      fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "spline coefficients of " : "",
-                  table.log_value ? "ln " : "", models::quantity_name(table.quantity)));
+  return comment_text(baked_values_text(table, "spline coefficients of "));
 }
 
 std::string helpers(const std::string& text) {
   const auto calls = [&](const char* helper) { return text.find(helper) != std::string::npos; };
-  TemplateValues values;
-  values.flags = {{"uses_min", calls("ft_min(")},
-                  {"uses_max", calls("ft_max(")},
-                  {"uses_where", calls("ft_where_le(")}};
-  return without_last_break(render_template("c/frictab_helpers.c", values));
+  return render_part("c/frictab_helpers.c", {.flags = {{"uses_min", calls("ft_min(")},
+                                                       {"uses_max", calls("ft_max(")},
+                                                       {"uses_where", calls("ft_where_le(")}}});
 }
 
 namespace {
@@ -189,41 +154,24 @@ std::string piece_gradient_call(const Table& table, const std::vector<InputArgum
   return call_of("ft_piece_gradient", arguments);
 }
 
-std::vector<std::string> refusing_sides(const Table& table, const Variables& variables) {
-  return sides(table, variables, Outside::error);
-}
-
-std::vector<std::string> extending_sides(const Table& table, const Variables& variables) {
-  return sides(table, variables, Outside::law);
-}
-
 namespace {
 
 // Lists the ends of axes and clamped inputs, by the numbers of their bits.
 Lines range_ends(const Table& table, const std::vector<InputArgument>& inputs) {
   Lines ends;
   for (const table::AxisEnds& end : table::all_ends(table)) {
-    const InputArgument& input = inputs[index_of(inputs, end.name)];
+    const InputArgument& input = argument_named(inputs, end.name);
     const std::size_t number = ends.size();
-    TemplateValues one;
-    one.text = {{"canonical", canonical(input, "")},   {"element", canonical(input, "[i]")},
-                {"name", comment_text(end.name)},      {"low", c_number(end.low)},
-                {"high", c_number(end.high)},          {"bit", std::to_string(1u << number)},
-                {"first", std::to_string(2 * number)}, {"second", std::to_string(2 * number + 1)}};
-    ends.push_back(one);
+    ends.push_back({.text = {{"canonical", canonical(input, "")},
+                             {"element", canonical(input, "[i]")},
+                             {"name", comment_text(end.name)},
+                             {"low", c_number(end.low)},
+                             {"high", c_number(end.high)},
+                             {"bit", std::to_string(1u << number)},
+                             {"first", std::to_string(2 * number)},
+                             {"second", std::to_string(2 * number + 1)}}});
   }
   return ends;
-}
-
-std::vector<std::string> without_range(const Table& table,
-                                       const std::vector<InputArgument>& inputs) {
-  std::vector<std::string> names;
-  const std::vector<table::AxisEnds> ends = table::all_ends(table);
-  for (const InputArgument& input : inputs)
-    if (std::none_of(ends.begin(), ends.end(),
-                     [&](const table::AxisEnds& end) { return end.name == input.name; }))
-      names.push_back(input.argument);
-  return names;
 }
 
 } // namespace
@@ -235,13 +183,14 @@ std::string outside_functions(const Table& table, const std::vector<InputArgumen
   values.lists["without_range"] = items(without_range(table, inputs));
   values.lists["ends"] = range_ends(table, inputs);
   values.flags["has_ends"] = !values.lists["ends"].empty();
-  return without_last_break(render_template("c/frictab_outside.c", values));
+  return render_part("c/frictab_outside.c", values);
 }
 
 std::string direct_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
   Variables variables = variables_of(table, table.combine, inputs);
   TemplateValues values;
+  values.flags["in_file"] = false;
   add_state(values, table, inputs, variables);
   const std::string law = piece(table, inputs);
   const std::string gradient = gradient_functions(request, inputs);

@@ -16,9 +16,6 @@ namespace frictab::c_target {
 std::vector<std::string> parameters(const std::vector<codegen::InputArgument>& inputs,
                                     std::string_view type);
 
-// Returns the arguments that this law does not use, which the template marks for the compiler.
-std::vector<std::string> unused(const std::vector<codegen::InputArgument>& inputs);
-
 // Breaks pieces into lines; the template indents them.
 std::string lines(const std::vector<std::string>& pieces);
 
@@ -52,13 +49,6 @@ std::string add_tau_R(TemplateValues& values, const codegen::ExportRequest& requ
 // Returns "mu, last axis fastest" for a table's values.
 std::string value_comment(const table::Table& table);
 
-// Returns the compiler's optimisation flag: the direct form is arithmetic over rows, which gcc 12
-// vectorises fully only at -O3.
-std::string optimisation(const table::Table& table);
-
-// Removes the line break at the end of a template's text.
-std::string without_last_break(std::string text);
-
 // Returns the names of the states in the law's own formula, in the order of the arguments.
 std::vector<std::string> piece_states(const table::Table& table,
                                       const std::vector<codegen::InputArgument>& inputs,
@@ -78,12 +68,9 @@ std::string piece_gradient_call(const table::Table& table,
                                 const std::vector<codegen::InputArgument>& inputs,
                                 const codegen::Variables& variables);
 
-// Return "sigma_n_MPa < 4.5" for every side that refuses, and "T_contact_C > 200.0" for every side
-// where the law continues.
-std::vector<std::string> refusing_sides(const table::Table& table,
-                                        const codegen::Variables& variables);
-std::vector<std::string> extending_sides(const table::Table& table,
-                                         const codegen::Variables& variables);
+// Returns "sigma_n_MPa < 4.5" for every side with this answer.
+std::vector<std::string> tests_of(const table::Table& table, const codegen::Variables& variables,
+                                  table::Outside answer);
 
 // Returns frictab_outside and frictab_count_outside.
 std::string outside_functions(const table::Table& table,

@@ -10,13 +10,10 @@
 #include "codegen/fortran_stop.h"
 #include "codegen/number_text.h"
 #include "codegen/prefix.h"
-#include "codegen/read_me.h"
-#include "codegen/recipe.h"
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
 #include "core/text.h"
 #include "core/version.h"
-#include "io/json.h"
 #include "table/outside.h"
 
 namespace frictab::fortran_target {
@@ -41,52 +38,39 @@ std::string canonical(const InputArgument& input, const std::string& element = "
 void add_arguments(TemplateValues& values, const ExportRequest& request,
                    const std::vector<InputArgument>& inputs) {
   const SolverUnit stress = solver_unit("MPa", request.units);
-  const std::vector<std::string> order = request.table.inputs();
-  const std::vector<table::AxisEnds> ends = table::all_ends(request.table);
-  std::vector<std::string> names, elements, unused, without_range;
+  std::vector<std::string> names, elements;
   for (const InputArgument& input : inputs) {
     names.push_back(input.argument);
     elements.push_back(input.used ? input.argument + "(ft_i)" : "0.0D0");
-    if (!input.used) unused.push_back(input.argument);
-    if (std::none_of(ends.begin(), ends.end(),
-                     [&](const table::AxisEnds& end) { return end.name == input.name; }))
-      without_range.push_back(input.argument);
   }
-  values.lists["used"];
-  for (const std::string& name : order)
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-      if (inputs[i].name != name) continue;
-      TemplateValues one;
-      one.text = {
-          {"index", std::to_string(values.lists["used"].size() + 1)},
-          {"place", std::to_string(i + 1)},
-          {"name", comment_text(name)},
-          {"canonical", canonical(inputs[i])},
-          {"element", canonical(inputs[i], "(ft_i)")},
-          {"factor", from_canonical_text(per(stress, inputs[i].solver), Notation::fortran)}};
-      values.lists["used"].push_back(one);
-    }
+  Lines& used = values.lists["used"];
+  for (const std::string& name : request.table.inputs()) {
+    const InputArgument& input = argument_named(inputs, name);
+    used.push_back(
+        {.text = {{"index", std::to_string(used.size() + 1)},
+                  {"place", std::to_string(&input - inputs.data() + 1)},
+                  {"name", comment_text(name)},
+                  {"canonical", canonical(input)},
+                  {"element", canonical(input, "(ft_i)")},
+                  {"factor", from_canonical_text(per(stress, input.solver), Notation::fortran)}}});
+  }
   values.text["names"] = continued(names);
   values.text["items"] = continued(elements);
   values.text["n_arguments"] = std::to_string(inputs.size());
-  values.lists["unused"] = items(unused);
-  values.lists["without_range"] = items(without_range);
-  values.flags["none_used"] = order.empty();
+  values.lists["unused"] = items(unused_arguments(inputs));
+  values.lists["without_range"] = items(without_range(request.table, inputs));
+  values.flags["none_used"] = used.empty();
 }
 
 void add_axes(TemplateValues& values, const Table& table,
               const std::vector<InputArgument>& inputs) {
-  values.lists["axes"];
-  for (const table::AxisEnds& axis : table::all_ends(table))
-    for (const InputArgument& input : inputs) {
-      if (input.name != axis.name) continue;
-      TemplateValues one;
-      one.text = {{"canonical", canonical(input)},
-                  {"low", fortran_number(axis.low)},
-                  {"high", fortran_number(axis.high)},
-                  {"bit", std::to_string(values.lists["axes"].size())}};
-      values.lists["axes"].push_back(one);
-    }
+  Lines& axes = values.lists["axes"];
+  for (const table::AxisEnds& axis : table::all_ends(table)) {
+    axes.push_back({.text = {{"canonical", canonical(argument_named(inputs, axis.name))},
+                             {"low", fortran_number(axis.low)},
+                             {"high", fortran_number(axis.high)},
+                             {"bit", std::to_string(axes.size())}}});
+  }
 }
 
 std::string source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
@@ -120,38 +104,6 @@ std::string source(const ExportRequest& request, const std::vector<InputArgument
   return render_template("fortran/frictab_tau_R.f90", values);
 }
 
-// Arithmetic over rows, which gcc 12 vectorises fully only at -O3, as in C.
-std::string optimisation(const Table& table) {
-  return table.is_direct() ? "-O3" : "-O2";
-}
-
-std::string recipe(const Exporter& self, const ExportRequest& request,
-                   const std::vector<InputArgument>& inputs, const SourceBundle& files) {
-  nlohmann::ordered_json out = recipe_head(self, request, "frictab_tau_R", files);
-  std::vector<std::string> names;
-  for (const InputArgument& input : inputs)
-    names.push_back(input.argument);
-  const std::string all = join(names, ", ");
-  out["module"] = "frictab_law";
-  const bool file = values_in_file(request);
-  const std::string pure = file ? "" : "pure ", elemental = file ? "impure elemental" : "elemental";
-  out["procedures"] = {elemental + " function tau_R(" + all + ")",
-                       pure + "function frictab_tau_R(" + all + ") bind(C)",
-                       "function frictab_tau_R_gradient(" + all + ", derivative) bind(C)",
-                       pure + "subroutine frictab_tau_R_batch(n, " + all + ", tau) bind(C)",
-                       "subroutine frictab_tau_R_gradient_batch(n, " + all +
-                           ", tau, derivative) bind(C)",
-                       "pure function frictab_outside(" + all + ") bind(C)"};
-  describe_entry(out, request, inputs, "real(c_double)");
-  const std::string gfortran =
-      "gfortran " + optimisation(request.table) + " -std=f2008 -ffp-contract=off ";
-  out["compile"] = {gfortran + "-c frictab_tau_R.f90",
-                    gfortran + "-fPIC -shared -o libfrictab_tau_R.so frictab_tau_R.f90"};
-  out["input_deck"] = nullptr;
-  out["table"] = recipe_table(request);
-  return io::json_text(out);
-}
-
 const char* const target_notes =
     "One free-form file with the module frictab_law: tau_R for numbers and arrays, and with C "
     "names frictab_tau_R, its derivatives, many states at once, and which axes are left. For "
@@ -166,18 +118,7 @@ public:
              .order = 15,
              .title = "Fortran 2008 module",
              .signature_source = "verified: ours, the C interface fixed by frictab's contract",
-             .notes = target_notes,
-             .options = {values_option(), prefix_option()}}) {}
-
-  SourceBundle generate(const ExportRequest& request) const override {
-    check_request(request);
-    const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
-    SourceBundle files;
-    files["frictab_tau_R.f90"] = source(request, inputs);
-    add_values_file(files, request);
-    files["recipe.json"] = recipe(*this, request, inputs, files);
-    return with_prefix(explained(files, *this), request);
-  }
+             .notes = target_notes}) {}
 
   std::vector<BuildVariant> variants(const ExportRequest& request) const override {
     BuildVariant build;
@@ -189,6 +130,39 @@ public:
                      "@{out}",     "@{dir}/" + prefixed(request, "frictab_tau_R.f90")};
     build.eps = 0x1p-53;
     return {build};
+  }
+
+private:
+  SourceBundle sources(const ExportRequest& request, const Arguments& inputs) const override {
+    return {{"frictab_tau_R.f90", source(request, inputs)}};
+  }
+
+  std::string argument_type() const override { return "real(c_double)"; }
+
+  void add_interface(json& recipe, const ExportRequest& request,
+                     const Arguments& inputs) const override {
+    std::vector<std::string> names;
+    for (const InputArgument& input : inputs)
+      names.push_back(input.argument);
+    const std::string all = join(names, ", ");
+    recipe["module"] = "frictab_law";
+    const bool file = values_in_file(request);
+    const std::string pure = file ? "" : "pure ",
+                      elemental = file ? "impure elemental" : "elemental";
+    recipe["procedures"] = {elemental + " function tau_R(" + all + ")",
+                            pure + "function frictab_tau_R(" + all + ") bind(C)",
+                            "function frictab_tau_R_gradient(" + all + ", derivative) bind(C)",
+                            pure + "subroutine frictab_tau_R_batch(n, " + all + ", tau) bind(C)",
+                            "subroutine frictab_tau_R_gradient_batch(n, " + all +
+                                ", tau, derivative) bind(C)",
+                            "pure function frictab_outside(" + all + ") bind(C)"};
+  }
+
+  void add_compile(json& recipe, const ExportRequest& request) const override {
+    const std::string gfortran =
+        "gfortran " + optimisation(request.table) + " -std=f2008 -ffp-contract=off ";
+    recipe["compile"] = {gfortran + "-c frictab_tau_R.f90",
+                         gfortran + "-fPIC -shared -o libfrictab_tau_R.so frictab_tau_R.f90"};
   }
 };
 

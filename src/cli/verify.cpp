@@ -20,7 +20,6 @@
 #include "run/results.h"
 #include "run/summary.h"
 #include "table/table_file.h"
-#include "verify/failure.h"
 #include "verify/verify.h"
 #include "words/drift.h"
 #include "words/render.h"

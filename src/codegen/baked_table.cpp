@@ -1,6 +1,8 @@
 // Computes values as the kernels read them, and the size of a source, counted in numbers.
 #include "codegen/baked_table.h"
 
+#include <fmt/format.h>
+
 #include "codegen/layer.h"
 #include "table/spline.h"
 
@@ -29,13 +31,18 @@ std::vector<double> baked_values(const table::Table& table) {
   return table::spline_coefficients(axes, table.value_coordinates());
 }
 
+std::string baked_values_text(const table::Table& table, const std::string& coefficients) {
+  return fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? coefficients : "",
+                     table.log_value ? "ln " : "", models::quantity_name(table.quantity));
+}
+
 std::size_t baked_numbers(const table::Table& table) {
   std::size_t numbers = table.nodes() + table.constants.size() + count_numbers(table.combine);
   for (const table::TableAxis& axis : table.axes)
     numbers += axis.nodes.size() * numbers_per_node(table);
   if (!table.extension) return numbers;
   const LayeredFormula law = split_layer(*table.extension);
-  return numbers + (law.layer ? law.layer->numbers() : 0) + count_numbers(law.rest);
+  return numbers + law.layer.numbers() + count_numbers(law.rest);
 }
 
 } // namespace frictab::codegen

@@ -5,9 +5,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "codegen/compile.h"
-#include "codegen/entry_arguments.h"
 #include "codegen/prefix.h"
+#include "codegen/read_me.h"
+#include "codegen/recipe.h"
+#include "codegen/values_file.h"
+#include "io/json.h"
 
 namespace frictab::codegen {
 
@@ -58,7 +63,23 @@ constexpr std::array<CallBatch, sizeof...(N)> all_batch_calls(std::index_sequenc
 } // namespace
 
 EntryTarget::EntryTarget(TargetDescription description) : Exporter(std::move(description)) {
+  options = {values_option(), prefix_option()};
   several_laws = "give each law names of its own, [export.options] prefix = \"die_oil\"";
+}
+
+SourceBundle EntryTarget::generate(const ExportRequest& request) const {
+  check_request(request);
+  const Arguments inputs = entry_arguments(request.table, request.units);
+  SourceBundle files = sources(request, inputs);
+  add_values_file(files, request);
+  json recipe = recipe_head(*this, request, "frictab_tau_R", files);
+  add_interface(recipe, request, inputs);
+  describe_entry(recipe, request, inputs, argument_type());
+  add_compile(recipe, request);
+  recipe["input_deck"] = nullptr;
+  recipe["table"] = recipe_table(request);
+  files["recipe.json"] = io::json_text(recipe);
+  return with_prefix(explained(files, *this), request);
 }
 
 void EntryTarget::batch(void* library, const ExportRequest& request, std::size_t rows,
@@ -66,11 +87,9 @@ void EntryTarget::batch(void* library, const ExportRequest& request, std::size_t
   static constexpr auto calls = all_batch_calls(std::make_index_sequence<most_arguments + 1>{});
   const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
   if (inputs.size() > most_arguments) throw std::runtime_error("too many arguments to call with");
-  const std::vector<std::string> needed = request.table.inputs();
   std::vector<const double*> x(inputs.size(), nullptr);
-  for (std::size_t c = 0; c < needed.size(); ++c)
-    for (std::size_t i = 0; i < inputs.size(); ++i)
-      if (inputs[i].name == needed[c]) x[i] = columns[c];
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    if (const auto column = input_index(request.table, inputs[i].name)) x[i] = columns[*column];
   calls[inputs.size()](Library::address(library, prefixed(request, "frictab_tau_R_batch")), rows, x,
                        tau.data());
 }

@@ -5,26 +5,18 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "codegen/fixed_form.h"
+#include "codegen/fortran_core.h"
 #include "codegen/fortran_parts.h"
+#include "codegen/fortran_stop.h"
 #include "codegen/number_text.h"
 #include "core/error.h"
 
 namespace frictab::codegen::fortran {
 
 namespace {
-
-std::size_t n_states(const table::Table& table) {
-  return std::max<std::size_t>(table.inputs().size(), 1);
-}
-
-// Returns the number of an input, from 1; 0 if the table does not take it.
-std::size_t number_of(const table::Table& table, const std::string& name) {
-  const std::vector<std::string> inputs = table.inputs();
-  const auto at = std::find(inputs.begin(), inputs.end(), name);
-  return at == inputs.end() ? 0 : static_cast<std::size_t>(at - inputs.begin()) + 1;
-}
 
 // Returns all inputs at `share` (0 the low end, 1 the high end) of their known ranges.
 std::vector<double> state_at(const table::Table& table, double share) {
@@ -43,32 +35,43 @@ std::string most_text() {
 }
 
 std::string coefficient(const table::Table& table, Coefficient kind) {
-  const std::size_t pressure = number_of(table, "sigma_n_MPa");
-  TemplateValues values;
-  values.flags = {{"coulomb", kind == Coefficient::coulomb},
-                  {"capped", kind != Coefficient::stress},
-                  {"shear", kind == Coefficient::shear},
-                  {"takes_pressure", pressure > 0}};
-  values.text = {{"n_x", std::to_string(n_states(table))},
-                 {"pressure", std::to_string(pressure)},
-                 {"least", fortran_number(least_pressure)},
-                 {"most", most_text()}};
-  return without_last_break(render_template("fortran/frictab_coef.f", values));
+  const std::optional<std::size_t> pressure = input_index(table, "sigma_n_MPa");
+  return render_part("fortran/frictab_coef.f",
+                     {.text = {{"n_x", std::to_string(inputs_size(table))},
+                               {"pressure", std::to_string(pressure ? *pressure + 1 : 0)},
+                               {"least", fortran_number(least_pressure)},
+                               {"most", most_text()}},
+                      .flags = {{"coulomb", kind == Coefficient::coulomb},
+                                {"capped", kind != Coefficient::stress},
+                                {"shear", kind == Coefficient::shear},
+                                {"takes_pressure", pressure.has_value()}}});
+}
+
+std::string coefficient_name(Coefficient kind) {
+  if (kind == Coefficient::coulomb) return "friction coefficient mu";
+  return kind == Coefficient::shear ? "shear factor m" : "frictional shear stress tau_R";
+}
+
+nlohmann::ordered_json coefficient_result(Coefficient kind, const std::string& name,
+                                          const std::string& meaning, const SolverUnits& units) {
+  nlohmann::ordered_json out = {{"name", name}, {"meaning", meaning}};
+  if (kind == Coefficient::coulomb) out["least_pressure_MPa"] = least_pressure;
+  if (kind != Coefficient::stress) out["at_most"] = largest_coefficient;
+  out["unit"] = kind == Coefficient::stress ? solver_unit("MPa", units).name : "1";
+  return out;
 }
 
 bool same_at_every_pressure(const table::Table& table, Coefficient kind) {
-  const std::size_t pressure = number_of(table, "sigma_n_MPa");
-  if (kind != Coefficient::coulomb || pressure == 0)
-    return kind != Coefficient::coulomb && pressure == 0;
-  for (const table::TableAxis& axis : table.axes)
-    if (axis.name == "sigma_n_MPa") return false;
+  const std::optional<std::size_t> pressure = input_index(table, "sigma_n_MPa");
+  if (kind != Coefficient::coulomb || !pressure) return kind != Coefficient::coulomb && !pressure;
+  if (table::find_axis(table, "sigma_n_MPa")) return false;
   const table::TableFunction tau(table);
   for (const double share : {0.0, 0.5, 1.0}) {
     std::vector<double> state = state_at(table, share);
     double first = 0;
     // A shear limit would be active at the last one.
     for (const double p : {1e-6, 1.0, 1e3, 1e6, 1e12}) {
-      state[pressure - 1] = p;
+      state[*pressure] = p;
       const double mu = tau(state) / p;
       if (p == 1e-6) first = mu;
       if (!(std::abs(mu - first) <= 1e-12 * std::abs(first))) return false;
@@ -77,8 +80,9 @@ bool same_at_every_pressure(const table::Table& table, Coefficient kind) {
   return true;
 }
 
-std::string constants_common(std::size_t n_x) {
-  return fmt::format("      double precision cst({})\n      common /ftcons/ cst", n_x);
+std::string constants_common(const std::vector<SolverInput>& inputs) {
+  return fmt::format("      double precision cst({})\n      common /ftcons/ cst",
+                     std::max<std::size_t>(inputs.size(), 1));
 }
 
 std::string constants_data(const std::vector<SolverInput>& inputs) {
@@ -93,10 +97,21 @@ std::string constants_data(const std::vector<SolverInput>& inputs) {
     values[i] = input.fallback.value_or(0.0);
   }
   faults.throw_if_any();
-  TemplateValues fill;
-  fill.text = {{"common", constants_common(values.size())},
-               {"data", fixed_form_data("cst", values)}};
-  return without_last_break(render_template("fortran/frictab_constants.f", fill));
+  return render_part(
+      "fortran/frictab_constants.f",
+      {.text = {{"common", constants_common(inputs)}, {"data", fixed_form_data("cst", values)}}});
+}
+
+void add_coefficient(TemplateValues& values, const ExportRequest& request,
+                     const std::vector<SolverInput>& inputs, const SolverGives& gives,
+                     Coefficient kind, const std::string& quit) {
+  values.text["stress_convert"] =
+      to_canonical_text(solver_unit("MPa", request.units), Notation::fortran);
+  values.text["common"] = constants_common(inputs);
+  values.text["constants"] = constants_data(inputs);
+  values.text["coefficient"] = coefficient(request.table, kind);
+  values.text["reads"] = reads(inputs, gives);
+  values.text["core"] = core(request, {.unknown = refuses(request.table), .quit = quit}).text;
 }
 
 } // namespace frictab::codegen::fortran

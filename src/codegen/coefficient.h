@@ -5,8 +5,11 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "codegen/exporter.h"
 #include "codegen/solver_inputs.h"
+#include "core/template.h"
 
 namespace frictab::codegen::fortran {
 
@@ -32,6 +35,13 @@ std::string most_text(); // largest_coefficient as Fortran writes it
 // stress.
 std::string coefficient(const table::Table& table, Coefficient kind);
 
+// Names it: "friction coefficient mu".
+std::string coefficient_name(Coefficient kind);
+
+// Describes a routine's result for the recipe: its name there, meaning, limits and unit.
+nlohmann::ordered_json coefficient_result(Coefficient kind, const std::string& name,
+                                          const std::string& meaning, const SolverUnits& units);
+
 // True if the coefficient of any state is the same at every pressure: mu of a law without shear
 // limit, m of a law that does not take the pressure.
 bool same_at_every_pressure(const table::Table& table, Coefficient kind);
@@ -40,8 +50,15 @@ bool same_at_every_pressure(const table::Table& table, Coefficient kind);
 // are in COMMON /FTCONS/ CST(n), by the number of the state, so that they can be read at one place
 // in the source, and set without editing it. The routine never writes them. Throws InputError if
 // neither the solver nor the table has a value for a state.
-std::string constants_common(std::size_t n_x);
+std::string constants_common(const std::vector<SolverInput>& inputs);
 std::string constants_data(const std::vector<SolverInput>& inputs);
+
+// Adds the parts of a routine that returns a coefficient and takes such constants: texts common,
+// constants, coefficient, reads, core (with ftqnan if a side refuses) and stress_convert ("/1.0D6",
+// from the solver's unit to MPa). `quit` as in CoreOptions.
+void add_coefficient(TemplateValues& values, const ExportRequest& request,
+                     const std::vector<SolverInput>& inputs, const SolverGives& gives,
+                     Coefficient kind, const std::string& quit);
 
 // Reads such a constant in a routine: SolverGives::constant.
 inline const GivenState settable_constant = {.read = "cst(@{index})", .canonical = true};

@@ -11,8 +11,10 @@
 
 #include "codegen/fixed_form.h"
 #include "codegen/fortran_parts.h"
+#include "codegen/number_text.h"
 #include "codegen/prefix.h"
 #include "codegen/read_me.h"
+#include "codegen/recipe.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "core/version.h"
@@ -100,21 +102,10 @@ template <class Word> std::string with_words(std::string_view line, const Word& 
   return out;
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    lines.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return lines;
-}
-
 // Returns the words of statements, in small letters.
-std::set<std::string> words_of_statements(const std::vector<std::string>& lines) {
+std::set<std::string> words_of_statements(const std::vector<std::string_view>& lines) {
   std::set<std::string> words;
-  for (const std::string& line : lines)
+  for (const std::string_view line : lines)
     if (!is_comment(line))
       with_words(line, [&](const std::string& word) {
         words.insert(lower_case(word));
@@ -128,8 +119,8 @@ std::set<std::string> linked_names(const SourceBundle& sources) {
   std::set<std::string> names;
   for (const auto& [path, text] : sources) {
     if (!path.ends_with(".f")) continue;
-    for (const std::string& line : lines_of(text)) {
-      const auto has = [&](const char* word) { return line.find(word) != std::string::npos; };
+    for (const std::string_view line : lines_of(text)) {
+      const auto has = [&](const char* word) { return line.find(word) != line.npos; };
       if (has("subroutine ") || has("function ") || has("common /") || has("block data "))
         names.merge(words_of_statements({line}));
     }
@@ -148,20 +139,20 @@ std::string renamed(const std::string& word, const std::set<std::string>& names,
 }
 
 // Checks that no name continues in the next line, because renaming could not find it.
-void check_whole_words(const std::vector<std::string>& lines) {
+void check_whole_words(const std::vector<std::string_view>& lines) {
   const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    const std::string &before = lines[i - 1], &line = lines[i];
+    const std::string_view before = lines[i - 1], line = lines[i];
     const bool goes_on = !is_comment(line) && line.size() > 6 && line[5] != ' ';
     if (goes_on && !before.empty() && !is_comment(before) && in_word(before.back()) &&
         in_word(line[6]))
-      throw std::logic_error("a name is cut between two lines: " + before);
+      throw std::logic_error("a name is cut between two lines: " + std::string(before));
   }
 }
 
 // True if the source, or one of its lines, has the head of this entry.
-bool holds(const std::string& source, const std::string& entry) {
-  return source.find("      subroutine " + entry) != std::string::npos;
+bool holds(std::string_view source, const std::string& entry) {
+  return source.find("      subroutine " + entry) != source.npos;
 }
 
 constexpr std::size_t last_column = 72;
@@ -196,14 +187,14 @@ std::string within_columns(std::string line) {
 // statements and comments. Texts in quotes are unchanged. No entry: it keeps its name.
 std::string with_stem(const std::string& source, const std::set<std::string>& names,
                       const std::string& entry, const std::string& stem) {
-  const std::vector<std::string> lines = lines_of(source);
+  const std::vector<std::string_view> lines = lines_of(source);
   check_whole_words(lines);
   const std::set<std::string> words = words_of_statements(lines);
   for (const std::string& name : names)
     if (words.count(renamed(name, names, stem)))
       throw std::logic_error("two meanings of " + renamed(name, names, stem));
   std::string out;
-  for (const std::string& line : lines) {
+  for (const std::string_view line : lines) {
     const bool heads = !entry.empty() && holds(line, entry);
     out += within_columns(with_words(line,
                                      [&](const std::string& word) {
@@ -220,7 +211,7 @@ std::string with_stem(const std::string& source, const std::set<std::string>& na
 // Returns the names between the brackets of "subroutine vfric(...)".
 std::string argument_names(const std::string& arguments) {
   std::string code;
-  for (const std::string& line : lines_of(arguments))
+  for (const std::string_view line : lines_of(arguments))
     if (!is_comment(line) && line.size() > 6) code += line.substr(6);
   const std::size_t open = code.find('('), close = code.find(')');
   std::string names;
@@ -253,7 +244,7 @@ std::string comment_lines(const std::string& text) {
 // Returns the ftquit with which the entry ends the analysis if a contact has no law.
 std::string own_quit(const Combination& c, const std::string& stem) {
   const std::set<std::string> names = linked_names({{"quit.f", c.quit}});
-  return fortran::without_last_break(with_stem(c.quit, names, c.entry, stem));
+  return without_last_break(with_stem(c.quit, names, c.entry, stem));
 }
 
 std::string combined_source(const Combination& c, const std::vector<ExportRequest>& laws,
@@ -261,8 +252,8 @@ std::string combined_source(const Combination& c, const std::vector<ExportReques
   TemplateValues values;
   values.text = {{"title", c.exporter.title},
                  {"version", tool_version()},
-                 {"arguments", fortran::without_last_break(c.arguments)},
-                 {"guard", fortran::without_last_break(c.by.guard)},
+                 {"arguments", without_last_break(c.arguments)},
+                 {"guard", without_last_break(c.by.guard)},
                  {"argument", c.by.argument},
                  {"stem", entry_stem(laws.front())},
                  {"quit", own_quit(c, entry_stem(laws.front()))}};
@@ -272,13 +263,12 @@ std::string combined_source(const Combination& c, const std::vector<ExportReques
        "Each law follows as it is alone, its program units under letters of its own."});
   const std::string names = argument_names(c.arguments);
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    TemplateValues law;
-    law.text = {
-        {"about", comment_lines(about_law(laws[i]))},
-        {"condition", condition(laws[i].law_name, c.by)},
-        {"call", fixed_form(fmt::format("  call {}{}({})", stem(laws[i]), c.entry, names))}};
-    values.lists["laws"].push_back(law);
-    values.lists["sources"].push_back(item(fortran::without_last_break(sources[i])));
+    values.lists["laws"].push_back(
+        {.text = {
+             {"about", comment_lines(about_law(laws[i]))},
+             {"condition", condition(laws[i].law_name, c.by)},
+             {"call", fixed_form(fmt::format("  call {}{}({})", stem(laws[i]), c.entry, names))}}});
+    values.lists["sources"].push_back(item(without_last_break(sources[i])));
   }
   return render_template("fortran/frictab_combined.f", values);
 }
@@ -322,10 +312,7 @@ json combined_recipe(const Combination& c, const std::vector<ExportRequest>& law
   out["schema"] = combined_schema;
   for (const std::string& key : of_law)
     out.erase(key);
-  out["files"] = json::array();
-  for (const auto& [path, text] : files)
-    out["files"].push_back(path);
-  out["files"].push_back("recipe.json");
+  out["files"] = recipe_files(files);
   out["told_apart_by"] = c.exporter.several_laws + "; any other ends the analysis";
   out["laws_note"] =
       "the deck needs the lines of all laws; keywords that are there once per model, "

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "codegen/histories.h"
 #include "codegen/solver_units.h"
@@ -223,8 +224,9 @@ ContactMemory ContactMemory::between(const ContactMemory& a, const ContactMemory
   return out;
 }
 
-std::vector<double> ContactMemory::variables(const SolverUnits& units) const {
-  std::vector<double> out;
+std::vector<double> ContactMemory::variables(const SolverUnits& units,
+                                             std::vector<double> first) const {
+  std::vector<double> out = std::move(first);
   // Sums of temperatures are those of the solver's own, which may be in K.
   const double zero = solver_unit("degC", units).zero;
   for (const History& one : histories_) {

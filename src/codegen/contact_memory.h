@@ -37,8 +37,9 @@ public:
   // Returns the memory half way between two nodes; one that was never in contact has the present
   // temperature (degC).
   static ContactMemory between(const ContactMemory& a, const ContactMemory& b, double temperature);
-  // Returns the state variables in the units of the solver, in the order of history_states().
-  std::vector<double> variables(const SolverUnits& units) const;
+  // Returns the state variables in the units of the solver: the `first` ones, then its own in the
+  // order of history_states().
+  std::vector<double> variables(const SolverUnits& units, std::vector<double> first = {}) const;
 
 private:
   struct History {

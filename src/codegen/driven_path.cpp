@@ -199,6 +199,16 @@ std::vector<double> DrivenPath::states(const GivenStates& given) const {
   return out;
 }
 
+std::vector<double> DrivenPath::states_at(const GivenStates& given, double asked) const {
+  std::vector<double> x = states(given);
+  GivenStates of_law = given;
+  of_law.pressure = asked;
+  const std::vector<double> at_asked = states(of_law);
+  for (std::size_t d = 0; d < x.size(); ++d)
+    if (inputs[d].source != Source::history) x[d] = at_asked[d];
+  return x;
+}
+
 double DrivenPath::tau(std::span<const double> states) const {
   return table_(states);
 }

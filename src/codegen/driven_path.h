@@ -88,8 +88,10 @@ public:
   double choose_properties(std::vector<double>& properties, std::size_t i,
                            std::size_t factor_property = 0);
 
-  // The law's states, in the order of the table's inputs.
+  // The law's states, in the order of the table's inputs; the second takes the law itself at the
+  // pressure `asked`, while histories follow the one that is given.
   std::vector<double> states(const GivenStates& given) const;
+  std::vector<double> states_at(const GivenStates& given, double asked) const;
   // The contact temperature that histories follow; 0 if none does.
   double followed_temperature(const GivenStates& given) const;
   double tau(std::span<const double> states) const; // MPa, by the table itself

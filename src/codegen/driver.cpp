@@ -216,9 +216,4 @@ void drive_routine(const Driver& driver, const std::vector<SolverInput>& inputs,
     routine.run(group, tau);
 }
 
-void add_driver(BuildVariant& variant, const std::string& text) {
-  variant.command.push_back("@{dir}/driver.f");
-  variant.extra["driver.f"] = text;
-}
-
 } // namespace frictab::codegen

@@ -41,7 +41,4 @@ void drive_routine(const Driver& driver, const std::vector<SolverInput>& inputs,
                    const ExportRequest& request, std::size_t rows,
                    std::span<const double* const> columns, std::span<double> tau);
 
-// Adds the driver's file to the files that the variant compiles.
-void add_driver(BuildVariant& variant, const std::string& text);
-
 } // namespace frictab::codegen

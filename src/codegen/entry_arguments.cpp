@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 #include "core/text.h"
 #include "data/meaning.h"
@@ -85,6 +86,25 @@ std::vector<InputArgument> entry_arguments(const table::Table& table, const Solv
       a.argument = first + "_" + std::to_string(n);
   }
   return arguments;
+}
+
+const InputArgument& argument_named(const std::vector<InputArgument>& arguments,
+                                    const std::string& name) {
+  const auto found = std::find_if(arguments.begin(), arguments.end(),
+                                  [&](const InputArgument& one) { return one.name == name; });
+  if (found == arguments.end()) throw std::logic_error("no argument " + name);
+  return *found;
+}
+
+std::optional<std::size_t> input_index(const table::Table& table, const std::string& name) {
+  const std::vector<std::string> inputs = table.inputs();
+  const auto at = std::find(inputs.begin(), inputs.end(), name);
+  if (at == inputs.end()) return std::nullopt;
+  return static_cast<std::size_t>(at - inputs.begin());
+}
+
+std::size_t inputs_size(const table::Table& table) {
+  return std::max<std::size_t>(table.inputs().size(), 1);
 }
 
 std::optional<double> typical_value(const table::Table& table, const std::string& name) {

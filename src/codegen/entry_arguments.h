@@ -28,6 +28,16 @@ struct InputArgument {
 // contract, then the table's further inputs.
 std::vector<InputArgument> entry_arguments(const table::Table& table, const SolverUnits& units);
 
+// Returns the argument with this canonical name, which has to be there.
+const InputArgument& argument_named(const std::vector<InputArgument>& arguments,
+                                    const std::string& name);
+
+// Returns the place of a state among table.inputs(); nullopt if the table does not take it.
+std::optional<std::size_t> input_index(const table::Table& table, const std::string& name);
+
+// Size of the array of a table's inputs in generated code, which has at least one element.
+std::size_t inputs_size(const table::Table& table);
+
 // Returns the value of an input that the solver does not give: the middle of its range (in its
 // logarithm if that is the quantity's coordinate); nullopt if no range is known.
 std::optional<double> typical_value(const table::Table& table, const std::string& name);

@@ -1,6 +1,8 @@
 // Writes law, units, arguments and the behaviour outside the range.
 #include "codegen/entry_text.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "codegen/number_text.h"
@@ -22,21 +24,19 @@ std::vector<std::string> about_entry(const ExportRequest& request) {
   return lines;
 }
 
+std::vector<std::string> argument_texts(const ExportRequest& request,
+                                        const std::vector<InputArgument>& inputs) {
+  std::vector<std::string> texts;
+  for (const InputArgument& input : inputs)
+    texts.push_back(
+        fmt::format("{} ({}): {}; {}", input.argument, input.solver.name, input.meaning,
+                    input.used ? range_text(input, request.table) : "not used by this law"));
+  return texts;
+}
+
 std::vector<std::string> argument_lines(const ExportRequest& request,
                                         const std::vector<InputArgument>& inputs) {
-  std::vector<std::string> lines;
-  for (const InputArgument& input : inputs) {
-    const std::string range =
-        input.used ? range_text(input, request.table) : "not used by this law";
-    const std::string text = comment_text(
-        fmt::format("{} ({}): {}; {}", input.argument, input.solver.name, input.meaning, range));
-    std::string indent;
-    for (const std::string& piece : wrap_text(text, 88)) {
-      lines.push_back(indent + piece);
-      indent = "    ";
-    }
-  }
-  return lines;
+  return comment_lines(argument_texts(request, inputs), 88, "    ");
 }
 
 std::vector<std::string> outside_bits(const table::Table& table, const std::string& suffix) {
@@ -51,29 +51,45 @@ std::vector<std::string> entry_notes(const ExportRequest& request) {
   const table::Table& table = request.table;
   std::vector<std::string> text;
   const auto add_wrapped = [&](const std::string& sentence) {
-    for (const std::string& piece : wrap_text(sentence, 88))
-      text.push_back(piece);
+    for (const std::string& line : comment_lines({sentence}, 88))
+      text.push_back(line);
   };
   if (table.is_direct()) text.push_back("This is the law itself, not a table.");
   const std::vector<std::string> sides = outside_lines(table);
   if (sides.empty()) {
     const std::string what = table.is_direct() ? "law's" : "table's";
-    add_wrapped(comment_text("Outside the range the " + what +
-                             " value at the nearest edge is used, while " +
-                             unchanged_states(table) +
-                             " enter the formula above unchanged; frictab_outside shows which axes "
-                             "are concerned."));
+    add_wrapped("Outside the range the " + what + " value at the nearest edge is used, while " +
+                unchanged_states(table) +
+                " enter the formula above unchanged; frictab_outside shows which axes are "
+                "concerned.");
   } else {
     text.push_back("Outside the range (frictab_outside shows which axes are concerned):");
     for (const std::string& side : sides)
       text.push_back("  " + comment_text(side));
-    add_wrapped(
-        comment_text("The formula above takes unchanged: " + unchanged_states(table) + "."));
+    add_wrapped("The formula above takes unchanged: " + unchanged_states(table) + ".");
   }
   text.push_back("NaN in an argument that is used gives NaN. Thread-safe.");
   for (const std::string& line : values_file_lines(request, ""))
     add_wrapped(line);
   return text;
+}
+
+std::vector<std::string> unused_arguments(const std::vector<InputArgument>& inputs) {
+  std::vector<std::string> names;
+  for (const InputArgument& input : inputs)
+    if (!input.used) names.push_back(input.argument);
+  return names;
+}
+
+std::vector<std::string> without_range(const table::Table& table,
+                                       const std::vector<InputArgument>& inputs) {
+  std::vector<std::string> names;
+  const std::vector<table::AxisEnds> ends = table::all_ends(table);
+  for (const InputArgument& input : inputs)
+    if (std::none_of(ends.begin(), ends.end(),
+                     [&](const table::AxisEnds& end) { return end.name == input.name; }))
+      names.push_back(input.argument);
+  return names;
 }
 
 } // namespace frictab::codegen

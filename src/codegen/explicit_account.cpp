@@ -4,23 +4,78 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "codegen/histories.h"
 
 namespace frictab::codegen {
 
-namespace {
+std::size_t explicit_state_count(const std::vector<SolverInput>& inputs) {
+  return explicit_states + 2 * history_count(inputs) + shown_states;
+}
 
-constexpr std::size_t before_histories = 6, shown_last = 2;
+std::vector<StateVariable> explicit_state_variables(const std::vector<SolverInput>& inputs,
+                                                    const SolverUnits& units,
+                                                    const ExplicitWords& words) {
+  const std::string length = solver_unit("mm", units).name, stress = solver_unit("MPa", units).name;
+  const std::string work = stress + "*" + length;
+  std::vector<StateVariable> all = {
+      {"slip", length, words.slip},
+      {"friction_work", work, "friction work per area"},
+      {"peak_pressure", stress, "peak pressure"},
+      {"n_outside", "1", words.step + "s in which the state was outside the range"},
+      {"slip_remainder", length, "what the solver's precision rounds off 1"},
+      {"friction_work_remainder", work, "what the solver's precision rounds off 2"}};
+  for (const HistoryState& state : with_remainders(history_states(inputs, units), explicit_states))
+    all.push_back({state.name, state.unit, state.meaning});
+  all.push_back(
+      {"tau_R", stress, "frictional shear stress of the last " + words.step + " in contact"});
+  all.push_back({"mu", "1", words.mu});
+  return all;
+}
 
+nlohmann::ordered_json state_variables_json(const std::vector<StateVariable>& variables) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const StateVariable& variable : variables)
+    out.push_back({{"number", out.size() + 1},
+                   {"name", variable.name},
+                   {"unit", variable.unit},
+                   {"meaning", variable.meaning}});
+  return out;
 }
 
 ExplicitAccount::ExplicitAccount(DrivenPath& path, std::string name, std::size_t states)
     : path_(path), name_(std::move(name)), states_(states), histories_(history_count(path.inputs)),
-      all_(before_histories + 2 * histories_ + shown_last) {}
+      all_(explicit_state_count(path.inputs)) {}
 
 bool ExplicitAccount::keeps_histories() const {
-  return histories_ > 0 && keeps(all_ - shown_last);
+  return histories_ > 0 && keeps(all_ - shown_states);
+}
+
+ExplicitVariables ExplicitAccount::kept(const ExplicitVariables& variables) const {
+  ExplicitVariables out;
+  if (keeps(1)) out.slip = variables.slip;
+  if (keeps(2)) out.work = variables.work;
+  if (keeps(3)) out.peak = variables.peak;
+  return out;
+}
+
+void ExplicitAccount::fill(GivenStates& out, const ExplicitVariables& kept,
+                           const ContactMemory& memory, double motion, double area) const {
+  out.slip = path_.length.to_canonical(kept.slip) + motion;
+  out.work = path_.length.to_canonical(path_.stress.to_canonical(kept.work));
+  out.peak_pressure = std::max(path_.stress.to_canonical(kept.peak), out.pressure);
+  out.area = path_.length.to_canonical(path_.length.to_canonical(area));
+  if (keeps_histories()) out.memory = &memory;
+}
+
+void ExplicitAccount::advance(ContactMemory& memory, const ExplicitChange& change, double peak,
+                              double area, double seconds, double temperature) const {
+  const double slip = path_.length.to_canonical(change.slip);
+  memory.advance(
+      {path_.stress.to_canonical(change.pressure), seconds > 0 ? slip / seconds : 0, temperature,
+       path_.length.to_canonical(path_.length.to_canonical(area))},
+      {path_.stress.to_canonical(peak), path_.stress.to_canonical(change.stress), slip, seconds});
 }
 
 double ExplicitAccount::summed(double value, std::size_t remainder) const {
@@ -59,8 +114,8 @@ void ExplicitAccount::compare(const ExplicitVariables& variables, const ContactM
     const std::vector<double> kept = memory.variables(path_.request.units);
     const std::vector<HistoryState> known = history_states(path_.inputs, path_.request.units);
     for (std::size_t h = 0; h < kept.size(); ++h)
-      compare_one(st, before_histories + h + 1, before_histories + histories_ + h + 1,
-                  known[h].name, known[h].unit, kept[h]);
+      compare_one(st, explicit_states + h + 1, explicit_states + histories_ + h + 1, known[h].name,
+                  known[h].unit, kept[h]);
   }
   if (!keeps(all_)) return;
   compare_one(st, all_ - 1, 0, "tau_R", stress, variables.stress);

@@ -1,14 +1,38 @@
-// State variables that the routines for explicit solvers keep alike, in the account of a driven
-// path: 1 slip, 2 friction work per area, 3 peak pressure, 4 increments outside the range, 5 and 6
-// what the solver's precision rounds off 1 and 2, further histories, what is rounded off these, and
-// last the stress and its share of the pressure. With fewer state variables the last are not kept.
+// State variables that the routines for explicit solvers keep alike, and their account along a
+// driven path: 1 slip, 2 friction work per area, 3 peak pressure, 4 increments outside the range, 5
+// and 6 the parts of 1 and 2 lost to rounding in the solver's precision, further histories
+// (codegen/histories.h), the parts of these lost to rounding, and last, for output, the frictional
+// shear stress and its share of the pressure. With fewer state variables the last are not kept.
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "codegen/driven_path.h"
 
 namespace frictab::codegen {
+
+// Number of those before the histories, and of those for output.
+inline constexpr std::size_t explicit_states = 6, shown_states = 2;
+std::size_t explicit_state_count(const std::vector<SolverInput>& inputs);
+
+struct StateVariable {
+  std::string name, unit, meaning;
+};
+
+// Words of a solver for its state variables.
+struct ExplicitWords {
+  std::string slip; // "accumulated slip under pressure"
+  std::string step; // "increment"
+  std::string mu;   // "that over the pressure"
+};
+std::vector<StateVariable> explicit_state_variables(const std::vector<SolverInput>& inputs,
+                                                    const SolverUnits& units,
+                                                    const ExplicitWords& words);
+// Describes them for the recipe, numbered from 1.
+nlohmann::ordered_json state_variables_json(const std::vector<StateVariable>& variables);
 
 // In the solver's units. The sums include what the solver's precision rounds off.
 struct ExplicitVariables {
@@ -28,7 +52,16 @@ public:
 
   bool keeps(std::size_t number) const { return states_ >= number; }
   bool keeps_histories() const;
+  // Returns the variables as the routine finds them: 0 where they are not kept.
+  ExplicitVariables kept(const ExplicitVariables& variables) const;
+  // Fills the states that follow from them, after a motion (mm) on an area (solver's unit).
+  void fill(GivenStates& out, const ExplicitVariables& kept, const ContactMemory& memory,
+            double motion, double area) const;
+
   void add(ExplicitVariables& variables, const ExplicitChange& change) const;
+  // Continues the histories by that increment; `peak` includes it, `temperature` in degC.
+  void advance(ContactMemory& memory, const ExplicitChange& change, double peak, double area,
+               double seconds, double temperature) const;
   // Compares the state variables `st` that the routine left.
   void compare(const ExplicitVariables& variables, const ContactMemory& memory,
                const double* st) const;

@@ -11,6 +11,24 @@
 
 namespace frictab::codegen {
 
+namespace {
+
+std::string value_or_empty(const std::map<std::string, std::string>& values,
+                           const std::string& name) {
+  const auto found = values.find(name);
+  return found == values.end() ? "" : found->second;
+}
+
+} // namespace
+
+std::string ExportRequest::option_or_empty(const std::string& name) const {
+  return value_or_empty(options, name);
+}
+
+std::string ExportRequest::input_or_empty(const std::string& name) const {
+  return value_or_empty(inputs, name);
+}
+
 table::Table Exporter::own_table(const ExportRequest&, const SourceBundle&) const {
   throw std::logic_error(name + " is a routine");
 }

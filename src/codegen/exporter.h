@@ -36,10 +36,8 @@ struct ExportRequest {
   std::string law_name = {};
   std::string law_stem = {};
 
-  std::string option_or_empty(const std::string& name) const {
-    const auto found = options.find(name);
-    return found == options.end() ? "" : found->second;
-  }
+  std::string option_or_empty(const std::string& name) const;
+  std::string input_or_empty(const std::string& name) const;
 };
 
 // A choice that a target offers in addition to [export.inputs]. Targets that share an option use

@@ -31,8 +31,7 @@ void check_curve(const expr::Expr& curve, const table::Table& table) {
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw InputError(curve_place, "the curve has '" + name + "', which is not a state",
                        suggest(name, known));
-  const std::vector<std::string> needed = table.inputs();
-  if (std::find(needed.begin(), needed.end(), strain_name) != needed.end())
+  if (input_index(table, strain_name))
     throw InputError(curve_place, "the law has a state of its own that is called strain",
                      "\"field:1\" or \"property\", or another name for that column of the data");
   if (!symbols(curve).contains(strain_name))
@@ -61,12 +60,9 @@ std::vector<std::string> other_states(const expr::Expr& curve) {
 // Returns a column by name: the law's own states from `columns`, others at their default.
 std::vector<double> column_of(const table::Table& table, const std::string& name, std::size_t rows,
                               std::span<const double* const> columns) {
-  const std::vector<std::string> own = table.inputs();
-  const auto at = std::find(own.begin(), own.end(), name) - own.begin();
-  if (static_cast<std::size_t>(at) == own.size())
-    return std::vector<double>(rows, usual_value(table, name));
-  const double* const column = columns[static_cast<std::size_t>(at)];
-  return {column, column + rows};
+  const std::optional<std::size_t> at = input_index(table, name);
+  if (!at) return std::vector<double>(rows, usual_value(table, name));
+  return {columns[*at], columns[*at] + rows};
 }
 
 std::vector<double> picked(const std::vector<double>& values,
@@ -129,14 +125,10 @@ private:
 
 CurvedRequest::CurvedRequest(const ExportRequest& request, const SolverGives& gives)
     : original_(request) {
-  const auto said = [&](const char* name) {
-    const auto found = request.inputs.find(name);
-    return found == request.inputs.end() ? "" : found->second;
-  };
-  const std::vector<std::string> needed = request.table.inputs();
-  const bool needs_stress = std::find(needed.begin(), needed.end(), stress_name) != needed.end();
-  has_curve_ = needs_stress && said(stress_name).starts_with(curve_choice);
-  if (!has_curve_ && said(zone_name).empty()) return;
+  const std::string stress = request.input_or_empty(stress_name),
+                    zones = request.input_or_empty(zone_name);
+  has_curve_ = input_index(request.table, stress_name) && stress.starts_with(curve_choice);
+  if (!has_curve_ && zones.empty()) return;
   if (has_curve_ && gives.find(stress_name))
     throw InputError(curve_place, "the solver gives this state itself",
                      "\"solver\", or the curve for other targets: [export.TARGET.inputs]");
@@ -144,8 +136,8 @@ CurvedRequest::CurvedRequest(const ExportRequest& request, const SolverGives& gi
   curved_.emplace(ExportRequest{table_, request.units, request.inputs, request.options});
   curved_->law_name = request.law_name;
   curved_->law_stem = request.law_stem;
-  if (has_curve_) add_curve(said(stress_name).substr(curve_choice.size()));
-  if (!said(zone_name).empty()) add_zones(said(zone_name));
+  if (has_curve_) add_curve(stress.substr(curve_choice.size()));
+  if (!zones.empty()) add_zones(zones);
 }
 
 void CurvedRequest::add_curve(const std::string& text) {

@@ -10,13 +10,17 @@
 
 namespace frictab::codegen::fortran {
 
-// Returns the gfortran command with `flags` after its usual ones, up to the library's name; the
-// caller appends the sources.
-std::vector<std::string> library_command(const std::vector<std::string>& flags);
+// Returns the variant that compiles these files of the bundle to a library by gfortran, with
+// `flags` after its usual ones. eps as in BuildVariant.
+BuildVariant library_variant(const std::string& name, double eps,
+                             const std::vector<std::string>& sources,
+                             const std::vector<std::string>& flags);
 
-// Returns the variant that compiles these files of the bundle to a library. If they have an ftquit,
-// one that returns silently replaces it, so that rows can be driven one after another. `quits` as
-// in CoreOptions, eps as in BuildVariant.
+// Adds a file to what the variant compiles, in place of a routine of the solver.
+void add_source(BuildVariant& variant, const std::string& file, const std::string& text);
+
+// Returns the same; if the files have an ftquit, one that returns silently replaces it, so that
+// rows can be driven one after another. `quits` as in CoreOptions.
 BuildVariant fortran_variant(const ExportRequest& request, const std::string& name, double eps,
                              const std::vector<std::string>& sources,
                              const std::vector<std::string>& flags = {}, bool quits = false);

@@ -52,11 +52,9 @@ void add_coordinates(TemplateValues& values, const Table& table) {
 // Adds the behaviour beyond the ends of the axes and of clamped inputs.
 void add_ends(TemplateValues& values, const Table& table) {
   for (const table::AxisEnds& axis : table::all_ends(table)) {
-    TemplateValues one;
-    one.text = {{"index", std::to_string(axis.input + 1)},
-                {"low", fortran_number(axis.low)},
-                {"high", fortran_number(axis.high)}};
-    values.lists["ends"].push_back(one);
+    values.lists["ends"].push_back({.text = {{"index", std::to_string(axis.input + 1)},
+                                             {"low", fortran_number(axis.low)},
+                                             {"high", fortran_number(axis.high)}}});
   }
   values.flags["has_ends"] = !values.lists["ends"].empty();
   values.lists["extending"] = table.is_direct() ? Lines{} : sides(table, table::Outside::law);
@@ -73,13 +71,19 @@ std::string add_parts(TemplateValues& values, const ExportRequest& request,
   const Piece slopes = gradient ? gradient_unit(request, values, options.units) : Piece{};
   for (const Piece& unit : {law, slopes})
     helpers.insert(helpers.end(), unit.helpers.begin(), unit.helpers.end());
-  for (const auto& [helper, flag] :
-       {std::pair{"ftmin", "uses_min"}, {"ftmax", "uses_max"}, {"ftwhle", "uses_where"}})
-    values.flags[flag] = std::count(helpers.begin(), helpers.end(), helper) > 0;
+  const auto uses = [&](const char* helper) {
+    return std::count(helpers.begin(), helpers.end(), helper) > 0;
+  };
+  Lines& extremes = values.lists["extremes"];
+  for (const auto& [helper, relation] : {std::pair{"ftmin", ".lt."}, {"ftmax", ".gt."}}) {
+    if (!uses(helper)) continue;
+    extremes.emplace_back();
+    extremes.back().text = {{"name", helper}, {"relation", relation}};
+  }
+  values.flags["uses_where"] = uses("ftwhle");
   values.flags["has_piece"] = has_piece;
   values.text["piece"] = law.text;
   values.text["gradient_text"] = slopes.text;
-  values.flags["gradient"] = gradient;
   return law.data;
 }
 
@@ -90,17 +94,11 @@ std::string add_formula(TemplateValues& values, const ExportRequest& request,
   const std::string tau = "fttau";
   Variables variables(table, table.combine, Language::fortran);
   Statements code = variables.statements({{table.combine, tau}});
-  std::vector<std::string> names;
-  values.lists["states"] = fixed_lines(states_from_x(table, variables, table.combine, names));
-  names.insert(names.end(), code.names.begin(), code.names.end());
-  std::erase(names, tau);
   for (const std::string& line : moved(code.results[0], tau))
     code.lines.push_back(line);
-  const std::vector<std::string> helpers = helpers_of(join(code.lines, "\n"));
+  const std::vector<std::string> helpers =
+      add_declarations(values, table, variables, table.combine, code, tau);
   values.lists["statements"] = fixed_lines(code.lines);
-  values.lists["constants"] = constant_lines(table, variables);
-  values.lists["helpers"] = items(helpers);
-  values.lists["variables"] = declarations(names);
   values.text["value"] = variables.name("value");
   values.flags["log_value"] = table.log_value;
   return add_parts(values, request, options, helpers);
@@ -110,9 +108,8 @@ std::vector<std::string> argument_lines(const Table& table) {
   std::vector<std::string> lines;
   const std::vector<InputArgument> arguments = entry_arguments(table, "mm-t-s");
   for (const std::string& name : table.inputs())
-    for (const InputArgument& argument : arguments)
-      if (argument.name == name)
-        lines.push_back(fmt::format("x({}) {}, {}", lines.size() + 1, name, argument.meaning));
+    lines.push_back(fmt::format("x({}) {}, {}", lines.size() + 1, name,
+                                argument_named(arguments, name).meaning));
   if (lines.empty()) lines.push_back("x(1) is not used");
   return lines;
 }
@@ -131,14 +128,13 @@ std::string head_text(const ExportRequest& request, const std::vector<SolverInpu
   std::vector<std::string> remarks = outside_rule(request.table, head.error_action);
   for (const std::string& line : values_file_lines(request, head.directory_routine))
     remarks.push_back(line);
-  TemplateValues values;
-  values.text["version"] = tool_version();
-  values.flags["of_a_release"] = !head.release.empty();
-  values.lists = {{"about", comments(about(request))},
-                  {"release", comments(head.release)},
-                  {"states", comments(state_lines(request, inputs))},
-                  {"outside", comments(remarks)}};
-  return without_last_break(render_template("fortran/frictab_head.f", values));
+  return render_part("fortran/frictab_head.f",
+                     {.text = {{"version", tool_version()}},
+                      .flags = {{"of_a_release", !head.release.empty()}},
+                      .lists = {{"about", comments(about(request))},
+                                {"release", comments(head.release)},
+                                {"states", comments(state_lines(request, inputs))},
+                                {"outside", comments(remarks)}}});
 }
 
 // Returns ftload and the units that it calls.
@@ -151,7 +147,7 @@ std::string values_unit(const ExportRequest& request, const std::vector<double>&
   values.flags["externals"] = options.units == Units::external;
   values.flags["asks_solver"] = !options.directory_routine.empty();
   values.text["outdir"] = options.directory_routine;
-  return without_last_break(render_template("fortran/frictab_values.f", values));
+  return render_part("fortran/frictab_values.f", values);
 }
 
 } // namespace
@@ -161,7 +157,7 @@ Core core(const ExportRequest& request, const CoreOptions& options) {
   const bool file = values_in_file(request), external = options.units == Units::external;
   TemplateValues values;
   Core out;
-  out.n_x = std::max<std::size_t>(table.inputs().size(), 1);
+  out.n_x = inputs_size(table);
   values.text["n_x"] = std::to_string(out.n_x);
   values.flags["uses_unknown"] = options.unknown || file || (options.gradient && refuses(table));
   values.flags["in_file"] = file;
@@ -182,9 +178,8 @@ Core core(const ExportRequest& request, const CoreOptions& options) {
   std::string& stops = values.text["stop"];
   if (external && !options.quit.empty() && refuses(table)) stops = stop(request) + "\n";
   if (!stops.empty() || file || options.quits) stops += options.quit;
-  values.flags["ends"] = !stops.empty();
   out.data = join(std::vector<std::string>{looked_up.data, weights}, "\n");
-  out.text = without_last_break(render_template("fortran/frictab_core.f", values));
+  out.text = render_part("fortran/frictab_core.f", values);
   return out;
 }
 

@@ -7,7 +7,6 @@
 
 #include "codegen/fixed_form.h"
 #include "core/text.h"
-#include "expr/derivative.h"
 #include "table/outside.h"
 
 namespace frictab::codegen::fortran {
@@ -29,30 +28,13 @@ Lines axes(const table::Table& table, const TemplateValues& core) {
   return out;
 }
 
-// True for the states that may change the value inside the formula.
-std::vector<bool> steps_after_value(const table::Table& table) {
-  std::vector<bool> out;
-  for (const std::string& name : table.inputs())
-    out.push_back((table.extension && expr::symbols(*table.extension).count(name)) ||
-                  std::any_of(table.axes.begin(), table.axes.end(),
-                              [&](const table::TableAxis& axis) { return axis.name == name; }));
-  return out;
-}
-
-// Adds tau, then dtau(i) = derivative at a fixed value plus the part through the value.
-void add_formula(TemplateValues& values, const table::Table& table,
-                 std::vector<std::string>& helpers) {
+// Adds tau, then dtau(i) = derivative at a fixed value plus the part through the value. Returns the
+// helpers that are called.
+std::vector<std::string> add_formula(TemplateValues& values, const table::Table& table) {
   const std::string tau = "tau";
   Variables variables(table, table.combine, Language::fortran);
   const std::vector<std::string> inputs = table.inputs();
-  const std::vector<bool> behind = steps_after_value(table);
-  // The slope is needed only if some state changes the value.
-  const bool changes = std::count(behind.begin(), behind.end(), true) > 0;
-  std::vector<Wanted> wanted{{table.combine, tau},
-                             {changes ? derivative(table.combine, "value") : expr::Expr(0.0),
-                              variables.slope(tau, "value")}};
-  for (const std::string& state : inputs)
-    wanted.push_back({derivative(table.combine, state), variables.slope(tau, state)});
+  const std::vector<Wanted> wanted = tangent_formulas(table, tau, inputs, variables);
   const Statements code = variables.statements(wanted);
   const auto value_lines = static_cast<std::ptrdiff_t>(code.first_lines[0]);
   std::vector<std::string> statements(code.lines.begin(), code.lines.begin() + value_lines);
@@ -61,7 +43,8 @@ void add_formula(TemplateValues& values, const table::Table& table,
   std::vector<std::string> slopes(code.lines.begin() + value_lines, code.lines.end());
   const bool by_value = !wanted[1].formula.is_constant(0);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const bool direct = !wanted[2 + i].formula.is_constant(0), through = by_value && behind[i];
+    const bool direct = !wanted[2 + i].formula.is_constant(0),
+               through = by_value && acts_through_value(table, inputs[i]);
     const std::string chain = wanted[1].formula.is_constant(1)
                                   ? fmt::format("by({})", i + 1)
                                   : fmt::format("{}*by({})", code.results[1], i + 1);
@@ -70,16 +53,10 @@ void add_formula(TemplateValues& values, const table::Table& table,
                                  direct && through ? " + " : "", through ? chain : ""));
   }
   if (inputs.empty()) slopes.push_back("dtau(1) = 0.0D0");
-  std::vector<std::string> names;
-  values.lists["states"] = fixed_lines(states_from_x(table, variables, table.combine, names));
-  names.insert(names.end(), code.names.begin(), code.names.end());
-  std::erase(names, tau);
   values.lists["statements"] = fixed_lines(statements);
   values.lists["slopes"] = fixed_lines(slopes);
-  values.lists["variables"] = declarations(names);
-  values.lists["constants"] = constant_lines(table, variables);
   values.text["value"] = variables.name("value");
-  helpers = helpers_of(join(code.lines, "\n"));
+  return add_declarations(values, table, variables, table.combine, code, tau);
 }
 
 } // namespace
@@ -88,11 +65,10 @@ Piece gradient_unit(const ExportRequest& request, const TemplateValues& core, Un
   const table::Table& table = request.table;
   TemplateValues values;
   Piece out;
-  add_formula(values, table, out.helpers);
+  out.helpers = add_formula(values, table);
   values.lists["axes"] = axes(table, core);
   values.lists["extending"] = core.lists.at("extending");
   values.lists["refusing"] = sides(table, table::Outside::error);
-  values.lists["helpers"] = items(out.helpers);
   for (const char* name : {"n_x", "n_axes", "only_value", "pure_tau"})
     values.text[name] = core.text.at(name);
   const bool refuses = !values.lists["refusing"].empty();
@@ -109,7 +85,7 @@ Piece gradient_unit(const ExportRequest& request, const TemplateValues& core, Un
                   {"log_value", table.log_value}};
   values.text["wish"] = units == Units::external ? ", .true." : "";
   add_units(values, units);
-  out.text = without_last_break(render_template("fortran/frictab_gradient.f", values));
+  out.text = render_part("fortran/frictab_gradient.f", values);
   return out;
 }
 

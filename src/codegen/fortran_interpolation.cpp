@@ -223,25 +223,22 @@ std::vector<TemplateValues> search_axes(const Table& table, const std::vector<lo
 std::string data_text(const Table& table, const Data& data, const std::vector<double>& baked,
                       bool in_file) {
   TemplateValues values;
-  values.text = {
-      {"n_nodes", std::to_string(data.nodes.size())},
-      {"n_cells", std::to_string(data.per_cell.size())},
-      {"n_guide", std::to_string(data.guide.size())},
-      {"n_basis", std::to_string(data.basis.size())},
-      {"n_values", std::to_string(baked.size())},
-      {"data_un", fixed_form_data("un", data.nodes)},
-      {"data_pc", fixed_form_data("pc", data.per_cell)},
-      {"data_gd", fixed_form_data("gd", data.guide)},
-      {"data_fc", fixed_form_data("fc", data.first)},
-      {"data_tb", fixed_form_data("tb", data.basis)},
-      {"data_tv", in_file ? "" : fixed_form_data("tv", baked)},
-      {"file", values_file_name},
-      {"value_comment",
-       clip(fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "coefficients of " : "",
-                        table.log_value ? "ln " : "", models::quantity_name(table.quantity)))}};
+  values.text = {{"n_nodes", std::to_string(data.nodes.size())},
+                 {"n_cells", std::to_string(data.per_cell.size())},
+                 {"n_guide", std::to_string(data.guide.size())},
+                 {"n_basis", std::to_string(data.basis.size())},
+                 {"n_values", std::to_string(baked.size())},
+                 {"data_un", fixed_form_data("un", data.nodes)},
+                 {"data_pc", fixed_form_data("pc", data.per_cell)},
+                 {"data_gd", fixed_form_data("gd", data.guide)},
+                 {"data_fc", fixed_form_data("fc", data.first)},
+                 {"data_tb", fixed_form_data("tb", data.basis)},
+                 {"data_tv", in_file ? "" : fixed_form_data("tv", baked)},
+                 {"file", values_file_name},
+                 {"value_comment", clip(baked_values_text(table, "coefficients of "))}};
   values.flags = {
       {"cubic", is_cubic(table)}, {"in_file", in_file}, {"uses_guide", !data.guide.empty()}};
-  return without_last_break(render_template("fortran/frictab_data.f", values));
+  return render_part("fortran/frictab_data.f", values);
 }
 
 // One program unit: the value, its derivatives, or both, chosen by a flag.

@@ -6,9 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "codegen/entry_arguments.h"
 #include "codegen/fixed_form.h"
-#include "codegen/layer.h"
+#include "codegen/layer_text.h"
 #include "codegen/number_text.h"
+#include "codegen/sides.h"
 #include "codegen/table_text.h"
 #include "core/text.h"
 #include "expr/derivative.h"
@@ -24,25 +26,28 @@ namespace {
 
 constexpr std::size_t comment_width = 66; // columns 7..72
 
+const char* relation(const Side& side) {
+  return side.above ? ".gt." : ".lt.";
+}
+
+TemplateValues test_of(const Side& side, double limit) {
+  return {.text = {{"index", std::to_string(side.input + 1)},
+                   {"relation", relation(side)},
+                   {"limit", fortran_number(limit)}}};
+}
+
 } // namespace
 
 Lines comments(const std::vector<std::string>& texts, std::size_t indent) {
   Lines lines;
-  for (const std::string& text : texts) {
-    const std::vector<std::string> pieces =
-        wrap_text(comment_text(text), comment_width - 2 - indent);
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-      lines.push_back(item(std::string(indent, ' ') + (i == 0 ? "" : "  ") +
-                           pieces[i].substr(0, comment_width - 2 - indent)));
-  }
+  for (const std::string& line : comment_lines(texts, comment_width - 2 - indent, "  "))
+    lines.push_back(item(std::string(indent, ' ') + line));
   return lines;
 }
 
 std::string locks(const std::string& stem, bool windows) {
-  TemplateValues values;
-  values.text["stem"] = stem;
-  values.flags["windows"] = windows;
-  return without_last_break(render_template("fortran/frictab_locks.f", values));
+  return render_part("fortran/frictab_locks.f",
+                     {.text = {{"stem", stem}}, .flags = {{"windows", windows}}});
 }
 
 std::string in_apostrophes(std::string_view name) {
@@ -56,8 +61,7 @@ std::string clip(const std::string& text) {
 }
 
 std::string place_of(const Table& table, const std::string& state) {
-  const std::vector<std::string> inputs = table.inputs();
-  return fmt::format("x({})", std::find(inputs.begin(), inputs.end(), state) - inputs.begin() + 1);
+  return fmt::format("x({})", input_index(table, state).value() + 1);
 }
 
 void add_units(TemplateValues& values, Units units) {
@@ -68,6 +72,20 @@ void add_units(TemplateValues& values, Units units) {
   values.flags["externals"] = !module;
   values.offered.insert({"pure", "in", "out", "externals"});
 }
+
+std::vector<std::string> moved(const std::string& result, const std::string& variable) {
+  if (result == variable) return {};
+  return {variable + " = " + result};
+}
+
+Lines fixed_lines(const std::vector<std::string>& statements) {
+  Lines lines;
+  for (const std::string& statement : statements)
+    lines.push_back(item(fixed_form(statement)));
+  return lines;
+}
+
+namespace {
 
 Lines declarations(const std::vector<std::string>& names) {
   const std::string head = "double precision ";
@@ -98,32 +116,32 @@ Lines constant_lines(const Table& table, const Variables& variables) {
   return constants;
 }
 
-std::vector<std::string> states_from_x(const Table& table, const Variables& variables,
-                                       const Expr& formula, std::vector<std::string>& names) {
-  std::vector<std::string> lines;
-  for (const std::string& state : variables.states_of(formula)) {
-    names.push_back(variables.name(state));
-    lines.push_back(names.back() + " = " + place_of(table, state));
-  }
-  return lines;
-}
-
-std::vector<std::string> moved(const std::string& result, const std::string& variable) {
-  if (result == variable) return {};
-  return {variable + " = " + result};
-}
-
-Lines fixed_lines(const std::vector<std::string>& statements) {
-  Lines lines;
-  for (const std::string& statement : statements)
-    lines.push_back(item(fixed_form(statement)));
-  return lines;
-}
-
 std::vector<std::string> helpers_of(const std::string& statements) {
   std::vector<std::string> helpers;
   for (const char* helper : {"ftmin", "ftmax", "ftwhle"})
     if (statements.find(std::string(helper) + "(") != std::string::npos) helpers.push_back(helper);
+  return helpers;
+}
+
+} // namespace
+
+std::vector<std::string> add_declarations(TemplateValues& values, const Table& table,
+                                          const Variables& variables, const Expr& formula,
+                                          const Statements& code, const std::string& result,
+                                          const std::vector<std::string>& clamps) {
+  std::vector<std::string> names, states;
+  for (const std::string& state : variables.states_of(formula)) {
+    names.push_back(variables.name(state));
+    states.push_back(names.back() + " = " + place_of(table, state));
+  }
+  names.insert(names.end(), code.names.begin(), code.names.end());
+  std::erase(names, result);
+  states.insert(states.end(), clamps.begin(), clamps.end());
+  const std::vector<std::string> helpers = helpers_of(join(code.lines, "\n"));
+  values.lists["states"] = fixed_lines(states);
+  values.lists["variables"] = declarations(names);
+  values.lists["constants"] = constant_lines(table, variables);
+  values.lists["helpers"] = items(helpers);
   return helpers;
 }
 
@@ -132,200 +150,92 @@ namespace {
 // Clamps the state of an axis that is clamped at an end.
 std::vector<std::string> held_lines(const Table& table, const Variables& variables) {
   std::vector<std::string> lines;
-  for (const table::AxisEnds& axis : table::axis_ends(table)) {
-    if (!expr::symbols(*table.extension).count(axis.name)) continue;
-    const std::string& x = variables.name(axis.name);
-    const auto end = [&](const char* relation, double at) {
-      lines.push_back(fmt::format("if ({0} {1} {2}) {0} = {2}", x, relation, fortran_number(at)));
-    };
-    if (axis.below != Outside::law) end(".lt.", axis.low);
-    if (axis.above != Outside::law) end(".gt.", axis.high);
-  }
+  for (const Side& side : clamped_sides(table))
+    lines.push_back(fmt::format("if ({0} {1} {2}) {0} = {2}", variables.name(side.axis),
+                                relation(side), fortran_number(side.end)));
   return lines;
 }
 
-void add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer,
-               const Statements& code) {
-  const UnitLayer none;
-  const UnitLayer& l = layer ? *layer : none;
-  for (std::size_t f = 0; f < l.features.size(); ++f) {
-    TemplateValues feature;
-    feature.text = {{"index", std::to_string(f)}, {"name", code.results[f]}};
-    values.lists["features"].push_back(feature);
-  }
-  values.lists["features"];
-  values.flags["has_layer"] = layer.has_value();
-  values.text["units"] = std::to_string(l.units());
-  values.text["outputs"] = std::to_string(l.outputs);
-}
+const LayerSpelling layer_spelling = {"net({})", 1, "b{}"};
 
 std::string weights(const UnitLayer& l) {
   TemplateValues values;
   for (std::size_t f = 0; f < l.features.size(); ++f) {
-    TemplateValues feature;
-    feature.text = {{"index", std::to_string(f)},
-                    {"data", fixed_form_data(fmt::format("wt{}", f), l.weight[f])}};
-    values.lists["features"].push_back(feature);
+    values.lists["features"].push_back(
+        {.text = {{"index", std::to_string(f)},
+                  {"data", fixed_form_data(fmt::format("wt{}", f), l.weight[f])}}});
   }
   values.text["units"] = std::to_string(l.units());
   values.text["outputs"] = std::to_string(l.outputs);
   values.text["data_bias"] = fixed_form_data("bias", l.bias);
   values.text["data_gain"] = fixed_form_data("gain", l.gain);
   values.text["data_offs"] = fixed_form_data("offs", l.offset);
-  return without_last_break(render_template("fortran/frictab_weights.f", values));
-}
-
-// Symbol for the derivative of the result by the weighted sum of feature f's units.
-std::string feature_slope(std::size_t f) {
-  return fmt::format("layer slope {}", f);
-}
-
-// Returns the derivatives by each input: of the formula after the layer, and through the layer's
-// features.
-std::vector<Expr> input_slopes(const Table& table, const LayeredFormula& formula) {
-  std::vector<Expr> slopes;
-  for (const std::string& name : table.inputs()) {
-    Expr slope = derivative(formula.rest, name);
-    for (std::size_t f = 0; formula.layer && f < formula.layer->features.size(); ++f) {
-      const Expr inner = derivative(formula.layer->features[f], name);
-      if (!inner.is_constant(0)) slope = slope + Expr::symbol(feature_slope(f)) * inner;
-    }
-    slopes.push_back(slope);
-  }
-  return slopes;
-}
-
-// Returns, in this order, features of the layer, value, adjoints of the layer's outputs and slopes.
-// The layer's own sums come after the features and before the slopes.
-std::vector<Wanted> formulas_of(const Table& table, const LayeredFormula& formula, bool gradient,
-                                const std::string& value, Variables& variables) {
-  const UnitLayer none;
-  const UnitLayer& layer = formula.layer ? *formula.layer : none;
-  std::vector<Wanted> wanted;
-  for (const Expr& feature : layer.features)
-    wanted.push_back({feature, variables.give(fmt::format("feature{}", wanted.size()))});
-  wanted.push_back({formula.rest, value});
-  for (std::size_t m = 0; m < layer.outputs; ++m)
-    variables.set(layer_output(m), fmt::format("net({})", m + 1));
-  if (!gradient) return wanted;
-  for (std::size_t m = 0; m < layer.outputs; ++m)
-    wanted.push_back({derivative(formula.rest, layer_output(m)),
-                      variables.give(fmt::format("{}_by_net{}", value, m + 1))});
-  for (std::size_t f = 0; f < layer.features.size(); ++f)
-    variables.set(feature_slope(f), fmt::format("b{}", f));
-  const std::vector<std::string> inputs = table.inputs();
-  const std::vector<Expr> slopes = input_slopes(table, formula);
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-    wanted.push_back({slopes[i], variables.slope(value, inputs[i])});
-  return wanted;
+  return render_part("fortran/frictab_weights.f", values);
 }
 
 // Adds the formulas of ftpiec or ftpieg, whose result is `value`. Returns the statements.
 Statements add_formulas(TemplateValues& values, const Table& table, const LayeredFormula& formula,
                         bool gradient, const std::string& value, Variables& variables) {
-  const Statements code =
-      variables.statements(formulas_of(table, formula, gradient, value, variables));
-  const std::size_t features = formula.layer ? formula.layer->features.size() : 0;
-  const std::size_t outputs = formula.layer && gradient ? formula.layer->outputs : 0;
-  const auto part = [&](std::size_t from, std::size_t to) {
-    return std::vector<std::string>(code.lines.begin() + static_cast<std::ptrdiff_t>(from),
-                                    code.lines.begin() + static_cast<std::ptrdiff_t>(to));
-  };
+  std::vector<Wanted> wanted = layer_formulas(formula, value, layer_spelling, variables);
+  if (gradient) add_slopes(wanted, formula, table.inputs(), layer_spelling, variables);
+  const Statements code = variables.statements(wanted);
+  const std::size_t features = formula.layer.features.size();
+  const std::size_t outputs = gradient ? formula.layer.outputs : 0;
   const std::size_t before = features > 0 ? code.first_lines[features - 1] : 0;
   const std::size_t first = code.first_lines[features];
   const std::size_t second = code.first_lines[features + outputs];
-  std::vector<std::string> statements = part(before, first),
-                           slopes = part(second, code.lines.size());
+  std::vector<std::string> statements = lines_between(code, before, first),
+                           slopes = lines_between(code, second, code.lines.size());
   for (const std::string& line : moved(code.results[features], value))
     statements.push_back(line);
   for (std::size_t i = features + 1 + outputs; i < code.results.size(); ++i)
     slopes.push_back(fmt::format("dv({}) = {}", i - features - outputs, code.results[i]));
-  values.lists["before"] = fixed_lines(part(0, before));
+  values.lists["before"] = fixed_lines(lines_between(code, 0, before));
   values.lists["statements"] = fixed_lines(statements);
-  values.lists["adjoints"] = fixed_lines(part(first, second));
+  values.lists["adjoints"] = fixed_lines(lines_between(code, first, second));
   values.lists["slopes"] = fixed_lines(slopes);
   values.lists["by_outputs"];
-  for (std::size_t m = 0; m < outputs; ++m) {
-    TemplateValues output;
-    output.text = {{"index", std::to_string(m + 1)}, {"name", code.results[features + 1 + m]}};
-    values.lists["by_outputs"].push_back(output);
-  }
-  add_layer(values, formula.layer, code);
+  add_layer(values, formula.layer, layer_spelling, code);
   return code;
 }
 
 // Lists the sides at which an axis is clamped: the formula does not change by it beyond them.
 Lines stopped_sides(const Table& table) {
   Lines lines;
-  for (const Outside kind : {Outside::clamp, Outside::error})
-    for (const table::AxisEnds& axis : table::axis_ends(table)) {
-      if (!expr::symbols(*table.extension).count(axis.name)) continue;
-      const auto add = [&](const char* relation, double limit) {
-        TemplateValues side;
-        side.text = {{"index", std::to_string(axis.input + 1)},
-                     {"relation", relation},
-                     {"limit", fortran_number(limit)}};
-        lines.push_back(side);
-      };
-      if (axis.below == kind) add(".lt.", axis.low);
-      if (axis.above == kind) add(".gt.", axis.high);
-    }
+  for (const Outside answer : {Outside::clamp, Outside::error})
+    for (const Side& side : clamped_sides(table))
+      if (side.answer == answer) lines.push_back(test_of(side, side.end));
   return lines;
 }
 
 } // namespace
 
-std::string without_last_break(std::string text) {
-  if (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
-}
-
 Piece piece(const Table& table, bool gradient, Units units) {
   TemplateValues values;
   const LayeredFormula formula = split_layer(*table.extension);
   Variables variables(table, *table.extension, Language::fortran, {},
-                      formula.layer ? names_of_a_layer(formula.layer->features.size())
-                                    : std::set<std::string>{});
+                      names_of_layer(formula.layer));
   const std::string value = gradient ? variables.name("value") : "ftpiec";
-  std::vector<std::string> names;
-  std::vector<std::string> states = states_from_x(table, variables, *table.extension, names);
-  for (const std::string& line : held_lines(table, variables))
-    states.push_back(line);
   const Statements code = add_formulas(values, table, formula, gradient, value, variables);
-  names.insert(names.end(), code.names.begin(), code.names.end());
-  std::erase(names, value);
   values.text["value"] = value;
   values.text["quantity"] = models::quantity_name(table.quantity);
-  values.text["n_x"] = std::to_string(std::max<std::size_t>(table.inputs().size(), 1));
+  values.text["n_x"] = std::to_string(inputs_size(table));
   values.flags["gradient"] = gradient;
-  values.lists["declarations"] = declarations(names);
-  values.lists["constants"] = constant_lines(table, variables);
-  values.lists["states"] = fixed_lines(states);
   values.lists["stopped"] = gradient ? stopped_sides(table) : Lines{};
   add_units(values, units);
   Piece out;
-  out.data = formula.layer ? weights(*formula.layer) : "";
+  out.data = formula.has_layer() ? weights(formula.layer) : "";
   values.text["data"] = units == Units::external ? out.data : "";
-  out.helpers = helpers_of(join(code.lines, "\n"));
-  values.lists["helpers"] = items(out.helpers);
-  out.text = without_last_break(render_template("fortran/frictab_piece.f", values));
+  out.helpers = add_declarations(values, table, variables, *table.extension, code, value,
+                                 held_lines(table, variables));
+  out.text = render_part("fortran/frictab_piece.f", values);
   return out;
 }
 
-Lines sides(const Table& table, Outside kind) {
+Lines sides(const Table& table, Outside answer) {
   Lines lines;
-  for (const table::AxisEnds& axis : table::axis_ends(table)) {
-    const bool refuses = kind == Outside::error;
-    const auto add = [&](const char* relation, double limit) {
-      TemplateValues side;
-      side.text = {{"index", std::to_string(axis.input + 1)},
-                   {"relation", relation},
-                   {"limit", fortran_number(limit)}};
-      lines.push_back(side);
-    };
-    if (axis.below == kind) add(".lt.", refuses ? axis.refused_below : axis.low);
-    if (axis.above == kind) add(".gt.", refuses ? axis.refused_above : axis.high);
-  }
+  for (const Side& side : codegen::sides(table, answer))
+    lines.push_back(test_of(side, side.limit));
   return lines;
 }
 

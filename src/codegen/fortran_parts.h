@@ -24,28 +24,23 @@ std::string in_apostrophes(std::string_view name);
 // Cuts a remark to its first line; the rest is in the head of the file.
 std::string clip(const std::string& text);
 
-// Returns "double precision mu, k, ..."
-Lines declarations(const std::vector<std::string>& names);
-
 // Returns the place of a state in x: x(1), ...
 std::string place_of(const table::Table& table, const std::string& state);
 
-// Declares the constants that a formula uses, as named constants.
-Lines constant_lines(const table::Table& table, const Variables& variables);
-
-// Returns assignments of the states that a formula uses, "sigma_n_MPa = x(1)"; adds their names to
-// `names`.
-std::vector<std::string> states_from_x(const table::Table& table, const Variables& variables,
-                                       const expr::Expr& formula, std::vector<std::string>& names);
+// Adds the values around the statements of a formula in a unit whose result is `result`: lists
+// states (assignments, "sigma_n_MPa = x(1)", followed by `clamps`), variables (declarations of all
+// names but the result), constants and helpers, those of ftmin, ftmax, ftwhle that the statements
+// call. Returns these.
+std::vector<std::string> add_declarations(TemplateValues& values, const table::Table& table,
+                                          const Variables& variables, const expr::Expr& formula,
+                                          const Statements& code, const std::string& result,
+                                          const std::vector<std::string>& clamps = {});
 
 // Returns the assignment of a result to its variable; empty if it is already there.
 std::vector<std::string> moved(const std::string& result, const std::string& variable);
 
 // Formats statements in fixed form.
 Lines fixed_lines(const std::vector<std::string>& statements);
-
-// Returns those of ftmin, ftmax, ftwhle that these statements call.
-std::vector<std::string> helpers_of(const std::string& statements);
 
 // Form of program units: external, each with declarations of those it calls and its numbers inside;
 // or in a module, pure, with the numbers in the module (Core::data).
@@ -65,10 +60,7 @@ struct Piece {
 // as well.
 Piece piece(const table::Table& table, bool gradient, Units units);
 
-// Returns "x(index) relation limit" for each side of that kind.
-Lines sides(const table::Table& table, table::Outside kind);
-
-// Removes the line break at the end of a template's text, for insertion into another template.
-std::string without_last_break(std::string text);
+// Returns "x(index) relation limit" for each side with this answer.
+Lines sides(const table::Table& table, table::Outside answer);
 
 } // namespace frictab::codegen::fortran

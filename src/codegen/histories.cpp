@@ -11,6 +11,7 @@
 #include "codegen/number_text.h"
 #include "codegen/solver_units.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "data/derived.h"
 
 namespace frictab::codegen {
@@ -81,12 +82,10 @@ public:
                {"distance", distance_of(input)}} {}
 
   TemplateValues values() const {
-    TemplateValues out;
-    out.text = {{"comment", comment_},
-                {"now", statements(rule_.now)},
-                {"next", statements(rule_.next)},
-                {"slope", statements(rule_.slope)}};
-    return out;
+    return {.text = {{"comment", comment_},
+                     {"now", statements(rule_.now)},
+                     {"next", statements(rule_.next)},
+                     {"slope", statements(rule_.slope)}}};
   }
 
 private:
@@ -113,13 +112,10 @@ private:
   }
 
   std::string statements(std::string_view lines) const {
-    std::string out;
-    while (!lines.empty()) {
-      const std::size_t end = std::min(lines.find('\n'), lines.size());
-      out += (out.empty() ? "" : "\n") + fixed_form(insert_names(lines.substr(0, end), names_));
-      lines.remove_prefix(std::min(end + 1, lines.size()));
-    }
-    return out;
+    std::vector<std::string> out;
+    for (const std::string_view line : lines_of(lines))
+      out.push_back(fixed_form(insert_names(line, names_)));
+    return join(out, "\n");
   }
 
   HistoryRule rule_;
@@ -132,6 +128,14 @@ bool calls(const Lines& histories, const char* part, const std::string& function
   return std::any_of(histories.begin(), histories.end(), [&](const TemplateValues& one) {
     return one.text.at(part).find(function + "(") != std::string::npos;
   });
+}
+
+// Lists those of these functions that the texts call; others come along with the first of a group.
+Lines called(const Lines& histories, const char* part, const std::vector<std::string>& groups) {
+  Lines out;
+  for (const std::string& group : groups)
+    if (calls(histories, part, group.substr(0, group.find(',')))) out.push_back(item(group));
+  return out;
 }
 
 // Returns the column of a name; null if there is none.
@@ -260,13 +264,19 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
     if (is(input, C::per_time)) own.flags["time_of_its_own"] = false;
     histories.push_back(RuleText(input, i + 1, time, units).values());
   }
-  own.flags["has_mean"] = calls(histories, "now", "ftmean");
-  own.flags["has_most"] = calls(histories, "now", "ftmost");
-  own.flags["has_ratio"] = calls(histories, "now", "ftrat");
-  own.flags["has_turn"] = calls(histories, "now", "ftturn");
-  own.flags["has_rise"] = calls(histories, "now", "ftrise");
-  own.flags["has_recent"] = calls(histories, "now", "ftlate");
-  own.flags["has_theta"] = calls(histories, "now", "ftthta");
+  own.lists["now_calls"] = called(
+      histories, "now",
+      {"ftmost", "ftmean", "ftrat", "ftturn, ftrsng", "ftrise", "ftlate", "ftthta", "ftgrow"});
+  own.lists["next_calls"] =
+      called(histories, "next", {"ftmost", "ftturn", "ftfrst", "ftlate", "ftaged", "ftslpd"});
+  for (const auto& [flag, function] : {std::pair{"has_mean", "ftmean"},
+                                       {"has_most", "ftmost"},
+                                       {"has_ratio", "ftrat"},
+                                       {"has_turn", "ftturn"},
+                                       {"has_rise", "ftrise"},
+                                       {"has_recent", "ftlate"},
+                                       {"has_theta", "ftthta"}})
+    own.flags[flag] = calls(histories, "now", function);
   own.flags["has_aging"] = calls(histories, "next", "ftaged");
   own.flags["has_slipping"] = calls(histories, "next", "ftslpd");
   own.flags["has_area"] = first_area(inputs) > 0;
@@ -278,14 +288,12 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
               {"slowest", fortran_number(second.to_canonical(data::slowest_speed))},
               {"at_peak", fortran_number(data::at_peak)},
               {"a", own.flags["has_area"] ? ", a" : ""}};
-  values.text["histories_text"] =
-      without_last_break(render_template("fortran/frictab_histories.f", own));
+  values.text["histories_text"] = render_part("fortran/frictab_histories.f", own);
 }
 
 TemplateValues area_of_driver(const ExportRequest&, const std::vector<SolverInput>& inputs) {
   const std::size_t area = first_area(inputs);
-  TemplateValues values;
-  values.flags["has_area"] = area > 0;
+  TemplateValues values{.flags = {{"has_area", area > 0}}};
   if (area > 0) values.text["first_area"] = std::to_string(area);
   return values;
 }

@@ -2,9 +2,12 @@
 #include "codegen/layer.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
+
+#include "expr/derivative.h"
 
 namespace frictab::codegen {
 
@@ -149,15 +152,28 @@ std::string layer_output(std::size_t m) {
   return fmt::format("layer output {}", m);
 }
 
+std::string layer_slope(std::size_t f) {
+  return fmt::format("layer slope {}", f);
+}
+
 LayeredFormula split_layer(const Expr& formula) {
   const Expr whole = shared(formula);
   const Outputs outputs(whole);
   std::optional<UnitLayer> layer = layer_of(outputs);
-  if (!layer || layer->units() < least_units) return {std::nullopt, whole};
+  if (!layer || layer->units() < least_units) return {{}, whole};
   std::vector<std::pair<Expr, Expr>> nodes;
   for (const auto& [node, sum] : outputs.found)
     nodes.emplace_back(node, Expr::symbol(layer_output(nodes.size())));
-  return {std::move(layer), substitute(whole, nodes)};
+  return {std::move(*layer), substitute(whole, nodes)};
+}
+
+Expr slope_by(const LayeredFormula& formula, const std::string& state) {
+  Expr slope = derivative(formula.rest, state);
+  for (std::size_t f = 0; f < formula.layer.features.size(); ++f) {
+    const Expr inner = derivative(formula.layer.features[f], state);
+    if (!inner.is_constant(0)) slope = slope + Expr::symbol(layer_slope(f)) * inner;
+  }
+  return slope;
 }
 
 std::size_t count_numbers(const Expr& formula) {

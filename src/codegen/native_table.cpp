@@ -39,8 +39,7 @@ bool is_pressure(const NativeColumn& column) {
 // Returns the argument of a state that the table may not take, so that solver_inputs does not have
 // it.
 InputArgument argument_of(const ExportRequest& request, const std::string& name) {
-  const auto all = entry_arguments(request.table, request.units);
-  return *std::find_if(all.begin(), all.end(), [&](const auto& a) { return a.name == name; });
+  return argument_named(entry_arguments(request.table, request.units), name);
 }
 
 std::optional<std::pair<double, double>> range_of(const table::Table& table,
@@ -52,9 +51,7 @@ std::optional<std::pair<double, double>> range_of(const table::Table& table,
 
 // True if the coefficient is m, which needs a flow stress even if the law does not.
 bool asks_flow_stress(const ExportRequest& request, const NativeForm& form) {
-  const auto inputs = request.table.inputs();
-  return form.factor == NativeFactor::shear_yield &&
-         std::find(inputs.begin(), inputs.end(), "sigma_f_MPa") == inputs.end();
+  return form.factor == NativeFactor::shear_yield && !input_index(request.table, "sigma_f_MPa");
 }
 
 double flow_stress_of(const std::string& choice) {
@@ -280,8 +277,12 @@ double first_pressure(const NativeProblem& problem, std::size_t column, double a
   return pressure;
 }
 
-NativeProblem problem_of(const ExportRequest& request, const NativeForm& form,
-                         const std::vector<NativeColumn>& columns, const table::FixedStates& held) {
+} // namespace
+
+NativeProblem native_problem(const ExportRequest& request, const NativeForm& form) {
+  check_table(request.table);
+  const std::vector<NativeColumn> columns = native_columns(request, form);
+  const table::FixedStates held = native_fixed_states(request, form);
   NativeProblem problem;
   problem.most = fortran::largest_coefficient;
   for (const NativeColumn& column : columns) {
@@ -312,14 +313,6 @@ NativeProblem problem_of(const ExportRequest& request, const NativeForm& form,
   return problem;
 }
 
-} // namespace
-
-NativeProblem native_problem(const ExportRequest& request, const NativeForm& form) {
-  check_table(request.table);
-  return problem_of(request, form, native_columns(request, form),
-                    native_fixed_states(request, form));
-}
-
 NativeTable native_table(const ExportRequest& request, const NativeForm& form) {
   NativeProblem problem = native_problem(request, form);
   NativeTable out;
@@ -342,26 +335,14 @@ NativeTable native_table(const ExportRequest& request, const NativeForm& form) {
   return out;
 }
 
-void drive_native(const NativeForm& form, const NativeValues& values, const ExportRequest& request,
-                  std::size_t rows, std::span<const double* const> given, std::span<double> tau) {
-  const std::size_t columns = native_columns(request, form).size();
-  if (values.nodes.size() != columns)
-    throw std::runtime_error(fmt::format("the table was written for {} columns, it has {}", columns,
-                                         values.nodes.size()));
-  drive_coefficient(
-      form, [&](std::span<const double> x) { return values.at(x); }, values.limit, request, rows,
-      given, tau);
-}
-
 void drive_coefficient(const NativeForm& form, const NativeCoefficient& coefficient,
                        std::optional<double> limit, const ExportRequest& request, std::size_t rows,
                        std::span<const double* const> given, std::span<double> tau) {
   const std::vector<NativeColumn> columns = native_columns(request, form);
   const table::FixedStates held = native_fixed_states(request, form);
-  const std::vector<std::string> inputs = request.table.inputs();
   const auto column_of = [&](const std::string& name) -> const double* {
-    const auto at = std::find(inputs.begin(), inputs.end(), name);
-    return at == inputs.end() ? nullptr : given[static_cast<std::size_t>(at - inputs.begin())];
+    const std::optional<std::size_t> at = input_index(request.table, name);
+    return at ? given[*at] : nullptr;
   };
   const SolverUnit stress = solver_unit("MPa", request.units);
   const double* flow_stress = column_of("sigma_f_MPa");
@@ -393,10 +374,50 @@ void drive_coefficient(const NativeForm& form, const NativeCoefficient& coeffici
   }
 }
 
-table::Table native_as_table(const NativeForm& form, const NativeValues& values,
-                             const ExportRequest& request) {
-  const std::vector<NativeColumn> columns = native_columns(request, form);
-  const table::FixedStates held = native_fixed_states(request, form);
+SourceBundle NativeTarget::generate(const ExportRequest& request) const {
+  const NativeForm native = form(request);
+  const NativeTable table = native_table(request, native);
+  SourceBundle files = {
+      {text_.file, write(request, table, native_comments(*this, request, native, table))}};
+  files["recipe.json"] =
+      native_recipe(*this, request, native, table, files, text_.entry, text_.input_deck);
+  return explained(files, *this);
+}
+
+BuildVariant native_deck() {
+  BuildVariant deck;
+  deck.name = "deck";
+  deck.eps = 5e-9; // nine digits
+  return deck;
+}
+
+std::vector<BuildVariant> NativeTarget::variants(const ExportRequest&) const {
+  return {native_deck()};
+}
+
+void NativeTarget::drive(const Built& built, const ExportRequest& request, std::size_t rows,
+                         std::span<const double* const> columns, std::span<double> tau) const {
+  const NativeForm native = form(request);
+  const NativeValues values = read(io::read_file(built.directory / text_.file), request);
+  const std::size_t expected = native_columns(request, native).size();
+  if (values.nodes.size() != expected)
+    throw std::runtime_error(fmt::format("the table was written for {} columns, it has {}",
+                                         expected, values.nodes.size()));
+  drive_coefficient(
+      native, [&](std::span<const double> x) { return values.at(x); }, values.limit, request, rows,
+      columns, tau);
+}
+
+bool NativeTarget::gives_mu(const ExportRequest& request) const {
+  return form(request).factor == NativeFactor::pressure;
+}
+
+table::Table NativeTarget::own_table(const ExportRequest& request,
+                                     const SourceBundle& files) const {
+  const NativeForm native = form(request);
+  const NativeValues values = read(files.at(text_.file), request);
+  const std::vector<NativeColumn> columns = native_columns(request, native);
+  const table::FixedStates held = native_fixed_states(request, native);
   table::Table out;
   out.model = request.table.model;
   out.value = values.value;
@@ -410,7 +431,7 @@ table::Table native_as_table(const NativeForm& form, const NativeValues& values,
     out.axes.push_back(std::move(axis));
   }
   Expr factor = Expr::symbol("sigma_n_MPa");
-  if (form.factor == NativeFactor::shear_yield) {
+  if (native.factor == NativeFactor::shear_yield) {
     const auto flow = held.find("sigma_f_MPa");
     factor = flow == held.end() ? shear_yield(Expr::symbol("sigma_f_MPa"))
                                 : Expr(shear_yield(flow->second));
@@ -420,38 +441,6 @@ table::Table native_as_table(const NativeForm& form, const NativeValues& values,
     out.combine =
         minimum(out.combine, solver_unit("MPa", request.units).to_canonical(*values.limit));
   return out;
-}
-
-SourceBundle NativeTarget::generate(const ExportRequest& request) const {
-  const NativeForm native = form(request);
-  const NativeTable table = native_table(request, native);
-  SourceBundle files = {
-      {text_.file, write(request, table, native_comments(*this, request, native, table))}};
-  files["recipe.json"] =
-      native_recipe(*this, request, native, table, files, text_.entry, text_.input_deck);
-  return explained(files, *this);
-}
-
-std::vector<BuildVariant> NativeTarget::variants(const ExportRequest&) const {
-  BuildVariant deck;
-  deck.name = "deck";
-  deck.eps = 5e-9; // nine digits
-  return {deck};
-}
-
-void NativeTarget::drive(const Built& built, const ExportRequest& request, std::size_t rows,
-                         std::span<const double* const> columns, std::span<double> tau) const {
-  const NativeValues values = read(io::read_file(built.directory / text_.file), request);
-  drive_native(form(request), values, request, rows, columns, tau);
-}
-
-bool NativeTarget::gives_mu(const ExportRequest& request) const {
-  return form(request).factor == NativeFactor::pressure;
-}
-
-table::Table NativeTarget::own_table(const ExportRequest& request,
-                                     const SourceBundle& files) const {
-  return native_as_table(form(request), read(files.at(text_.file), request), request);
 }
 
 table::FixedStates NativeTarget::fixed_states(const ExportRequest& request) const {

@@ -66,9 +66,6 @@ NativeProblem native_problem(const ExportRequest& request, const NativeForm& for
 // that table has sampled values, its own drift is subtracted first.
 NativeTable native_table(const ExportRequest& request, const NativeForm& form);
 
-// Returns texts as comment lines without their mark, of at most 90 columns; further lines of a text
-// are indented.
-std::vector<std::string> wrapped_comments(const std::vector<std::string>& texts);
 // Returns the texts that such files begin with: law, data, units.
 std::vector<std::string> native_head(const Exporter& exporter, const ExportRequest& request);
 
@@ -83,23 +80,15 @@ std::string native_recipe(const Exporter& exporter, const ExportRequest& request
                           const SourceBundle& files, const std::string& entry,
                           const std::string& input_deck);
 
-// Returns the same as a table of frictab: linear between the nodes of its columns, tau_R from the
-// coefficient. Its inputs are the columns on which the coefficient depends, and those of the
-// factor.
-table::Table native_as_table(const NativeForm& form, const NativeValues& values,
-                             const ExportRequest& request);
-
-// Computes tau_R as the solver does from values read back from a text. Throws std::runtime_error if
-// they do not fit the request.
-void drive_native(const NativeForm& form, const NativeValues& values, const ExportRequest& request,
-                  std::size_t rows, std::span<const double* const> columns, std::span<double> tau);
-
 // Computes tau_R from a coefficient of the columns (solver's units), at most `limit` (MPa in the
 // solver's unit), as the solver does.
 using NativeCoefficient = std::function<double(std::span<const double> columns)>;
 void drive_coefficient(const NativeForm& form, const NativeCoefficient& coefficient,
                        std::optional<double> limit, const ExportRequest& request, std::size_t rows,
                        std::span<const double* const> columns, std::span<double> tau);
+
+// The only variant of such a target: nothing is compiled, numbers have nine digits.
+BuildVariant native_deck();
 
 // Names of such a target's text, for its recipe and `frictab table convert`.
 struct NativeText {
@@ -119,6 +108,8 @@ public:
   void drive(const Built& built, const ExportRequest& request, std::size_t rows,
              std::span<const double* const> columns, std::span<double> tau) const final;
   bool is_routine() const final { return false; }
+  // Returns a table that is linear between the nodes of its columns, tau_R from the coefficient.
+  // Its inputs are the columns on which the coefficient depends, and those of the factor.
   table::Table own_table(const ExportRequest& request, const SourceBundle& files) const final;
   table::FixedStates fixed_states(const ExportRequest& request) const final;
   bool gives_mu(const ExportRequest& request) const final;

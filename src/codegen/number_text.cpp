@@ -41,7 +41,8 @@ std::string number_lines(const std::vector<std::string>& items, std::size_t widt
   return out + line;
 }
 
-std::vector<std::string> wrap_text(std::string_view text, std::size_t width) {
+std::vector<std::string> wrap_text(std::string_view text, std::size_t width,
+                                   std::string_view further) {
   std::vector<std::string> lines(1);
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t end = std::min(text.find(' ', i), text.size());
@@ -56,6 +57,15 @@ std::vector<std::string> wrap_text(std::string_view text, std::size_t width) {
     lines.back() += (lines.back().empty() ? "" : " ") + word;
     i = end + 1;
   }
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    lines[i].insert(0, further);
+  return lines;
+}
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines;
+  for (std::size_t at = 0; at < text.size(); at += lines.back().size() + 1)
+    lines.push_back(text.substr(at, text.find('\n', at) - at));
   return lines;
 }
 

@@ -1,7 +1,6 @@
 // Fills templates/fortran/frictab_seen.f.
 #include "codegen/outside_summary.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -18,15 +17,10 @@ namespace {
 
 constexpr const char* summary_key = "outside_summary";
 
-bool is_logarithmic(const table::Table& table, const std::string& name) {
-  const table::TableAxis* axis = table::find_axis(table, name);
-  return axis && axis->log;
-}
-
 TemplateValues end_values(const table::Table& table, const table::AxisEnds& axis,
                           const InputArgument& argument) {
   const SolverUnit& unit = argument.solver;
-  const bool log = is_logarithmic(table, axis.name);
+  const bool log = argument.axis && table.axes[*argument.axis].log;
   const double length = log ? std::log(axis.high / axis.low) : axis.high - axis.low;
   TemplateValues one;
   one.flags["log"] = log;
@@ -59,18 +53,16 @@ std::string fortran::outside_summary(const Exporter& exporter, const ExportReque
   TemplateValues values;
   const std::vector<InputArgument> arguments = entry_arguments(request.table, request.units);
   for (const table::AxisEnds& axis : ends) {
-    const auto argument =
-        std::find_if(arguments.begin(), arguments.end(),
-                     [&](const InputArgument& one) { return one.name == axis.name; });
-    values.lists["ends"].push_back(end_values(request.table, axis, *argument));
+    values.lists["ends"].push_back(
+        end_values(request.table, axis, argument_named(arguments, axis.name)));
     values.lists["ends"].back().text["number"] = std::to_string(values.lists["ends"].size());
   }
   const bool windows = said == "at_exit_windows";
   values.flags["windows"] = windows;
   values.text = {{"locks", locks("ft", windows)},
                  {"model", fortran::in_apostrophes(request.table.model)},
-                 {"n_x", std::to_string(std::max<std::size_t>(request.table.inputs().size(), 1))}};
-  return without_last_break(render_template("fortran/frictab_seen.f", values));
+                 {"n_x", std::to_string(inputs_size(request.table))}};
+  return render_part("fortran/frictab_seen.f", values);
 }
 
 } // namespace frictab::codegen

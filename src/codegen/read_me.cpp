@@ -8,6 +8,7 @@
 
 #include "codegen/deck.h"
 #include "codegen/number_text.h"
+#include "codegen/recipe.h"
 #include "codegen/source_check.h"
 #include "core/template.h"
 #include "core/text.h"
@@ -33,23 +34,15 @@ Texts texts_at(const json& object, const char* key) {
   return at != object.end() && at->is_array() ? at->get<Texts>() : Texts{};
 }
 
-std::string without_last_break(std::string text) {
-  if (text.ends_with('\n')) text.pop_back();
-  return text;
-}
-
 std::string wrapped(const std::string& text) {
   return join(wrap_text(text, page_width), "\n");
 }
 
 std::string bullets(const Texts& texts) {
-  Texts lines;
+  Texts items;
   for (const std::string& text : texts)
-    for (std::string indent = "* "; const std::string& line : wrap_text(text, page_width - 2)) {
-      lines.push_back(indent + line);
-      indent = "  ";
-    }
-  return join(lines, "\n");
+    items.push_back("* " + join(wrap_text(text, page_width - 2, "  "), "\n"));
+  return join(items, "\n");
 }
 
 std::string with_unit(const std::string& meaning, const std::string& unit) {
@@ -223,7 +216,6 @@ void add_compiling(TemplateValues& values, const json& recipe) {
       stand_ins += fmt::format("A `{}` next to it stands for that of the solver:\n```\n{}```\n",
                                name, text.get<std::string>());
   values.flags["in_solver"] = !in_solver.empty();
-  values.flags["stand_ins"] = !stand_ins.empty();
   values.text["in_solver"] = join(in_solver, "\n");
   values.text["build"] = bullets(build);
   values.text["alone"] = join(alone, "\n");
@@ -280,11 +272,7 @@ SourceBundle explained(SourceBundle files, const Exporter& exporter) {
       files[script] = script_text(recipe);
   }
   files["README.md"] = read_me(recipe, exporter);
-  files.erase("recipe.json");
-  recipe["files"] = json::array();
-  for (const auto& [path, text] : files)
-    recipe["files"].push_back(path);
-  recipe["files"].push_back("recipe.json");
+  recipe["files"] = recipe_files(files);
   files["recipe.json"] = io::json_text(recipe);
   return files;
 }

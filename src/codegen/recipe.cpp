@@ -1,7 +1,6 @@
 // The parts of recipe.json that do not depend on the target.
 #include "codegen/recipe.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
@@ -46,12 +45,16 @@ json axis_json(const table::TableAxis& axis, std::size_t bit, const InputArgumen
 
 } // namespace
 
+std::vector<std::string> recipe_files(const SourceBundle& files) {
+  std::vector<std::string> names;
+  for (const auto& [path, content] : files)
+    if (path != "recipe.json") names.push_back(path);
+  names.push_back("recipe.json");
+  return names;
+}
+
 json recipe_head(const Exporter& exporter, const ExportRequest& request, const std::string& entry,
                  const SourceBundle& files) {
-  json names = json::array();
-  for (const auto& [path, content] : files)
-    names.push_back(path);
-  names.push_back("recipe.json");
   json out = {{"schema", schema},
               {"target", exporter.name},
               {"title", exporter.title},
@@ -61,7 +64,7 @@ json recipe_head(const Exporter& exporter, const ExportRequest& request, const s
               {"data_origin", origin_text(request.table)},
               {"units", unit_names(request.units)},
               {"entry", entry},
-              {"files", names},
+              {"files", recipe_files(files)},
               {"signature_source", exporter.signature_source}};
   if (has_prefix(request)) out["prefix"] = prefix(request);
   if (const auto values = files.find(values_file_name); values != files.end())
@@ -94,11 +97,8 @@ json recipe_table(const ExportRequest& request) {
   const table::Table& table = request.table;
   const std::vector<InputArgument> inputs = entry_arguments(table, request.units);
   json axes = json::array();
-  for (std::size_t a = 0; a < table.axes.size(); ++a) {
-    const auto input = std::find_if(inputs.begin(), inputs.end(),
-                                    [&](const InputArgument& i) { return i.axis && *i.axis == a; });
-    axes.push_back(axis_json(table.axes[a], a, *input));
-  }
+  for (const table::TableAxis& axis : table.axes)
+    axes.push_back(axis_json(axis, axes.size(), argument_named(inputs, axis.name)));
   json held = json::array();
   for (const table::AxisEnds& end : table::clamped_input_ends(table))
     held.push_back({{"name", end.name},
@@ -130,6 +130,23 @@ json recipe_table(const ExportRequest& request) {
   if (table.drift_is_claimed && record.worst_case_MPa)
     out["drift_is_claimed_by"] = "the table's file";
   return out;
+}
+
+std::string recipe_of_text(json recipe, const ExportRequest& request,
+                           const std::string& input_deck) {
+  for (const char* none : {"state_variables", "properties", "compile"})
+    recipe[none] = json::array();
+  recipe["input_deck"] = input_deck;
+  recipe["table"] = recipe_table(request);
+  return io::json_text(recipe);
+}
+
+void add_fixed_states(json& recipe, const table::FixedStates& fixed) {
+  recipe["held"] = json::object();
+  for (const auto& [name, value] : fixed)
+    recipe["held"][name] = value;
+  recipe["held_note"] =
+      "in canonical units; what that costs on the validation rows is in verify.json";
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "codegen/flow_curve.h"
+#include "codegen/fortran_build.h"
 #include "codegen/prefix.h"
 #include "codegen/read_me.h"
 #include "codegen/recipe.h"
@@ -66,7 +67,7 @@ std::vector<BuildVariant> RoutineTarget::variants(const ExportRequest& as_given)
   const std::string text = render_template(template_path("driver.f"), values);
   std::vector<BuildVariant> all = builds(request);
   for (BuildVariant& one : all)
-    add_driver(one, text);
+    fortran::add_source(one, "driver.f", text);
   return all;
 }
 

@@ -229,8 +229,7 @@ std::vector<SolverInput> solver_inputs(const ExportRequest& request, const Solve
   bool warm = false;
   const auto add = [&](const std::string& name) {
     SolverInput input;
-    input.argument = *std::find_if(arguments.begin(), arguments.end(),
-                                   [&](const InputArgument& a) { return a.name == name; });
+    input.argument = argument_named(arguments, name);
     input.fallback = fallback(request.table, name);
     Choice choice(input, gives, request.table, faults);
     if (const auto said = request.inputs.find(name); said != request.inputs.end())
@@ -256,12 +255,10 @@ std::vector<SolverInput> solver_inputs(const ExportRequest& request, const Solve
 table::FixedStates declared_constants(const ExportRequest& request,
                                       const std::vector<SolverInput>& inputs) {
   table::FixedStates held;
-  for (const SolverInput& input : inputs) {
-    const auto said = request.inputs.find(input.argument.name);
-    if (input.source == Source::constant && input.fallback && said != request.inputs.end() &&
-        said->second.starts_with("constant:"))
+  for (const SolverInput& input : inputs)
+    if (input.source == Source::constant && input.fallback &&
+        request.input_or_empty(input.argument.name).starts_with("constant:"))
       held[input.argument.name] = *input.fallback;
-  }
   return held;
 }
 
@@ -354,12 +351,8 @@ public:
 
   // Writes a statement per line, with its own leading blanks.
   void write(std::string_view lines, std::size_t deeper = 0) {
-    while (!lines.empty()) {
-      const std::size_t end = std::min(lines.find('\n'), lines.size());
-      add(fixed_form(std::string(indent_ + deeper, ' ') +
-                     insert_names(lines.substr(0, end), names_)));
-      lines.remove_prefix(std::min(end + 1, lines.size()));
-    }
+    for (const std::string_view line : lines_of(lines))
+      add(fixed_form(std::string(indent_ + deeper, ' ') + insert_names(line, names_)));
   }
 
   void read(const GivenState& row, const GivenState& property) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "codegen/baked_table.h"
+#include "codegen/sides.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "table/frictab_kernel.h"
@@ -33,11 +34,7 @@ void check_table(const table::Table& table) {
   if (!std::all_of(table.value.begin(), table.value.end(),
                    [](double v) { return std::isfinite(v); }))
     faults.add({}, "the table holds values that are not finite");
-  const bool extends =
-      std::any_of(table.axes.begin(), table.axes.end(), [](const table::TableAxis& axis) {
-        return axis.below == table::Outside::law || axis.above == table::Outside::law;
-      });
-  if ((extends || table.is_direct()) && !table.extension)
+  if ((has_side(table, table::Outside::law) || table.is_direct()) && !table.extension)
     faults.add({}, fmt::format("the table of {} does not hold the law's own formula", table.model),
                "tabulate again with outside = \"law\" in [table.axes]");
   faults.throw_if_any();

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "codegen/number_text.h"
 #include "core/text.h"
 #include "expr/expr.h"
 #include "table/outside.h"
@@ -124,6 +125,15 @@ std::string comment_text(std::string_view text) {
     out += static_cast<unsigned char>(c) < 32 ? ' ' : c;
   }
   return out;
+}
+
+std::vector<std::string> comment_lines(const std::vector<std::string>& texts, std::size_t width,
+                                       std::string_view further) {
+  std::vector<std::string> lines;
+  for (const std::string& text : texts)
+    for (std::string& line : wrap_text(comment_text(text), width, further))
+      lines.push_back(std::move(line));
+  return lines;
 }
 
 } // namespace frictab::codegen

@@ -37,4 +37,8 @@ std::string edge_text(const table::Table& table);
 // Makes text from outside (names, attributes) safe inside a comment of C or Fortran.
 std::string comment_text(std::string_view text);
 
+// Returns such texts as lines of at most `width` columns; `further` as in wrap_text.
+std::vector<std::string> comment_lines(const std::vector<std::string>& texts, std::size_t width,
+                                       std::string_view further = {});
+
 } // namespace frictab::codegen

@@ -1,8 +1,12 @@
 // Lists the names that generated code already uses, and writes the statements of formulas.
 #include "codegen/variables.h"
 
+#include <algorithm>
+
 #include "codegen/step_names.h"
+#include "expr/derivative.h"
 #include "expr/several.h"
+#include "table/states.h"
 
 namespace frictab::codegen {
 
@@ -36,15 +40,6 @@ std::set<std::string> both(std::set<std::string> a, const std::set<std::string>&
 }
 
 } // namespace
-
-std::set<std::string> names_of_a_layer(std::size_t features) {
-  std::set<std::string> names = {"a",    "b",    "c",   "z",   "y",    "p",    "q",    "nunit",
-                                 "nout", "unit", "net", "adj", "bias", "gain", "offs", "adjoint"};
-  for (std::size_t f = 0; f < features; ++f)
-    for (const char* of_each : {"wt", "b", "slope"})
-      names.insert(of_each + std::to_string(f));
-  return names;
-}
 
 Variables::Variables(const Table& table, const expr::Expr& formula, Language language,
                      const std::map<std::string, std::string>& given,
@@ -87,6 +82,24 @@ Statements Variables::statements(std::vector<Wanted> wanted, std::string_view ow
   spelling_.steps = step_names(wanted, table_);
   spelling_.owner = owner;
   return to_statements(wanted, spelling_, names_);
+}
+
+bool acts_through_value(const Table& table, const std::string& state) {
+  return table::find_axis(table, state) ||
+         (table.extension && expr::symbols(*table.extension).count(state));
+}
+
+std::vector<Wanted> tangent_formulas(const Table& table, const std::string& tau,
+                                     const std::vector<std::string>& states, Variables& variables) {
+  const bool changes = std::any_of(states.begin(), states.end(), [&](const std::string& state) {
+    return acts_through_value(table, state);
+  });
+  std::vector<Wanted> wanted{{table.combine, tau},
+                             {changes ? derivative(table.combine, "value") : expr::Expr(0.0),
+                              variables.slope(tau, "value")}};
+  for (const std::string& state : states)
+    wanted.push_back({derivative(table.combine, state), variables.slope(tau, state)});
+  return wanted;
 }
 
 } // namespace frictab::codegen

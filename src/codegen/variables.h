@@ -44,7 +44,13 @@ private:
   Names names_;
 };
 
-// Names of the loops over a network's layer, for the function that has them.
-std::set<std::string> names_of_a_layer(std::size_t features);
+// True if a state changes the value inside the table's formula: an axis, or a state of the law's
+// own formula.
+bool acts_through_value(const table::Table& table, const std::string& state);
+
+// Returns the table's formula as `tau`, its derivative by the value (0 if no state changes that),
+// and those by these states at a fixed value.
+std::vector<Wanted> tangent_formulas(const table::Table& table, const std::string& tau,
+                                     const std::vector<std::string>& states, Variables& variables);
 
 } // namespace frictab::codegen

@@ -1,6 +1,7 @@
 // The strict renderer: checks that template and values fit each other exactly, then writes.
 #include "core/template.h"
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <tuple>
@@ -222,8 +223,36 @@ std::vector<std::string_view> embedded_paths(std::string_view folder) {
   return paths;
 }
 
+namespace {
+
+// Puts the lines of other templates in place of "@include path".
+std::string with_includes(std::string_view text) {
+  constexpr std::string_view directive = "@include ";
+  std::string out;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, std::min(text.find('\n'), text.size() - 1) + 1);
+    if (line.starts_with(directive))
+      out += with_includes(embedded_template(trimmed(line.substr(directive.size()))));
+    else
+      out += line;
+    text.remove_prefix(line.size());
+  }
+  return out;
+}
+
+} // namespace
+
 std::string render_template(std::string_view path, const TemplateValues& values) {
-  return render(embedded_template(path), "templates/" + std::string(path), values);
+  return render(with_includes(embedded_template(path)), "templates/" + std::string(path), values);
+}
+
+std::string render_part(std::string_view path, const TemplateValues& values) {
+  return without_last_break(render_template(path, values));
+}
+
+std::string without_last_break(std::string text) {
+  if (text.ends_with('\n')) text.pop_back();
+  return text;
 }
 
 TemplateValues item(std::string text) {

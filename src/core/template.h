@@ -1,6 +1,7 @@
 // The strict template renderer. @{name} inserts text; @for item in list ... @end and @if flag ...
-// @else ... @end have lines of their own (leading blanks allowed), which are removed. "@@" is one
-// @.
+// @else ... @end have lines of their own (leading blanks allowed), which are removed. A line with
+// @{list...} is written once per item, with @{item.text} in its place. "@@" is one @. A line
+// "@include path" of a built-in template stands for the lines of another one.
 #pragma once
 
 #include <map>
@@ -15,10 +16,10 @@ namespace frictab {
 // only blanks precede @{name} in its line, every line of the text gets these blanks. A line with
 // nothing but @{name} is removed if the text is empty.
 struct TemplateValues {
-  std::map<std::string, std::string> text;
-  std::map<std::string, bool> flags;
+  std::map<std::string, std::string> text = {};
+  std::map<std::string, bool> flags = {};
   // Items of `@for x in list`, whose names are written as @{x.name}.
-  std::map<std::string, std::vector<TemplateValues>> lists;
+  std::map<std::string, std::vector<TemplateValues>> lists = {};
   // Names that a template may leave unused, because many templates share these values.
   std::set<std::string> offered = {};
 };
@@ -44,7 +45,11 @@ std::vector<std::string_view> embedded_paths(std::string_view folder);
 // Fills a line with @{name} and no other template syntax; values that it does not name stay unused.
 std::string insert_names(std::string_view line, const std::map<std::string, std::string>& names);
 
-// Equals render(embedded_template(path), "templates/" + path, values).
+// Renders embedded_template(path) with the templates that it includes, as "templates/" + path.
 std::string render_template(std::string_view path, const TemplateValues& values);
+
+// Returns the same without the line break at the end, for insertion into another template.
+std::string render_part(std::string_view path, const TemplateValues& values);
+std::string without_last_break(std::string text);
 
 } // namespace frictab

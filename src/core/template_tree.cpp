@@ -53,7 +53,25 @@ private:
     if (first != end_ && line[first] == '@' && first + 1 < line.size() &&
         std::isalpha(static_cast<unsigned char>(line[first + 1])))
       take_directive(line, first);
-    else if (first != end_ && is_whole_insert(line.substr(first)))
+    else if (const std::size_t dots = line.find("...}");
+             dots != end_ && line.rfind("@{", dots) != end_)
+      take_repeated(line, dots);
+    else
+      take_content(line);
+  }
+
+  // Takes a line with @{list...} as a loop with @{each.text} in its place.
+  void take_repeated(std::string_view line, std::size_t dots) {
+    const std::size_t begin = line.rfind("@{", dots);
+    open_loop("each", std::string(line.substr(begin + 2, dots - begin - 2)), begin);
+    const std::string before(line.substr(0, begin)), after(line.substr(dots + 3));
+    take_content(before + "@{each.text" + after);
+    open_.pop_back();
+  }
+
+  void take_content(std::string_view line) {
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first != end_ && is_whole_insert(line.substr(first)))
       take_whole_insert(line, first);
     else
       take_text(line);
@@ -65,7 +83,7 @@ private:
     for (std::string w; words >> w;)
       word.push_back(w);
     if (word[0] == "for" && word.size() == 4 && word[2] == "in" && is_name(word[1]))
-      open_loop(word, column);
+      open_loop(word[1], word[3], column);
     else if (word[0] == "if" && word.size() == 2)
       open_choice(word, column);
     else if (word[0] == "else" && word.size() == 1)
@@ -77,11 +95,11 @@ private:
                   "known: @for item in list, @if flag, @else, @end; write @@ for one @");
   }
 
-  void open_loop(const std::vector<std::string>& word, std::size_t column) {
+  void open_loop(const std::string& variable, const std::string& list, std::size_t column) {
     TemplateNode node;
     node.kind = TemplateNode::Kind::loop;
-    node.variable = word[1];
-    node.name = name(word[3], at(column));
+    node.variable = variable;
+    node.name = name(list, at(column));
     into().push_back(std::move(node));
     open_.push_back({&into().back().body, at(column), false});
   }

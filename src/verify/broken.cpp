@@ -34,6 +34,12 @@ std::string beginning(const std::string& message) {
 
 } // namespace
 
+bool can_run(DriftRecord& record, const codegen::BuildVariant& variant) {
+  record.ran = have_program(variant.program());
+  if (!record.ran) record.why_not = "there is no " + variant.program() + " on this machine";
+  return record.ran;
+}
+
 DriftRecord or_broken(const std::string& model, const std::string& subject, double allowed_MPa,
                       const std::function<DriftRecord()>& verify) {
   try {

@@ -8,15 +8,12 @@
 #include "codegen/compile.h"
 #include "table/build.h"
 #include "table/drift.h"
-#include "verify/answers.h"
 #include "verify/broken.h"
+#include "verify/probes.h"
 
 namespace frictab::verify {
 
 namespace {
-
-constexpr const char* normal_stress = "sigma_n_MPa";
-constexpr std::size_t points_below = 4096; // number of Halton points
 
 // States over a law's range, and tau_R of its table at these states, MPa.
 struct Asked {
@@ -24,20 +21,14 @@ struct Asked {
   table::States states;
   std::vector<double> tau;
 
-  std::vector<const double*> columns() const {
-    std::vector<const double*> all;
-    for (const std::vector<double>& column : states)
-      all.push_back(column.data());
-    return all;
-  }
+  std::vector<const double*> columns() const { return columns_of(names, names, states); }
 };
 
 // Limits tau_R to the largest mu that targets write, times the pressure; for solvers that get mu.
 void limit_mu(Asked& asked) {
-  const auto at = std::find(asked.names.begin(), asked.names.end(), normal_stress);
-  if (at == asked.names.end()) return;
-  const std::vector<double>& pressure =
-      asked.states[static_cast<std::size_t>(at - asked.names.begin())];
+  const auto at = state_place(asked.names, normal_stress);
+  if (!at) return;
+  const std::vector<double>& pressure = asked.states[*at];
   for (std::size_t i = 0; i < asked.tau.size(); ++i)
     asked.tau[i] = std::min(asked.tau[i], codegen::fortran::largest_coefficient * pressure[i]);
 }
@@ -47,15 +38,10 @@ void limit_mu(Asked& asked) {
 table::States states_of(const table::Table& table, std::size_t samples) {
   auto ranges = table::table_ranges(table, nullptr, table.model);
   table::States states = table::probe_points(ranges, table.axes, samples);
-  for (table::StateRange& range : ranges) {
-    if (range.name != normal_stress || !(range.low > 0)) continue;
-    range.high = range.low;
-    range.low = 0.1 * range.low;
-    const table::States below = table::box_points(ranges, std::min(samples, points_below));
-    for (std::size_t d = 0; d < states.size(); ++d)
-      states[d].insert(states[d].end(), below[d].begin(), below[d].end());
-    break;
-  }
+  if (!to_decade_below(ranges)) return states;
+  const table::States below = points_below(ranges, samples);
+  for (std::size_t d = 0; d < states.size(); ++d)
+    states[d].insert(states[d].end(), below[d].begin(), below[d].end());
   return states;
 }
 
@@ -64,10 +50,7 @@ Asked ask_table(const codegen::Exporter& exporter, const codegen::ExportRequest&
   Asked asked;
   asked.names = law.table.inputs();
   asked.states = states_of(law.table, samples);
-  const table::FixedStates held = exporter.fixed_states(law);
-  for (std::size_t d = 0; d < asked.names.size(); ++d)
-    if (const auto value = held.find(asked.names[d]); value != held.end())
-      std::fill(asked.states[d].begin(), asked.states[d].end(), value->second);
+  hold(asked.states, asked.names, exporter.fixed_states(law));
   asked.tau.resize(asked.states.empty() ? 1 : asked.states.front().size());
   table::TableFunction(law.table).evaluate(asked.tau.size(), asked.columns(), asked.tau);
   if (exporter.gives_mu(law)) limit_mu(asked);
@@ -98,11 +81,7 @@ DriftRecord verify_law(const CombinedSource& source, const codegen::ExportReques
   DriftRecord record;
   record.model = law.law_name + ": " + law.table.model;
   record.subject = source.exporter->name + "/" + variant.name;
-  if (!have_program(variant.program())) {
-    record.ran = false;
-    record.why_not = "there is no " + variant.program() + " on this machine";
-    return record;
-  }
+  if (!can_run(record, variant)) return record;
   std::vector<double> tau(asked.tau.size(), not_representable);
   const codegen::CompiledTarget target(*source.exporter, law, source.bundle.files, variant);
   record.path = target.drive_path({}); // first: later calls may set the routine's constants

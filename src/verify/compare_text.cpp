@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "codegen/number_text.h"
 #include "core/text.h"
 #include "io/json.h"
 #include "verify/quoted.h"
@@ -20,34 +21,28 @@ using json = nlohmann::ordered_json;
 
 constexpr std::size_t most_keys = 20; // shown of one file
 
-std::vector<std::string> lines_of(std::string_view text) {
-  std::vector<std::string> lines;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    lines.emplace_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return lines;
+using codegen::lines_of;
+using Lines = std::vector<std::string_view>;
+using Value = std::optional<std::string_view>; // of a key, or a line; empty: there is none
+
+std::string shown(Value one, Value other) {
+  return one ? quoted(*one, other.value_or("")) : "missing";
 }
 
-// The value of a key, or a line; null: there is none.
-std::string shown(const std::string* one, const std::string* other, const char* none) {
-  return one ? quoted(*one, other ? *other : "") : none;
+std::string made_as(Value is, Value wanted) {
+  return fmt::format("is {}, made {}", shown(is, wanted),
+                     wanted ? "as " + shown(wanted, is) : "without it");
 }
 
-std::string made_as(const std::string* is, const std::string* wanted, const char* none) {
-  return fmt::format("is {}, made {}", shown(is, wanted, none),
-                     wanted ? "as " + shown(wanted, is, none) : "without it");
-}
-
-const std::string* line_at(const std::vector<std::string>& lines, std::size_t at) {
-  return at < lines.size() ? &lines[at] : nullptr;
+Value line_at(const Lines& lines, std::size_t at) {
+  return at < lines.size() ? Value(lines[at]) : Value();
 }
 
 // ---- JSON ----
 
 class JsonComparison {
 public:
+  // `text` is the file's, which has to live as long.
   JsonComparison(const std::string& text, const std::string& file)
       : lines_(lines_of(text)), file_(file) {}
 
@@ -63,8 +58,7 @@ public:
         compare(&(*is)[i], &(*wanted)[i], fmt::format("{}[{}]", path, i), key);
     } else {
       const std::optional<std::string> one = text_of(is), other = text_of(wanted);
-      compare_texts(one ? &*one : nullptr, other ? &*other : nullptr, path,
-                    is ? at_line(key, *is) : file_);
+      compare_texts(one, other, path, is ? at_line(key, *is) : file_);
     }
   }
 
@@ -89,19 +83,17 @@ private:
   }
 
   // Names the first line that differs of a text of several lines, such as an input deck.
-  void compare_texts(const std::string* is, const std::string* wanted, const std::string& path,
-                     const std::string& place) {
+  void compare_texts(Value is, Value wanted, const std::string& path, const std::string& place) {
     const bool failed = path != "tool_version";
-    const std::vector<std::string> one = lines_of(is ? *is : ""),
-                                   other = lines_of(wanted ? *wanted : "");
+    const Lines one = lines_of(is.value_or("")), other = lines_of(wanted.value_or(""));
     if (!is || !wanted || other.size() < 2) {
-      findings_.push_back({"", place, path, made_as(is, wanted, "missing"), "", failed});
+      findings_.push_back({"", place, path, made_as(is, wanted), "", failed});
       return;
     }
     const auto at = static_cast<std::size_t>(
         std::mismatch(one.begin(), one.end(), other.begin(), other.end()).first - one.begin());
     findings_.push_back({"", place, fmt::format("line {} of {}", at + 1, path),
-                         made_as(line_at(one, at), line_at(other, at), "missing"), "", failed});
+                         made_as(line_at(one, at), line_at(other, at)), "", failed});
   }
 
   // The file, with the line if exactly one holds this key and value, or this element of a list.
@@ -118,7 +110,7 @@ private:
     return found == 1 ? fmt::format("{}:{}", file_, line) : file_;
   }
 
-  std::vector<std::string> lines_;
+  Lines lines_;
   std::string file_;
   std::vector<Finding> findings_;
 };
@@ -165,7 +157,7 @@ public:
 
   std::vector<CodeLine> code(const std::string& text) {
     std::vector<CodeLine> out;
-    const std::vector<std::string> lines = lines_of(text);
+    const Lines lines = lines_of(text);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       std::string left = without_comments(lines[i]);
       left.resize(left.find_last_not_of(" \t\r") + 1);
@@ -175,14 +167,14 @@ public:
   }
 
 private:
-  std::string without_comments(const std::string& line) {
+  std::string without_comments(std::string_view line) {
     if (!line.empty() && language_.at_start.find(line[0]) != std::string::npos &&
         (language_.at_start == "$" || !is_directive(line)))
       return "";
     std::string left;
     char quote = 0;
     for (std::size_t i = 0; i < line.size(); ++i) {
-      const std::string_view rest = std::string_view(line).substr(i);
+      const std::string_view rest = line.substr(i);
       if (in_block_) {
         if (!rest.starts_with("*/")) continue;
         in_block_ = false;
@@ -240,14 +232,14 @@ std::vector<Finding> compare_source(const std::string& text, const std::string& 
   const auto [here, there] = std::mismatch(is.begin(), is.end(), made.begin(), made.end());
   const bool comments = here == is.end() && there == made.end();
   if (comments) {
-    const std::vector<std::string> one = lines_of(text), other = lines_of(wanted);
+    const Lines one = lines_of(text), other = lines_of(wanted);
     const auto at = std::mismatch(one.begin(), one.end(), other.begin(), other.end()).first;
     return {{"", fmt::format("{}:{}", file, at - one.begin() + 1), "",
              "only comments and blanks differ from what is generated", "", false}};
   }
   const bool is_end = here == is.end(), made_end = there == made.end();
   return {{"", is_end ? file : fmt::format("{}:{}", file, here->number), "",
-           made_as(is_end ? nullptr : &here->text, made_end ? nullptr : &there->text, "missing"),
+           made_as(is_end ? Value() : Value(here->text), made_end ? Value() : Value(there->text)),
            ""}};
 }
 

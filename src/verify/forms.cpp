@@ -16,6 +16,7 @@
 #include "core/text_table.h"
 #include "table/direct.h"
 #include "table/drift.h"
+#include "verify/probes.h"
 
 namespace frictab::verify {
 
@@ -38,12 +39,7 @@ public:
           const std::vector<std::string>& names, const table::States& states)
       : exporter_(exporter), request_{table, "mm-t-s", {}},
         target_(exporter, request_, exporter.generate(request_), exporter.variants(request_)[0]),
-        tau_(states.front().size()) {
-    for (const std::string& name : table.inputs()) {
-      const auto at = std::find(names.begin(), names.end(), name) - names.begin();
-      columns_.push_back(states[static_cast<std::size_t>(at)].data());
-    }
-  }
+        columns_(columns_of(table.inputs(), names, states)), tau_(states.front().size()) {}
 
   const std::vector<double>& answer() {
     exporter_.batch(target_.handle(), request_, tau_.size(), columns_, tau_);

@@ -15,17 +15,15 @@
 #include "core/text.h"
 #include "proof/bound.h"
 #include "table/outside.h"
-#include "verify/answers.h"
 #include "verify/beyond.h"
 #include "verify/broken.h"
+#include "verify/probes.h"
 
 namespace frictab::verify {
 
 using table::Probe;
 
 namespace {
-
-using Columns = std::vector<const double*>;
 
 // Probes at which a table's sources are evaluated and compared.
 struct Subjects {
@@ -55,21 +53,15 @@ struct Reference {
   table::TableFunction table;
 };
 
-constexpr const char* pressure = "sigma_n_MPa";
-constexpr std::size_t most_below = 4096; // number of Halton points
-
 // Fills `below`, `ranges_below` and `where`.
 void add_below(Subjects& s, const VerifyInput& input, const Reference& reference) {
   std::vector<table::StateRange> ranges = s.ranges;
-  const auto range = std::find_if(ranges.begin(), ranges.end(),
-                                  [](const auto& one) { return one.name == pressure; });
-  if (range == ranges.end() || !(range->low > 0)) return;
+  const table::StateRange* range = to_decade_below(ranges);
+  if (!range) return;
   const table::Outside outside = table::below_pressures(input.table);
   if (outside == table::Outside::error) return;
-  range->high = range->low;
-  range->low = 0.1 * range->low;
   s.where = {range->low, range->high, table::outside_name(outside), 0, 0};
-  s.below = reference.probe(table::box_points(ranges, std::min(input.samples, most_below)));
+  s.below = reference.probe(points_below(ranges, input.samples));
   s.ranges_below = std::move(ranges);
 }
 
@@ -77,7 +69,7 @@ Subjects prepare(const VerifyInput& input) {
   Subjects s;
   s.names = input.table.inputs();
   for (const std::string& name : input.law.inputs)
-    if (std::find(s.names.begin(), s.names.end(), name) == s.names.end())
+    if (!state_place(s.names, name))
       throw InputError({input.table_name, 0, 0},
                        fmt::format("the law {} needs {}, which this table neither has as an axis "
                                    "nor uses in its combine formula",
@@ -169,8 +161,7 @@ void compare_range(DriftRecord& record, const Subjects& s, const std::vector<dou
 
 bool lies_inside(const Subjects& s, std::size_t row) {
   for (const table::StateRange& range : s.ranges) {
-    const auto at = std::find(s.names.begin(), s.names.end(), range.name) - s.names.begin();
-    const double x = s.rows.states[static_cast<std::size_t>(at)][row];
+    const double x = s.rows.states[state_place(s.names, range.name).value()][row];
     if (x < range.low || x > range.high) return false;
   }
   return true;
@@ -245,16 +236,6 @@ DriftRecord compare_table(const VerifyInput& input, const Subjects& s) {
   return record;
 }
 
-// Returns the columns that a source takes: the direct form may need fewer states than the table.
-Columns columns_for(const table::Table& source, const Subjects& s, const Probe& reference) {
-  Columns columns;
-  for (const std::string& name : source.inputs()) {
-    const auto at = std::find(s.names.begin(), s.names.end(), name);
-    columns.push_back(reference.states[static_cast<std::size_t>(at - s.names.begin())].data());
-  }
-  return columns;
-}
-
 // Returns the same probes with some states fixed. For a solver's own table, rows that the table
 // refuses count as clamped, because the solver decides what happens beyond its ends.
 Subjects at_held(const table::Table& table, const Subjects& s, const Reference& reference,
@@ -267,9 +248,7 @@ Subjects at_held(const table::Table& table, const Subjects& s, const Reference& 
   for (const auto& [from, to] :
        {std::pair{&s.rows, &out.rows}, {&s.range, &out.range}, {&s.below, &out.below}}) {
     table::States states = from->states;
-    for (std::size_t d = 0; d < states.size(); ++d)
-      if (const auto value = held.find(s.names[d]); value != held.end())
-        std::fill(states[d].begin(), states[d].end(), value->second);
+    hold(states, s.names, held);
     if (!from->law.empty()) *to = reference.probe(std::move(states));
   }
   out.beyond = rows_beyond(table, out.rows.states);
@@ -288,13 +267,12 @@ void leave_out_rows_outside(Subjects& s) {
 // so tau_R is at most that times the pressure.
 Subjects with_largest_mu(const Subjects& s) {
   Subjects out = s;
-  const auto at = std::find(s.names.begin(), s.names.end(), pressure);
-  if (at == s.names.end()) return out;
-  const auto column = static_cast<std::size_t>(at - s.names.begin());
+  const auto column = state_place(s.names, normal_stress);
+  if (!column) return out;
   for (Probe* probe : {&out.rows, &out.range, &out.below})
     for (std::size_t i = 0; i < probe->law.size(); ++i) {
       const double most =
-          codegen::fortran::largest_coefficient * std::max(probe->states[column][i], 0.0);
+          codegen::fortran::largest_coefficient * std::max(probe->states[*column][i], 0.0);
       for (double* tau : {&probe->law[i], &probe->table[i]})
         if (*tau > most) *tau = most;
     }
@@ -307,8 +285,8 @@ models::AssembledLaw law_of_own_table(const models::AssembledLaw& law,
                                       const table::FixedStates& held, bool gives_mu) {
   models::AssembledLaw out = law;
   if (gives_mu)
-    out.tau_R =
-        minimum(out.tau_R, codegen::fortran::largest_coefficient * expr::Expr::symbol(pressure));
+    out.tau_R = minimum(out.tau_R,
+                        codegen::fortran::largest_coefficient * expr::Expr::symbol(normal_stress));
   std::map<std::string, expr::Expr> numbers;
   for (const auto& [name, value] : held)
     numbers.emplace(name, value);
@@ -340,10 +318,10 @@ table::States furthest_states(const table::Table& own, const models::AssembledLa
           .peaks;
   table::States states;
   for (const table::StateRange& range : ranges) {
-    const auto at = std::find(inputs.begin(), inputs.end(), range.name) - inputs.begin();
+    const auto at = state_place(inputs, range.name);
     const auto value = held.find(range.name);
-    if (static_cast<std::size_t>(at) < inputs.size())
-      states.push_back(peaks[static_cast<std::size_t>(at)]);
+    if (at)
+      states.push_back(peaks[*at]);
     else
       states.emplace_back(peaks.front().size(), value == held.end() ? range.low : value->second);
   }
@@ -413,20 +391,18 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
   const std::string form =
       source.request.table.is_direct() && exporter.is_routine() ? " direct" : "";
   const std::string subject = source.exporter->name + "/" + variant.name + form;
-  if (!have_program(variant.program())) {
-    DriftRecord record;
-    record.model = input.law.model.name();
-    record.subject = subject;
-    record.ran = false;
-    record.allowed_MPa = input.max_drift_MPa;
-    record.why_not = "there is no " + variant.program() + " on this machine";
-    return record;
-  }
+  DriftRecord not_run;
+  not_run.model = input.law.model.name();
+  not_run.subject = subject;
+  not_run.allowed_MPa = input.max_drift_MPa;
+  if (!can_run(not_run, variant)) return not_run;
   const codegen::CompiledTarget target(exporter, source.request, source.bundle, variant);
   // First, because later calls may set the routine's constants.
   std::optional<codegen::PathResult> path = target.drive_path({});
   const Answer answer = [&](const Probe& reference, std::vector<double>& tau) {
-    target.drive(reference.law.size(), columns_for(source.request.table, s, reference), tau);
+    // The direct form may need fewer states than the table.
+    target.drive(reference.law.size(),
+                 columns_of(source.request.table.inputs(), s.names, reference.states), tau);
   };
   const bool gives_mu = exporter.gives_mu(source.request);
   const auto given = [&](const Subjects& all) { return gives_mu ? with_largest_mu(all) : all; };

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "codegen/exporter.h"
+#include "core/error.h"
 #include "table/build.h"
 #include "table/tolerance.h"
 #include "verify/verification.h"
@@ -43,5 +44,9 @@ void set_drift(table::TableRecord& record, const DriftRecord& drift);
 std::string verification_json(const Verification& verification);
 Verification parse_verification(std::string_view text, const std::string& file);
 std::string verification_junit(const Verification& verification);
+
+// Formats verify.xml of a verification that could not be carried out: a case with an <error> per
+// fault, so that a CI pipeline shows why nothing was verified.
+std::string failure_junit(const std::vector<Fault>& faults);
 
 } // namespace frictab::verify

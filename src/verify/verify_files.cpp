@@ -183,10 +183,38 @@ std::string why_failed(const DriftRecord& record) {
   return record.passed ? proof_text(record) : failure_text(record);
 }
 
+void set_attribute(pugi::xml_node node, const char* name, const std::string& text) {
+  node.append_attribute(name) = printable(text).c_str();
+}
+
 void add_property(pugi::xml_node properties, const std::string& name, const std::string& value) {
   pugi::xml_node property = properties.append_child("property");
-  property.append_attribute("name") = name.c_str();
-  property.append_attribute("value") = value.c_str();
+  set_attribute(property, "name", name);
+  set_attribute(property, "value", value);
+}
+
+pugi::xml_node add_test(pugi::xml_node suite, const std::string& group, const std::string& name) {
+  pugi::xml_node test = suite.append_child("testcase");
+  set_attribute(test, "classname", group);
+  set_attribute(test, "name", name);
+  return test;
+}
+
+// Returns a suite with these counts, in this order.
+pugi::xml_node add_suite(pugi::xml_document& document,
+                         const std::vector<std::pair<const char*, std::size_t>>& counts) {
+  pugi::xml_node suite = document.append_child("testsuites").append_child("testsuite");
+  set_attribute(suite, "name", "frictab verify");
+  for (const auto& [name, count] : counts)
+    suite.append_attribute(name) = static_cast<unsigned>(count);
+  add_property(suite.append_child("properties"), "tool_version", tool_version());
+  return suite;
+}
+
+std::string text_of(const pugi::xml_document& document) {
+  std::ostringstream out;
+  document.save(out, "  ");
+  return out.str();
 }
 
 // Adds the figures of verify.json, also for cases that passed, so that a CI pipeline can plot them.
@@ -203,25 +231,20 @@ void add_figures(pugi::xml_node test, const DriftRecord& record) {
                    Fields::Json(figure.largest_error).dump());
 }
 
-} // namespace
-
 void add_finding(pugi::xml_node suite, const Finding& finding) {
-  pugi::xml_node test = suite.append_child("testcase");
-  const std::string name = printable(finding.where.empty() ? finding.what : finding.where);
-  const std::string text =
-      printable(finding.text() + (finding.mend.empty() ? "" : "; " + finding.mend));
-  test.append_attribute("classname") = printable(finding.file).c_str();
-  test.append_attribute("name") = name.c_str();
+  pugi::xml_node test =
+      add_test(suite, finding.file, finding.where.empty() ? finding.what : finding.where);
+  const std::string text = finding.text() + (finding.mend.empty() ? "" : "; " + finding.mend);
   if (finding.failed)
-    test.append_child("failure").append_attribute("message") = text.c_str();
+    set_attribute(test.append_child("failure"), "message", text);
   else
-    test.append_child("system-out").text() = text.c_str();
+    test.append_child("system-out").text() = printable(text).c_str();
 }
+
+} // namespace
 
 // Leaves out times, so that the same job gives the same bytes.
 std::string verification_junit(const Verification& verification) {
-  pugi::xml_document document;
-  pugi::xml_node suite = document.append_child("testsuites").append_child("testsuite");
   std::size_t failures = 0, skipped = 0;
   for (const DriftRecord& record : verification.records) {
     failures += verification.failed(record);
@@ -229,30 +252,38 @@ std::string verification_junit(const Verification& verification) {
   }
   for (const Finding& finding : verification.findings)
     failures += finding.failed;
-  suite.append_attribute("name") = "frictab verify";
-  suite.append_attribute("tests") =
-      static_cast<unsigned>(verification.records.size() + verification.findings.size());
-  suite.append_attribute("failures") = static_cast<unsigned>(failures);
-  suite.append_attribute("skipped") = static_cast<unsigned>(skipped);
-  pugi::xml_node of_all = suite.append_child("properties");
-  add_property(of_all, "tool_version", tool_version());
-  add_property(of_all, "max_drift_MPa", Fields::Json(verification.max_drift_MPa).dump());
+  pugi::xml_document document;
+  pugi::xml_node suite =
+      add_suite(document, {{"tests", verification.records.size() + verification.findings.size()},
+                           {"failures", failures},
+                           {"skipped", skipped}});
+  add_property(suite.child("properties"), "max_drift_MPa",
+               Fields::Json(verification.max_drift_MPa).dump());
   for (const DriftRecord& record : verification.records) {
-    pugi::xml_node test = suite.append_child("testcase");
-    test.append_attribute("classname") = record.model.c_str();
-    test.append_attribute("name") = record.subject.c_str();
+    pugi::xml_node test = add_test(suite, record.model, record.subject);
     if (record.ran) add_figures(test, record);
     if (verification.failed(record))
-      test.append_child("failure").append_attribute("message") =
-          printable(why_failed(record)).c_str();
+      set_attribute(test.append_child("failure"), "message", why_failed(record));
     else if (!record.ran)
-      test.append_child("skipped").append_attribute("message") = record.why_not.c_str();
+      set_attribute(test.append_child("skipped"), "message", record.why_not);
   }
   for (const Finding& finding : verification.findings)
     add_finding(suite, finding);
-  std::ostringstream out;
-  document.save(out, "  ");
-  return out.str();
+  return text_of(document);
+}
+
+std::string failure_junit(const std::vector<Fault>& faults) {
+  pugi::xml_document document;
+  pugi::xml_node suite =
+      add_suite(document, {{"tests", faults.size()}, {"errors", faults.size()}, {"failures", 0}});
+  for (const Fault& fault : faults) {
+    const std::string place = format_place(fault.place);
+    pugi::xml_node test = add_test(suite, place.empty() ? "verify" : place, fault.what);
+    set_attribute(test.append_child("error"), "message",
+                  (place.empty() ? "" : place + ": ") + fault.what +
+                      (fault.hint.empty() ? "" : "; hint: " + fault.hint));
+  }
+  return text_of(document);
 }
 
 } // namespace frictab::verify

@@ -14,14 +14,7 @@ C     The bits of infinity; above them lies NaN.
 @if reads_states
       double precision hist(@{n_hist})
 @end
-@if has_ends
-      logical ftout
-      external ftout
-@end
-@if refuses
-      logical ftstop
-      external ftstop
-@end
+@include fortran/range_checks.f
 @if unknown
       double precision ftqnan
       external ftqnan
@@ -169,9 +162,7 @@ C           Of sums what they gain, of all others the value itself
             do i = 1, @{n_histories}
               from(i) = hist(3+i)
             end do
-@for sum in sums
-            from(@{sum.text}) = 0.0D0
-@end
+            from(@{sums...}) = 0.0D0
             call ftnext(from, press, speed, @{temperature_now}@{area_now}, pmax,
      &        stress, slip, dtime, next)
 @end
@@ -250,6 +241,4 @@ C           them in 5 and 6: increments are small against their sum.
       return
       end
 C
-@if has_histories
 @{histories_text}
-@end

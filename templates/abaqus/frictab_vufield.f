@@ -16,9 +16,7 @@ C     or the one before. Of several contacts of a node the one with the
 C     largest stress is shown. A restarted analysis counts 3 anew.
 C
 C     Argument list:
-@for line in source
-C     @{line.text}
-@end
+C     @{source...}
 C
       subroutine vufield(field, nBlock, nField, kField, nComp,
      1 kStep, jFlags, jNodeUid, time,

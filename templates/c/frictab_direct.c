@@ -15,57 +15,20 @@
 
 static inline double ft_tau(
     @{parameters}) {
-@for input in used
-@if input.converted
-  const double @{input.name} = @{input.canonical};
-@end
-@end
-@for constant in constants
-@if constant.renamed
-  /* @{constant.comment} */
-@end
-  const double @{constant.name} = @{constant.value};
-@end
+@include c/states.c
   const double @{value} = @{piece_call};
-@for name in unused
-  (void)@{name.text};
-@end
+  (void)@{unused...};
   double tau;
   {
     /* the formula of the header, in MPa; its value is @{value} */
-@for statement in statements
-    const double @{statement.text};
-@end
+    const double @{statements...};
     tau = @{result};
   }
-@for side in refusing
-  tau = @{side.text} ? (double)NAN : tau; /* outside = error */
-@end
+  tau = @{refusing...} ? (double)NAN : tau; /* outside = error */
 @for input in used
   tau = @{input.name} != @{input.name} ? @{input.name} : tau; /* NaN in, NaN out */
 @end
   return tau;
 }
 
-double frictab_tau_R(
-    @{parameters}) {
-  return ft_tau(
-      @{names});
-}
-
-@{outside}
-
-void frictab_tau_R_batch(
-    size_t n,
-    @{arrays},
-    double* tau) {
-  size_t i;
-@for name in unused_arrays
-  (void)@{name.text};
-@end
-  for (i = 0; i < n; ++i)
-    tau[i] = ft_tau(
-        @{items});
-}
-
-@{gradient}
+@include c/entries.c

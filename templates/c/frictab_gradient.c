@@ -15,20 +15,8 @@ static double ft_no_gradient(double tau, double* derivative) {
 double frictab_tau_R_gradient(
     @{parameters},
     double* derivative) {
-@for input in used
-@if input.converted
-  const double @{input.name} = @{input.canonical};
-@end
-@end
-@for constant in constants
-@if constant.renamed
-  /* @{constant.comment} */
-@end
-  const double @{constant.name} = @{constant.value};
-@end
-@for state in through_value
-  double @{state.text} = 0.0;
-@end
+@include c/states.c
+  double @{through_value...} = 0.0;
 @if interpolates
   double u[@{n_axes}], by_u[@{n_axes}];
 @end
@@ -37,9 +25,7 @@ double frictab_tau_R_gradient(
 @end
   double @{value};
   int i;
-@for name in unused
-  (void)@{name.text};
-@end
+  (void)@{unused...};
   for (i = 0; i < @{n_arguments}; ++i)
     derivative[i] = 0.0;
 @for input in used
@@ -49,9 +35,7 @@ double frictab_tau_R_gradient(
 @if in_file
   if (!ft_ready()) return ft_no_gradient((double)NAN, derivative);
 @end
-@for side in refusing
-  if (@{side.text}) return ft_no_gradient((double)NAN, derivative); /* outside = error */
-@end
+  if (@{refusing...}) return ft_no_gradient((double)NAN, derivative); /* outside = error */
 @if interpolates
 @for axis in axes
   u[@{axis.index}] = @{axis.coordinate};
@@ -89,9 +73,7 @@ double frictab_tau_R_gradient(
   }
 @end
   {
-@for statement in statements
-    const double @{statement.text};
-@end
+    const double @{statements...};
 @for slope in slopes
     derivative[@{slope.place}] = @{slope.text};
 @end
@@ -105,9 +87,7 @@ void frictab_tau_R_gradient_batch(
     double* tau,
     double* derivative) {
   size_t i;
-@for name in unused_arrays
-  (void)@{name.text};
-@end
+  (void)@{unused_arrays...};
   for (i = 0; i < n; ++i)
     tau[i] = frictab_tau_R_gradient(
         @{items},

@@ -2,9 +2,7 @@
 unsigned frictab_outside(
     @{parameters}) {
   unsigned outside = 0u;
-@for name in without_range
-  (void)@{name.text};
-@end
+  (void)@{without_range...};
 @for end in ends
   {
     const double x = @{end.canonical}; /* @{end.name} */
@@ -19,9 +17,7 @@ void frictab_count_outside(
     @{arrays},
     unsigned long* counts) {
   size_t i;
-@for name in without_range
-  (void)@{name.text};
-@end
+  (void)@{without_range...};
 @if has_ends
   for (i = 0; i < n; ++i) {
 @for end in ends

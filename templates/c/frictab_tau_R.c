@@ -72,24 +72,12 @@ static const ft_axis ft_axes[@{n_axes}] = {
 @end
 FT_INLINE double ft_tau(
     @{parameters}) {
-@for input in used
-@if input.converted
-  const double @{input.name} = @{input.canonical};
-@end
-@end
-@for constant in constants
-@if constant.renamed
-  /* @{constant.comment} */
-@end
-  const double @{constant.name} = @{constant.value};
-@end
+@include c/states.c
 @if has_axes
   double u[@{n_axes}];
 @end
   double @{value};
-@for name in unused
-  (void)@{name.text};
-@end
+  (void)@{unused...};
 @for input in used
 @if input.formula_only
   if (@{input.name} != @{input.name}) return @{input.name}; /* NaN in, NaN out */
@@ -107,9 +95,7 @@ FT_INLINE double ft_tau(
 @if log_value
   @{value} = exp(@{value});
 @end
-@for side in refusing
-  if (@{side.text}) return (double)NAN; /* outside = error */
-@end
+  if (@{refusing...}) return (double)NAN; /* outside = error */
 @if extends
   if (/* outside = law */
       @{extending})
@@ -117,42 +103,9 @@ FT_INLINE double ft_tau(
 @end
   /* the formula of the header, in MPa; its value is @{value} */
   {
-@for statement in statements
-    const double @{statement.text};
-@end
+    const double @{statements...};
     return @{result};
   }
 }
 
-double frictab_tau_R(
-    @{parameters}) {
-@if in_file
-  if (!ft_ready()) return (double)NAN;
-@end
-  return ft_tau(
-      @{names});
-}
-
-@{outside}
-
-void frictab_tau_R_batch(
-    size_t n,
-    @{arrays},
-    double* tau) {
-  size_t i;
-@for name in unused_arrays
-  (void)@{name.text};
-@end
-@if in_file
-  if (!ft_ready()) {
-    for (i = 0; i < n; ++i)
-      tau[i] = (double)NAN;
-    return;
-  }
-@end
-  for (i = 0; i < n; ++i)
-    tau[i] = ft_tau(
-        @{items});
-}
-
-@{gradient}
+@include c/entries.c

@@ -1,10 +1,6 @@
-@if ends
 @{stop}
-@end
 C     tau_R in MPa of the state x in canonical units:
-@for line in arguments
-C     @{line.text}
-@end
+C     @{arguments...}
       @{pure_tau}double precision function fttau(x)
       implicit none
       double precision@{in} x(@{n_x})
@@ -22,20 +18,10 @@ C     @{line.text}
 @if has_piece
       double precision ftpiec
 @end
-@for name in helpers
-      double precision @{name.text}
+      double precision @{helpers...}
 @end
-@end
-@for line in variables
-@{line.text}
-@end
-@for constant in constants
-      double precision @{constant.name}
-@if constant.renamed
-C     @{constant.comment}
-@end
-@{constant.statement}
-@end
+@{variables...}
+@include fortran/named_constants.f
 @if externals
       logical ftnan
 @if in_file
@@ -77,21 +63,13 @@ C     @{constant.comment}
      &  @{value} = ftpiec(x)
 @end
 C     the formula at the head; its value is @{value}
-@for line in states
-@{line.text}
-@end
-@for line in statements
-@{line.text}
-@end
+@{states...}
+@{statements...}
       return
       end
 C
-@if gradient
 @{gradient_text}
-@end
-@if has_piece
 @{piece}
-@end
 @if has_ends
 C     True where x lies outside the range of an axis, or an input that
 C     is held outside what was tested.
@@ -111,12 +89,8 @@ C     is held outside what was tested.
 C
 @{summary}
 @end
-@if interpolates
 @{interpolation}
-@end
-@if in_file
 @{values_file}
-@end
 @if uses_log
 C     Zero and negative values lie below every logarithmic axis.
       @{pure}double precision function ftlog(x)
@@ -128,41 +102,21 @@ C     Zero and negative values lie below every logarithmic axis.
       end
 C
 @end
-@if uses_min
-      @{pure}double precision function ftmin(a, b)
+@for extreme in extremes
+      @{pure}double precision function @{extreme.name}(a, b)
       implicit none
       double precision@{in} a, b
 @if externals
       logical ftnan
 @end
       integer(8) bits
-      ftmin = a
+      @{extreme.name} = a
 C     By the bits of both at once, which spares the calls.
       if (max(ibclr(transfer(a, bits), 63),
      &  ibclr(transfer(b, bits), 63)) .gt. 9218868437227405312_8) then
-        if (.not. ftnan(a)) ftmin = b
-      else if (b .lt. a) then
-        ftmin = b
-      end if
-      return
-      end
-C
-@end
-@if uses_max
-      @{pure}double precision function ftmax(a, b)
-      implicit none
-      double precision@{in} a, b
-@if externals
-      logical ftnan
-@end
-      integer(8) bits
-      ftmax = a
-C     By the bits of both at once, which spares the calls.
-      if (max(ibclr(transfer(a, bits), 63),
-     &  ibclr(transfer(b, bits), 63)) .gt. 9218868437227405312_8) then
-        if (.not. ftnan(a)) ftmax = b
-      else if (b .gt. a) then
-        ftmax = b
+        if (.not. ftnan(a)) @{extreme.name} = b
+      else if (b @{extreme.relation} a) then
+        @{extreme.name} = b
       end if
       return
       end

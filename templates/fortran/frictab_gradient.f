@@ -19,24 +19,14 @@ C     where x holds one@{refused_text}.
 @if makes_nan
       double precision ftqnan
 @end
-@for name in helpers
-      double precision @{name.text}
-@end
+      double precision @{helpers...}
       logical ftnan
 @if in_file
       logical ftload
 @end
 @end
-@for line in variables
-@{line.text}
-@end
-@for constant in constants
-      double precision @{constant.name}
-@if constant.renamed
-C     @{constant.comment}
-@end
-@{constant.statement}
-@end
+@{variables...}
+@include fortran/named_constants.f
 @if extends
       logical beyond
 @end
@@ -110,15 +100,9 @@ C     @{value} and its derivatives by x
 @end
 @end
 C     the formula at the head and its derivatives
-@for line in states
-@{line.text}
-@end
-@for line in statements
-@{line.text}
-@end
-@for line in slopes
-@{line.text}
-@end
+@{states...}
+@{statements...}
+@{slopes...}
 @for side in refusing
       if (x(@{side.index}) @{side.relation} @{side.limit}) then
         do i = 1, @{n_x}

@@ -7,37 +7,9 @@ C     a: the area now.
       subroutine ftpast(h, p, v, t@{a}, x)
       implicit none
       double precision h(@{n}), p, v, t@{a}, x(*)
-@if has_most
-      double precision ftmost
-      external ftmost
-@end
-@if has_mean
-      double precision ftmean
-      external ftmean
-@end
-@if has_ratio
-      double precision ftrat
-      external ftrat
-@end
-@if has_turn
-      double precision ftturn, ftrsng
-      external ftturn, ftrsng
-@end
-@if has_rise
-      double precision ftrise
-      external ftrise
-@end
-@if has_recent
-      double precision ftlate
-      external ftlate
-@end
-@if has_theta
-      double precision ftthta
-      external ftthta
-@end
-@if has_area
-      double precision ftgrow
-      external ftgrow
+@for function in now_calls
+      double precision @{function.text}
+      external @{function.text}
 @end
 @for in in inputs
 C     @{in.comment}
@@ -51,29 +23,9 @@ C     frictional stress tau; pmax: the peak pressure so far.
       subroutine ftnext(h, p, v, t@{a}, pmax, tau, ds, dt, h1)
       implicit none
       double precision h(@{n}), p, v, t@{a}, pmax, tau, ds, dt, h1(@{n})
-@if has_most
-      double precision ftmost
-      external ftmost
-@end
-@if has_turn
-      double precision ftturn
-      external ftturn
-@end
-@if has_rise
-      double precision ftfrst
-      external ftfrst
-@end
-@if has_recent
-      double precision ftlate
-      external ftlate
-@end
-@if has_aging
-      double precision ftaged
-      external ftaged
-@end
-@if has_slipping
-      double precision ftslpd
-      external ftslpd
+@for function in next_calls
+      double precision @{function.text}
+      external @{function.text}
 @end
 @if asks_nan
       logical ftnan

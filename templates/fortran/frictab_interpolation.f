@@ -49,9 +49,7 @@ C     8 bytes, as addresses have: no place is converted first.
       parameter (sh@{axis.number} = @{axis.shift})
 @end
 @end
-@for line in names
-@{line.text}
-@end
+@{names...}
 @if cubic
       integer l
       double precision w(4,@{n_axes})
@@ -130,17 +128,13 @@ C     axis @{axis.number}: cell i (from 0), weight t of its upper node
       end do
 @end
 @end
-@for line in slopes
-@{line.text}
-@end
+@{slopes...}
 @if wrapped
         return
       end if
 @end
 @end
-@for line in steps
-@{line.text}
-@end
+@{steps...}
       return
       end
 C

@@ -19,21 +19,11 @@ C     is held at an end.
 @else
       double precision@{in} x(@{n_x})
 @end
-@for line in declarations
-@{line.text}
-@end
+@{variables...}
 @if externals
-@for name in helpers
-      double precision @{name.text}
+      double precision @{helpers...}
 @end
-@end
-@for constant in constants
-      double precision @{constant.name}
-@if constant.renamed
-C     @{constant.comment}
-@end
-@{constant.statement}
-@end
+@include fortran/named_constants.f
 @if has_layer
 C     @{units} units of tanh, @{outputs} outputs: unit i belongs to output
 C     1 + mod(i-1, @{outputs}).
@@ -49,13 +39,9 @@ C     1 + mod(i-1, @{outputs}).
 @end
 @{data}
 @end
-@for line in states
-@{line.text}
-@end
+@{states...}
 @if has_layer
-@for line in before
-@{line.text}
-@end
+@{before...}
       do i = 1, nunit
         a = 0.0D0
 @for feature in features
@@ -91,14 +77,10 @@ C     formula twice. Beyond 19.1 tanh is 1 to 5e-17.
         end do
       end do
 @end
-@for line in statements
-@{line.text}
-@end
+@{statements...}
 @if gradient
       if (.not. deriv) return
-@for line in adjoints
-@{line.text}
-@end
+@{adjoints...}
 @if has_layer
 C     Slopes of the units, times what the result changes by them.
 @for output in by_outputs
@@ -120,9 +102,7 @@ C     Slopes of the units, times what the result changes by them.
 @end
       end do
 @end
-@for line in slopes
-@{line.text}
-@end
+@{slopes...}
 @for side in stopped
       if (x(@{side.index}) @{side.relation} @{side.limit})
      &  dv(@{side.index}) = 0.0D0

@@ -43,6 +43,8 @@ const char* const pieces[] = {"@for r in rows\n",
                               "\r",
                               "@{.}",
                               "@{r.}",
+                              "@{none...}",
+                              "...}",
                               "\xff"};
 
 TEST(TemplateFuzz, EveryTextRendersOrIsRefusedWithAPlace) {

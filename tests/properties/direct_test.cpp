@@ -132,7 +132,7 @@ TEST(LongDirectForm, OfANetworkKeepsTheLawWhereItsUnitsSaturate) {
 
 // The layer, written out again as a formula.
 Expr written_out(const codegen::LayeredFormula& split) {
-  const codegen::UnitLayer& layer = *split.layer;
+  const codegen::UnitLayer& layer = split.layer;
   std::vector<Expr> outputs(layer.offset.begin(), layer.offset.end());
   for (std::size_t u = 0; u < layer.units(); ++u) {
     Expr sum = layer.bias[u];
@@ -150,10 +150,10 @@ TEST(Layer, IsFoundInTheFormulaOfANetworkAndKeepsItsValue) {
   const models::Model model = test::network_model(20, 8);
   const Expr formula = model.law->build(model.conventions).value;
   const codegen::LayeredFormula split = codegen::split_layer(formula);
-  ASSERT_TRUE(split.layer);
-  EXPECT_EQ(split.layer->units(), 160U);
-  EXPECT_EQ(split.layer->outputs, 20U);
-  EXPECT_EQ(split.layer->features.size(), 5U);
+  ASSERT_TRUE(split.has_layer());
+  EXPECT_EQ(split.layer.units(), 160U);
+  EXPECT_EQ(split.layer.outputs, 20U);
+  EXPECT_EQ(split.layer.features.size(), 5U);
   const std::vector<std::string> names = {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C",
                                           "s_mm"};
   const expr::Program law(formula, names, {"mu0"}), again(written_out(split), names, {"mu0"});
@@ -174,7 +174,7 @@ TEST(Layer, IsNotMadeOfFormulasThatAreNone) {
     mixed = mixed + tanh(i * x) + x;
   }
   for (const Expr& formula : {few, deep, uneven, mixed, x, Expr(1.0)})
-    EXPECT_FALSE(codegen::split_layer(formula).layer) << expr::to_text(formula);
+    EXPECT_FALSE(codegen::split_layer(formula).has_layer()) << expr::to_text(formula);
 }
 
 } // namespace

@@ -31,10 +31,7 @@ constexpr double bound = 1e-12;
 class Core {
 public:
   explicit Core(const Table& table) : inputs_(table.inputs().size()) {
-    codegen::BuildVariant build;
-    build.name = "core";
-    build.command = fortran::library_command(test::strict);
-    build.command.push_back("@{dir}/core.f");
+    const auto build = fortran::library_variant("core", 0, {"core.f"}, test::strict);
     text = fortran::core({.table = table}, {.gradient = true}).text + "\n";
     library_ = std::make_unique<codegen::Library>(
         codegen::compile_library({{"core.f", text}}, build, work_.path()));

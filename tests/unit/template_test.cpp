@@ -51,6 +51,18 @@ TEST(Template, RepeatsALoopPerItemAndDropsDirectiveLines) {
             "<\n1!\n2!\n>\n");
 }
 
+TEST(Template, RepeatsALineWithAListPerItem) {
+  TemplateValues row, values = text({{"mark", "!"}});
+  row.lists["cells"] = items({"a", "", "b"});
+  values.lists["rows"] = {row};
+  EXPECT_EQ(
+      render("<\n@for r in rows\n- @{r.cells...}@{mark}\n  @{r.cells...}\n@end\n>", "t", values),
+      "<\n- a!\n- !\n- b!\n  a\n  b\n>");
+  EXPECT_THAT(message("a @{rows...}\n", values), HasSubstr("there is no text 'each.text'"));
+  EXPECT_THAT(message("a @{row...}\n", values),
+              HasSubstr("t.c:1:3: error: there is no list 'row'"));
+}
+
 TEST(Template, NestsLoopsAndChoicesOfItems) {
   TemplateValues inner = text({{"v", "x"}}), row, values;
   row.flags["big"] = true;
@@ -167,6 +179,12 @@ TEST(Template, FindsEmbeddedFilesAndThrowsForOthers) {
   EXPECT_THAT(std::string(embedded_template("frictab_kernel.h")), HasSubstr("ft_linear_##N"));
   EXPECT_THAT(std::string(embedded_template("c/frictab_tau_R.c")), HasSubstr("@{kernel}"));
   EXPECT_THROW(embedded_template("c/none"), std::logic_error);
+}
+
+TEST(Template, IncludesTheLinesOfOthers) {
+  EXPECT_THAT(std::string(embedded_template("c/frictab_piece.c")), HasSubstr("@include c/"));
+  EXPECT_THROW(render_template("c/frictab_piece.c", {}), std::logic_error);
+  EXPECT_EQ(without_last_break("a\n\n"), "a\n");
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // Target `abaqus_fric`: Abaqus/Standard, whole shear interaction. Its names, compilation and input
 // deck; the source text is filled in source.cpp.
-#include "codegen/exporter.h"
+#include "fric.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,11 +10,9 @@
 #include "abaqus/stop.h"
 #include "codegen/outside_summary.h"
 #include "codegen/recipe_states.h"
-#include "codegen/routine_target.h"
 #include "codegen/solver_units.h"
 #include "codegen/source_check.h"
 #include "codegen/values_file.h"
-#include "source.h"
 
 namespace frictab::abaqus::fric {
 
@@ -23,8 +21,6 @@ using namespace codegen;
 namespace {
 
 using json = nlohmann::ordered_json;
-
-const char* const file = "frictab_fric.f";
 
 json state_variables(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const std::string length = solver_unit("mm", request.units).name;
@@ -73,58 +69,50 @@ const char* const target_notes =
     "states of unconverged iterations count too: prefer clamp or law in Standard. LM is 0 on "
     "return, or 2 where the point was open. PNEWDT is not touched.";
 
-class Fric final : public RoutineTarget {
-public:
-  Fric()
-      : RoutineTarget(
-            {.name = "abaqus_fric",
-             .order = 24,
-             .title = "Abaqus/Standard FRIC, stress with derivatives",
-             .signature_source = source_of_signature,
-             .notes = target_notes,
-             .options = {abaqus::coefficient_option(), values_option(), outside_summary_option()}},
-            "fric", abaqus::interaction(abaqus::Solver::standard, "ciname", "fgh")) {}
+} // namespace
 
-private:
-  const SolverGives& gives(const ExportRequest& request) const override {
-    return fric::gives(request);
-  }
+Fric::Fric()
+    : RoutineTarget(
+          {.name = "abaqus_fric",
+           .order = 24,
+           .title = "Abaqus/Standard FRIC, stress with derivatives",
+           .signature_source = source_of_signature,
+           .notes = target_notes,
+           .options = {abaqus::coefficient_option(), values_option(), outside_summary_option()}},
+          "fric", abaqus::interaction(abaqus::Solver::standard, "ciname", "fgh")) {}
 
-  SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const override {
-    return {{file, fric_source(request, inputs)}};
-  }
+void Fric::add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const {
+  out["options"] = {{"abaqus_coefficient", option(request, "abaqus_coefficient")}};
+  out["arguments"] = recipe_states(inputs);
+  out["arguments_note"] = "FRIC's own 39 arguments; listed is where each state comes from";
+  out["result"] = {{"name", "TAU, DDTDDG, DDTDDP, DDTDDT"},
+                   {"meaning",
+                    "tau_R along the slip, or its share along the elastic slip while "
+                    "the point sticks; derivatives by motion, pressure and temperature"}};
+  out["state_variables_by"] = "contact point";
+  out["state_variables"] = state_variables(request, inputs);
+  out["properties"] = recipe_properties(inputs, critical_slip(request, inputs));
+  out["compile"] = {"abaqus job=<job> user=frictab_fric.f",
+                    compile_line("gfortran", {"frictab_fric.f"})};
+  out["compile_note"] = "the last line only checks the source, with an aba_param.inc of your own";
+  add_deck(out,
+           abaqus::friction_deck("user", abaqus::states_size(state_count(inputs)), inputs,
+                                 critical_slip(request, inputs), abaqus::standard_lines(inputs)));
+}
 
-  void add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const override {
-    out["options"] = {{"abaqus_coefficient", option(request, "abaqus_coefficient")}};
-    out["arguments"] = recipe_states(inputs);
-    out["arguments_note"] = "FRIC's own 39 arguments; listed is where each state comes from";
-    out["result"] = {{"name", "TAU, DDTDDG, DDTDDP, DDTDDT"},
-                     {"meaning",
-                      "tau_R along the slip, or its share along the elastic slip while "
-                      "the point sticks; derivatives by motion, pressure and temperature"}};
-    out["state_variables_by"] = "contact point";
-    out["state_variables"] = state_variables(request, inputs);
-    out["properties"] = recipe_properties(inputs, critical_slip(request, inputs));
-    out["compile"] = {"abaqus job=<job> user=frictab_fric.f",
-                      compile_line("gfortran", {"frictab_fric.f"})};
-    out["compile_note"] = "the last line only checks the source, with an aba_param.inc of your own";
-    add_deck(out,
-             abaqus::friction_deck("user", abaqus::states_size(state_count(inputs)), inputs,
-                                   critical_slip(request, inputs), abaqus::standard_lines(inputs)));
-  }
+std::vector<BuildVariant> Fric::builds(const ExportRequest& request) const {
+  return {abaqus::standard_variant(request, "frictab_fric.f")};
+}
 
-  std::vector<BuildVariant> builds(const ExportRequest& request) const override {
-    return {abaqus::standard_variant(request, file)};
-  }
+Driver Fric::driver(const ExportRequest& request, const Inputs&) const {
+  return {.gives = gives(request), .most_points = 136};
+}
 
-  Driver driver(const ExportRequest& request, const Inputs&) const override {
-    return {.gives = fric::gives(request), .most_points = 136};
-  }
+std::string Fric::quit() const {
+  return abaqus::quit(abaqus::Solver::standard);
+}
 
-  void follow(DrivenPath& path) const override { fric::follow(path); }
-
-  std::string quit() const override { return abaqus::quit(abaqus::Solver::standard); }
-};
+namespace {
 
 const Registered<ExporterPointer> registered{make_exporter<Fric>};
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "abaqus/fric/source.h"
+#include "abaqus/fric/fric.h"
 #include "abaqus/standard.h"
 #include "codegen/driven_path.h"
 
@@ -55,8 +55,7 @@ struct Answer {
 class FricPath {
 public:
   FricPath(DrivenPath& path, bool keeps)
-      : path_(path), keeps_(keeps),
-        frozen_(coefficient_is_frozen(*find_exporter("abaqus_fric"), path.request)),
+      : path_(path), keeps_(keeps), frozen_(coefficient_is_frozen(path.request)),
         critical_(critical_slip(path.request, path.inputs).front().number),
         memory_(points, {.further = ContactMemory(path.inputs)}),
         state_(points,
@@ -180,7 +179,7 @@ private:
     if (g.directions == 1) elastic = {m.elastic[0], 0};
     Vector trial = {elastic[0] + g.motion[0], elastic[1] + g.motion[1]};
     GivenStates given;
-    given.pressure = asked;
+    given.pressure = pressure;
     given.speed = a.speed = seconds > 0 ? move / seconds : 0;
     given.slip = path_.length.to_canonical(m.slip);
     if (keeps_) given.slip += path_.length.to_canonical(std::max(size_of(trial) - gc, 0.0));
@@ -192,8 +191,7 @@ private:
       given.fields.push_back(0.5 * (g.fields[f] + g.main_fields[f]));
     if (keeps_) given.memory = &m.further;
     a.temperature = path_.followed_temperature(given);
-    // Histories see the pressure itself, the law the one that it is asked at.
-    a.states = states_at(given, pressure);
+    a.states = path_.states_at(given, asked);
     a.coefficient = path_.tau(a.states) / asked;
     a.limit = a.coefficient * g.pressure;
     if (frozen_ && keeps_ && m.coefficient > 0 && !std::isnan(a.coefficient))
@@ -212,15 +210,6 @@ private:
       a.slip[d] = a.tested > gc ? (a.tested - gc) * direction : 0;
     }
     return a;
-  }
-
-  std::vector<double> states_at(GivenStates given, double pressure) const {
-    std::vector<double> x = path_.states(given);
-    given.pressure = pressure;
-    const std::vector<double> at_pressure = path_.states(given);
-    for (std::size_t d = 0; d < x.size(); ++d)
-      if (path_.inputs[d].source == Source::history) x[d] = at_pressure[d];
-    return x;
   }
 
   void check(std::size_t k, const Given& g, const DrivenPath::Call& c) {
@@ -326,11 +315,8 @@ private:
   }
 
   std::vector<double> numbers(const Memory& m) const {
-    std::vector<double> all = {m.slip,       m.work,       m.peak,       m.outside,
-                               m.elastic[0], m.elastic[1], m.coefficient};
-    const std::vector<double> further = m.further.variables(path_.request.units);
-    all.insert(all.end(), further.begin(), further.end());
-    return all;
+    return m.further.variables(path_.request.units, {m.slip, m.work, m.peak, m.outside,
+                                                     m.elastic[0], m.elastic[1], m.coefficient});
   }
 
   void compare_states(const std::vector<double>& st, const Memory& start, const Memory& end) {
@@ -359,7 +345,7 @@ private:
 
 } // namespace
 
-void follow(DrivenPath& path) {
+void Fric::follow(DrivenPath& path) const {
   path.drive_at_both_paces([&] { return FricPath(path, true); });
   path.drive(FricPath(path, false), 0.25);
 }

@@ -1,5 +1,5 @@
 // Fills templates/abaqus/fric/frictab_fric.f.
-#include "source.h"
+#include "fric.h"
 
 #include "abaqus/standard.h"
 #include "codegen/fortran_parts.h"
@@ -11,7 +11,7 @@ namespace frictab::abaqus::fric {
 
 using namespace codegen;
 
-const SolverGives& gives(const ExportRequest&) {
+const SolverGives& Fric::gives(const ExportRequest&) const {
   static const SolverGives all = {
       .states = {{.state = "sigma_n_MPa",
                   .text = "PRESS",
@@ -64,22 +64,21 @@ FurtherProperties critical_slip(const ExportRequest& request,
            .where_absent = 0}};
 }
 
-std::string fric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+SourceBundle Fric::sources(const ExportRequest& request, const Inputs& inputs) const {
   TemplateValues values;
   // TAU is NaN if DROT, CHRLNGTH and the like are not numbers, so ftqnan is always needed.
   const FurtherProperties critical = critical_slip(request, inputs);
-  abaqus::add_routine(values, *find_exporter("abaqus_fric"), request, inputs, gives(request), true,
+  abaqus::add_routine(values, *this, request, inputs, gives(request), true,
                       {.further_properties = critical});
   values.text["critical"] = std::to_string(critical.front().number);
-  values.text["arguments"] =
-      fortran::without_last_break(render_template("abaqus/fric/arguments.f", {}));
+  values.text["arguments"] = render_part("abaqus/fric/arguments.f", {});
   // Least slip: a millionth of a millimetre, if neither the deck nor the solver gives a length.
   values.text["least_slip"] = fortran_number(solver_unit("mm", request.units).from_canonical(1e-6));
   abaqus::add_states(values, state_count(inputs));
   values.text["reads"] = fortran::reads(inputs, gives(request));
   values.text["slopes"] =
       fortran::slopes(inputs, gives(request), {{"to_solver", values.text.at("to_solver")}});
-  return render_template("abaqus/fric/frictab_fric.f", values);
+  return {{"frictab_fric.f", render_template("abaqus/fric/frictab_fric.f", values)}};
 }
 
 } // namespace frictab::abaqus::fric

@@ -1,6 +1,6 @@
 // Target `abaqus_fric_coef`: Abaqus/Standard, the coefficient alone. Its names, compilation and
 // input deck; the source text is filled in source.cpp.
-#include "codegen/exporter.h"
+#include "fric_coef.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,11 +9,9 @@
 #include "abaqus/standard.h"
 #include "abaqus/stop.h"
 #include "codegen/recipe_states.h"
-#include "codegen/routine_target.h"
 #include "codegen/solver_units.h"
 #include "codegen/source_check.h"
 #include "codegen/values_file.h"
-#include "source.h"
 
 namespace frictab::abaqus::fric_coef {
 
@@ -22,8 +20,6 @@ using namespace codegen;
 namespace {
 
 using json = nlohmann::ordered_json;
-
-const char* const file = "frictab_fric_coef.f";
 
 json state_variables(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const std::string length = solver_unit("mm", request.units).name;
@@ -65,79 +61,67 @@ const char* const target_notes =
     "Beyond a side with outside = error STDB_ABQERR ends the analysis, and states of unconverged "
     "iterations count too: prefer clamp or law in Standard.";
 
-class FricCoef final : public RoutineTarget {
-public:
-  FricCoef()
-      : RoutineTarget(
-            {.name = "abaqus_fric_coef",
-             .order = 26,
-             .title = "Abaqus/Standard FRIC_COEF, coefficient with derivatives",
-             .signature_source = source_of_signature,
-             .notes = target_notes,
-             .options =
-                 {{"abaqus_release",
-                   {"2024", "2020"},
-                   "the argument list of FRIC_COEF: the one of 2024, or that of releases up to "
-                   "about 2020; between them see which one your manual shows"},
-                  abaqus::coefficient_option(),
-                  values_option()}},
-            "fric_coef", abaqus::interaction(abaqus::Solver::standard, "surfInt", "pqr")) {}
+} // namespace
 
-private:
-  const SolverGives& gives(const ExportRequest& request) const override {
-    return fric_coef::gives(request);
-  }
+FricCoef::FricCoef()
+    : RoutineTarget(
+          {.name = "abaqus_fric_coef",
+           .order = 26,
+           .title = "Abaqus/Standard FRIC_COEF, coefficient with derivatives",
+           .signature_source = source_of_signature,
+           .notes = target_notes,
+           .options =
+               {{"abaqus_release",
+                 {"2024", "2020"},
+                 "the argument list of FRIC_COEF: the one of 2024, or that of releases up to "
+                 "about 2020; between them see which one your manual shows"},
+                abaqus::coefficient_option(),
+                values_option()}},
+          "fric_coef", abaqus::interaction(abaqus::Solver::standard, "surfInt", "pqr")) {}
 
-  SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const override {
-    return {{file, coef_source(request, inputs)}};
-  }
+void FricCoef::add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const {
+  for (const ExportOption& one : options)
+    out["options"][one.name] = option(request, one.name);
+  out["arguments"] = recipe_states(inputs);
+  out["arguments_note"] = "FRIC_COEF's own 16 arguments, in the list of the release in options; "
+                          "listed is where each state comes from";
+  out["result"] = {
+      {"name", is_2024(request) ? "fCoef(:,1), fCoefDeriv(:,:,1)" : "fCoef, fCoefDeriv"},
+      {"meaning", "tau_R/p; derivatives by slip rate (1), pressure (2), temperature (3)" +
+                      std::string(is_2024(request) ? ", equivalent slip (6)" : "")}};
+  out["state_variables_by"] = "contact point";
+  out["state_variables"] = state_variables(request, inputs);
+  out["properties"] = recipe_properties(inputs);
+  out["compile"] = {"abaqus job=<job> user=frictab_fric_coef.f",
+                    compile_line("gfortran", {"frictab_fric_coef.f"})};
+  out["compile_note"] = "the last line only checks the source, with an aba_param.inc of your own";
+  const std::size_t depvar = is_2024(request) ? abaqus::states_size(state_count(inputs)) : 0;
+  add_deck(out, abaqus::friction_deck("user=COEFFICIENT", depvar, inputs, {},
+                                      abaqus::standard_lines(inputs)));
+}
 
-  void add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const override {
-    for (const ExportOption& one : options)
-      out["options"][one.name] = option(request, one.name);
-    out["arguments"] = recipe_states(inputs);
-    out["arguments_note"] = "FRIC_COEF's own 16 arguments, in the list of the release in options; "
-                            "listed is where each state comes from";
-    out["result"] = {
-        {"name", is_2024(request) ? "fCoef(:,1), fCoefDeriv(:,:,1)" : "fCoef, fCoefDeriv"},
-        {"meaning", "tau_R/p; derivatives by slip rate (1), pressure (2), temperature (3)" +
-                        std::string(is_2024(request) ? ", equivalent slip (6)" : "")}};
-    out["state_variables_by"] = "contact point";
-    out["state_variables"] = state_variables(request, inputs);
-    out["properties"] = recipe_properties(inputs);
-    out["compile"] = {"abaqus job=<job> user=frictab_fric_coef.f",
-                      compile_line("gfortran", {"frictab_fric_coef.f"})};
-    out["compile_note"] = "the last line only checks the source, with an aba_param.inc of your own";
-    const std::size_t depvar = is_2024(request) ? abaqus::states_size(state_count(inputs)) : 0;
-    add_deck(out, abaqus::friction_deck("user=COEFFICIENT", depvar, inputs, {},
-                                        abaqus::standard_lines(inputs)));
-  }
+std::vector<BuildVariant> FricCoef::builds(const ExportRequest& request) const {
+  return {abaqus::standard_variant(request, "frictab_fric_coef.f")};
+}
 
-  std::vector<BuildVariant> builds(const ExportRequest& request) const override {
-    return {abaqus::standard_variant(request, file)};
-  }
+// State variables belong to one point, so a law with histories gets one point per call.
+Driver FricCoef::driver(const ExportRequest& request, const Inputs& inputs) const {
+  const bool kept = takes(inputs, "friction_work") || takes(inputs, "peak_sigma_n") ||
+                    uses(inputs, Source::history);
+  return {.gives = gives(request),
+          .result = fortran::Coefficient::coulomb,
+          .most_points = kept ? std::size_t{1} : std::size_t{136}};
+}
 
-  // State variables belong to one point, so a law with histories gets one point per call.
-  Driver driver(const ExportRequest& request, const Inputs& inputs) const override {
-    const bool kept = takes(inputs, "friction_work") || takes(inputs, "peak_sigma_n") ||
-                      uses(inputs, Source::history);
-    return {.gives = fric_coef::gives(request),
-            .result = fortran::Coefficient::coulomb,
-            .most_points = kept ? std::size_t{1} : std::size_t{136}};
-  }
+TemplateValues FricCoef::driver_values(const ExportRequest& request, const Inputs&) const {
+  return {.text = {}, .flags = {{"new", is_2024(request)}}, .lists = {}};
+}
 
-  TemplateValues driver_values(const ExportRequest& request, const Inputs&) const override {
-    return {.text = {}, .flags = {{"new", is_2024(request)}}, .lists = {}};
-  }
+std::string FricCoef::quit() const {
+  return abaqus::quit(abaqus::Solver::standard);
+}
 
-  std::string arguments(const ExportRequest& request) const override {
-    return fric_coef::arguments(request);
-  }
-
-  void follow(DrivenPath& path) const override { fric_coef::follow(path); }
-
-  std::string quit() const override { return abaqus::quit(abaqus::Solver::standard); }
-};
+namespace {
 
 const Registered<ExporterPointer> registered{make_exporter<FricCoef>};
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "abaqus/fric_coef/source.h"
+#include "abaqus/fric_coef/fric_coef.h"
 #include "abaqus/standard.h"
 #include "codegen/coefficient.h"
 #include "codegen/driven_path.h"
@@ -37,8 +37,8 @@ class CoefPath {
 public:
   CoefPath(DrivenPath& path, std::size_t points, bool keeps)
       : path_(path), points_(points), keeps_(keeps), newer_(is_2024(path.request)),
-        frozen_(coefficient_is_frozen(*find_exporter("abaqus_fric_coef"), path.request)),
-        memory_{.further = ContactMemory(path.inputs)},
+        frozen_(coefficient_is_frozen(path.request)), memory_{.further =
+                                                                  ContactMemory(path.inputs)},
         state_(abaqus::states_size(state_count(path.inputs)) - (keeps || points > 1 ? 0 : 1)),
         slip_(points) {}
 
@@ -127,14 +127,10 @@ private:
     if (has_temperature_) given.temperature = path_.celsius.to_canonical(g.temperature);
     given.properties = properties_;
     given.fields = g.fields;
+    given.pressure = path_.stress.to_canonical(g.pressure);
     Answer a;
     a.temperature = path_.followed_temperature(given);
-    given.pressure = path_.stress.to_canonical(g.pressure);
-    const std::vector<double> of_histories = path_.states(given);
-    given.pressure = asked; // of the law itself
-    a.states = path_.states(given);
-    for (std::size_t d = 0; d < a.states.size(); ++d)
-      if (path_.inputs[d].source == Source::history) a.states[d] = of_histories[d];
+    a.states = path_.states_at(given, asked);
     if (!(g.pressure > 0)) a.states = path_.without_contact(std::move(a.states));
     a.of_state = std::min(path_.tau(a.states) / asked, fortran::largest_coefficient);
     const bool holds = frozen_ && keeps_ && memory_.coefficient > 0 && !std::isnan(a.of_state);
@@ -204,10 +200,8 @@ private:
   }
 
   std::vector<double> numbers(const Memory& m) const {
-    std::vector<double> all = {m.work, m.peak, m.outside, m.coefficient, m.slip};
-    const std::vector<double> further = m.further.variables(path_.request.units);
-    all.insert(all.end(), further.begin(), further.end());
-    return all;
+    return m.further.variables(path_.request.units,
+                               {m.work, m.peak, m.outside, m.coefficient, m.slip});
   }
 
   void compare_states(const std::vector<double>& st) {
@@ -236,7 +230,7 @@ private:
 
 } // namespace
 
-void follow(DrivenPath& path) {
+void FricCoef::follow(DrivenPath& path) const {
   if (is_2024(path.request)) {
     path.drive_at_both_paces([&] { return CoefPath(path, 1, true); });
     path.drive(CoefPath(path, 1, false), 0.125);

@@ -1,5 +1,5 @@
 // Fills templates/abaqus/fric_coef/frictab_fric_coef.f.
-#include "source.h"
+#include "fric_coef.h"
 
 #include "abaqus/standard.h"
 #include "codegen/coefficient.h"
@@ -12,10 +12,6 @@ namespace frictab::abaqus::fric_coef {
 using namespace codegen;
 
 namespace {
-
-const Exporter& target() {
-  return *find_exporter("abaqus_fric_coef");
-}
 
 SolverGives given(bool release_2024) {
   SolverGives all = {.states = {{.state = "sigma_n_MPa",
@@ -77,10 +73,10 @@ std::vector<std::string> release_lines(bool release_2024) {
 } // namespace
 
 bool is_2024(const ExportRequest& request) {
-  return target().option(request, "abaqus_release") == "2024";
+  return request.option_or_empty("abaqus_release") != "2020";
 }
 
-const SolverGives& gives(const ExportRequest& request) {
+const SolverGives& FricCoef::gives(const ExportRequest& request) const {
   static const SolverGives newer = given(true), older = given(false);
   return is_2024(request) ? newer : older;
 }
@@ -89,30 +85,28 @@ std::size_t state_count(const std::vector<SolverInput>& inputs) {
   return history + history_count(inputs);
 }
 
-std::string arguments(const ExportRequest& request) {
-  TemplateValues values;
-  values.flags["new"] = is_2024(request);
-  return render_template("abaqus/fric_coef/arguments.f", values);
+std::string FricCoef::arguments(const ExportRequest& request) const {
+  return render_template("abaqus/fric_coef/arguments.f", {.flags = {{"new", is_2024(request)}}});
 }
 
-std::string coef_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+SourceBundle FricCoef::sources(const ExportRequest& request, const Inputs& inputs) const {
   const bool newer = is_2024(request);
-  if (!newer && abaqus::coefficient_is_frozen(target(), request))
+  if (!newer && abaqus::coefficient_is_frozen(request))
     throw InputError(at_job_key("export.options", "abaqus_coefficient"),
                      "abaqus_fric_coef keeps no coefficient with abaqus_release = \"2020\": that "
                      "argument list has no state variables",
                      "\"current\", or the target abaqus_fric");
   TemplateValues values;
-  values.flags["uses_unknown"] = abaqus::add_routine(
-      values, target(), request, inputs, gives(request), false, {.release = release_lines(newer)});
+  values.flags["uses_unknown"] = abaqus::add_routine(values, *this, request, inputs, gives(request),
+                                                     false, {.release = release_lines(newer)});
   values.text["reads_once"] = fortran::reads(inputs, gives(request), "once");
   values.text["reads"] = fortran::reads(inputs, gives(request), "", 4);
   values.text["slopes"] = fortran::slopes(inputs, gives(request), {}, 4);
   values.flags["new"] = newer;
-  values.text["arguments"] = fortran::without_last_break(arguments(request));
+  values.text["arguments"] = without_last_break(arguments(request));
   values.text["most"] = fortran::most_text();
   abaqus::add_states(values, state_count(inputs));
-  return render_template("abaqus/fric_coef/frictab_fric_coef.f", values);
+  return {{"frictab_fric_coef.f", render_template("abaqus/fric_coef/frictab_fric_coef.f", values)}};
 }
 
 } // namespace frictab::abaqus::fric_coef

@@ -64,7 +64,8 @@ std::vector<std::string> remarks(const ExportRequest& request) {
   return lines;
 }
 
-std::string source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+std::string source(const Exporter& self, const ExportRequest& request,
+                   const std::vector<SolverInput>& inputs) {
   const bool refuses = fortran::refuses(request.table);
   const bool unknown = fortran::needs_unknown(inputs, gives(request));
   const fortran::Core core = fortran::core(
@@ -73,10 +74,8 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
                 .directory_routine = abaqus::directory_routine(abaqus::Solver::explicit_)});
   const SolverUnit stress = solver_unit("MPa", request.units);
   TemplateValues values;
-  values.text = {{"head", abaqus::explicit_head(*find_exporter("abaqus_vfric_coef"), request,
-                                                inputs, remarks(request))},
-                 {"arguments", fortran::without_last_break(
-                                   render_template("abaqus/vfric_coef/arguments.f", {}))},
+  values.text = {{"head", abaqus::explicit_head(self, request, inputs, remarks(request))},
+                 {"arguments", render_part("abaqus/vfric_coef/arguments.f", {})},
                  {"n_x", std::to_string(core.n_x)},
                  {"reads_once", fortran::reads(inputs, gives(request), "once")},
                  {"reads_point", fortran::reads(inputs, gives(request), "point", 2)},
@@ -131,7 +130,7 @@ private:
   }
 
   SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const override {
-    return {{file, source(request, inputs)}};
+    return {{file, source(*this, request, inputs)}};
   }
 
   void add_recipe(nlohmann::ordered_json& out, const ExportRequest& request,

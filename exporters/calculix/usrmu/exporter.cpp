@@ -47,21 +47,14 @@ const SolverGives& gives(const ExportRequest&) {
   return all;
 }
 
-std::string source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+std::string source(const Exporter& self, const ExportRequest& request,
+                   const std::vector<SolverInput>& inputs) {
   TemplateValues values;
-  fortran::add_head(values, *find_exporter("calculix_usrmu"), request, inputs,
-                    {.error_action = "STOP ends the analysis"});
-  const bool refuses = values.flags.at("refuses");
+  fortran::add_head(values, self, request, inputs, {.error_action = "STOP ends the analysis"});
   values.text["least"] = fmt::format("{}", fortran::least_pressure);
   values.text["most"] = fmt::format("{}", fortran::largest_coefficient);
-  values.text["stress_convert"] =
-      to_canonical_text(solver_unit("MPa", request.units), Notation::fortran);
-  values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
-  values.text["constants"] = fortran::constants_data(inputs);
-  values.text["coefficient"] = fortran::coefficient(request.table, Coefficient::coulomb);
-  values.text["reads"] = fortran::reads(inputs, gives(request));
-  values.text["core"] =
-      fortran::core(request, {.unknown = refuses, .quit = fortran::quit("stop 1")}).text;
+  fortran::add_coefficient(values, request, inputs, gives(request), Coefficient::coulomb,
+                           fortran::quit("stop 1"));
   return render_template("calculix/usrmu/frictab_usrmu.f", values);
 }
 
@@ -125,7 +118,7 @@ private:
   }
 
   SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const override {
-    return {{file, source(request, inputs)},
+    return {{file, source(*this, request, inputs)},
             {hook, std::string(embedded_template("calculix/usrmu/frictab_hook.sh"))}};
   }
 
@@ -134,11 +127,8 @@ private:
     out["arguments_note"] =
         "USRMU's 7 arguments and the time increment that USRMU_TIME is given; listed is "
         "where each state comes from";
-    out["result"] = {{"name", "UM"},
-                     {"meaning", "friction coefficient mu = tau_R/p"},
-                     {"least_pressure_MPa", fortran::least_pressure},
-                     {"at_most", fortran::largest_coefficient},
-                     {"unit", "1"}};
+    out["result"] = fortran::coefficient_result(Coefficient::coulomb, "UM",
+                                                "friction coefficient mu = tau_R/p", request.units);
     out["state_variables"] = json::array();
     out["properties"] = json::array();
     out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";

@@ -26,8 +26,8 @@ const std::vector<ExportOption> table_options = {
 // True for shear friction. Rejects the third value of the option, which only the routine's target
 // has.
 bool is_shear(const ExportRequest& request) {
-  const std::string& said = find_exporter("deform_table")->option(request, friction_option);
-  if (said != "shear" && said != "coulomb")
+  const std::string said = request.option_or_empty(friction_option);
+  if (!said.empty() && said != "shear" && said != "coulomb")
     throw InputError(at_job_key("export.options", friction_option),
                      "a FRCFAC table holds mu or m, not '" + said + "'",
                      "coulomb or shear; only deform_usrbcc takes constant");

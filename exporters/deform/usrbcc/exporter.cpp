@@ -1,6 +1,6 @@
 // Target `deform_usrbcc`: DEFORM-2D. Its names, compilation and reference in a database; the source
 // text is filled in source.cpp.
-#include "codegen/exporter.h"
+#include "usrbcc.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -8,11 +8,9 @@
 #include "codegen/fortran_build.h"
 #include "codegen/histories.h"
 #include "codegen/recipe_states.h"
-#include "codegen/routine_target.h"
 #include "codegen/solver_units.h"
 #include "codegen/source_check.h"
 #include "codegen/values_file.h"
-#include "source.h"
 
 namespace frictab::deform::usrbcc {
 
@@ -23,20 +21,10 @@ namespace {
 using json = nlohmann::ordered_json;
 using fortran::Coefficient;
 
-constexpr const char* main_file = "frictab_usrbcc.f";
-constexpr const char* update_file = "frictab_usrupd.f";
-
 // Returns the number of a type of friction in FRCFAC.
 const char* friction_type(Coefficient kind) {
-  switch (kind) {
-  case Coefficient::shear:
-    return "1";
-  case Coefficient::coulomb:
-    return "2";
-  case Coefficient::stress:
-    break;
-  }
-  return "3";
+  if (kind == Coefficient::coulomb) return "2";
+  return kind == Coefficient::shear ? "1" : "3";
 }
 
 Deck keyword(Coefficient kind) {
@@ -48,19 +36,11 @@ Deck keyword(Coefficient kind) {
                            {"<die>", "2", "number of the die"}}};
 }
 
-json result(Coefficient kind, const SolverUnit& stress) {
-  json out = {{"name", "VARIABLE"}};
-  if (kind == Coefficient::coulomb) {
-    out["meaning"] = "friction coefficient mu = tau_R/p";
-    out["least_pressure_MPa"] = fortran::least_pressure;
-  } else if (kind == Coefficient::shear) {
-    out["meaning"] = "shear factor m = tau_R/(flow stress/sqrt(3)); 0 without pressure";
-  } else {
-    out["meaning"] = "frictional shear stress tau_R; 0 without pressure";
-  }
-  if (kind != Coefficient::stress) out["at_most"] = fortran::largest_coefficient;
-  out["unit"] = kind == Coefficient::stress ? stress.name : "1";
-  return out;
+std::string meaning_of(Coefficient kind) {
+  if (kind == Coefficient::coulomb) return "friction coefficient mu = tau_R/p";
+  return kind == Coefficient::shear
+             ? "shear factor m = tau_R/(flow stress/sqrt(3)); 0 without pressure"
+             : "frictional shear stress tau_R; 0 without pressure";
 }
 
 json user_variables(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
@@ -114,82 +94,62 @@ const char* const target_notes =
     "threads. Beyond a side with outside = error the routine writes state and value to the "
     "standard output and stops (FTQUIT). There is no USRBCC in DEFORM-3D.";
 
-class Usrbcc final : public RoutineTarget {
-public:
-  Usrbcc()
-      : RoutineTarget(
-            {.name = "deform_usrbcc",
-             .order = 52,
-             .title = "DEFORM-2D USRBCC",
-             .signature_source = source_of_signature,
-             .notes = target_notes,
-             .options = {{"deform_friction",
-                          {"coulomb", "shear", "constant"},
-                          "the friction type of FRCFAC: mu, m, or tau_R (2-D routine only)"},
-                         values_option()}},
-            "usrbcc",
-            {.argument = "ndie",
-             .meaning = "number of the object that is touched",
-             .number = true,
-             .alone = "2",
-             .guard = guard,
-             .deck = {{"<die>", "@"}}}) {}
+} // namespace
 
-private:
-  const SolverGives& gives(const ExportRequest& request) const override {
-    return usrbcc::gives(request);
-  }
+Usrbcc::Usrbcc()
+    : RoutineTarget(
+          {.name = "deform_usrbcc",
+           .order = 52,
+           .title = "DEFORM-2D USRBCC",
+           .signature_source = source_of_signature,
+           .notes = target_notes,
+           .options = {{"deform_friction",
+                        {"coulomb", "shear", "constant"},
+                        "the friction type of FRCFAC: mu, m, or tau_R (2-D routine only)"},
+                       values_option()}},
+          "usrbcc",
+          {.argument = "ndie",
+           .meaning = "number of the object that is touched",
+           .number = true,
+           .alone = "2",
+           .guard = guard,
+           .deck = {{"<die>", "@"}}}) {}
 
-  SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const override {
-    SourceBundle files = {{main_file, usrbcc_source(request, inputs)}};
-    if (takes_history(inputs)) files[update_file] = usrupd_source(request, inputs);
-    return files;
-  }
+void Usrbcc::add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const {
+  const Coefficient kind = coefficient_kind(request);
+  out["arguments"] = recipe_states(inputs);
+  out["arguments_note"] = "USRBCC's own 18 arguments and COMMON /UFHCOM/, /UFHCOM2/; listed is "
+                          "where each state comes from";
+  out["result"] = fortran::coefficient_result(kind, "VARIABLE", meaning_of(kind), request.units);
+  out["acts_when"] = "IMODE = 1 and ITYPE = 2; otherwise VARIABLE stays as it is";
+  out["state_variables_by"] = "node, USRNOD(i,node); written by FTUPD once per converged step";
+  out["state_variables"] = takes_history(inputs) ? user_variables(request, inputs) : json::array();
+  out["properties"] = json::array();
+  out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
+  out["build"] = build_steps(inputs);
+  out["compile"] = {compile_line("gfortran", {"frictab_usrbcc.f"})};
+  out["compile_note"] = "this line only checks the source; the engine is built as `build` says";
+  add_deck(out, keyword(kind));
+  out["input_deck_note"] = "-1: user routine 1; the die has to be ELASTIC (meshed), else DEFORM "
+                           "computes neither SLDVEL "
+                           "nor PRESS";
+}
 
-  void add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const override {
-    const Coefficient kind = coefficient_kind(request);
-    out["arguments"] = recipe_states(inputs);
-    out["arguments_note"] = "USRBCC's own 18 arguments and COMMON /UFHCOM/, /UFHCOM2/; listed is "
-                            "where each state comes from";
-    out["result"] = result(kind, solver_unit("MPa", request.units));
-    out["acts_when"] = "IMODE = 1 and ITYPE = 2; otherwise VARIABLE stays as it is";
-    out["state_variables_by"] = "node, USRNOD(i,node); written by FTUPD once per converged step";
-    out["state_variables"] =
-        takes_history(inputs) ? user_variables(request, inputs) : json::array();
-    out["properties"] = json::array();
-    out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
-    out["build"] = build_steps(inputs);
-    out["compile"] = {compile_line("gfortran", {"frictab_usrbcc.f"})};
-    out["compile_note"] = "this line only checks the source; the engine is built as `build` says";
-    add_deck(out, keyword(kind));
-    out["input_deck_note"] = "-1: user routine 1; the die has to be ELASTIC (meshed), else DEFORM "
-                             "computes neither SLDVEL "
-                             "nor PRESS";
-  }
+std::vector<BuildVariant> Usrbcc::builds(const ExportRequest& request) const {
+  std::vector<std::string> files = {main_file};
+  if (takes_history(solver_inputs(request, gives(request)))) files.push_back(update_file);
+  return {fortran::fortran_variant(request, "double", 0x1p-53, files)};
+}
 
-  std::vector<BuildVariant> builds(const ExportRequest& request) const override {
-    std::vector<std::string> files = {main_file};
-    if (takes_history(solver_inputs(request, usrbcc::gives(request)))) files.push_back(update_file);
-    return {fortran::fortran_variant(request, "double", 0x1p-53, files)};
-  }
+Driver Usrbcc::driver(const ExportRequest& request, const Inputs&) const {
+  return {.gives = gives(request), .result = coefficient_kind(request), .peak_presses = true};
+}
 
-  Driver driver(const ExportRequest& request, const Inputs&) const override {
-    return {
-        .gives = usrbcc::gives(request), .result = coefficient_kind(request), .peak_presses = true};
-  }
+TemplateValues Usrbcc::driver_values(const ExportRequest&, const Inputs& inputs) const {
+  return {.text = {}, .flags = {{"updates", takes_history(inputs)}}, .lists = {}};
+}
 
-  void check(const ExportRequest& request, const Inputs& inputs) const override {
-    check_fields(request, inputs);
-  }
-
-  TemplateValues driver_values(const ExportRequest&, const Inputs& inputs) const override {
-    return {.text = {}, .flags = {{"updates", takes_history(inputs)}}, .lists = {}};
-  }
-
-  void follow(DrivenPath& path) const override { usrbcc::follow(path); }
-
-  std::string quit() const override { return usrbcc::quit(); }
-};
+namespace {
 
 const Registered<ExporterPointer> registered{make_exporter<Usrbcc>};
 

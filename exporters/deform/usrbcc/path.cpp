@@ -8,7 +8,7 @@
 
 #include "codegen/driven_path.h"
 #include "codegen/histories.h"
-#include "deform/usrbcc/source.h"
+#include "deform/usrbcc/usrbcc.h"
 
 namespace frictab::deform::usrbcc {
 
@@ -171,14 +171,13 @@ private:
   }
 
   void compare_variables(const Node& node, const double* st) {
-    std::vector<std::pair<std::string, double>> all = {
-        {"slip", node.slip}, {"friction work", node.work}, {"peak pressure", node.peak}};
-    const std::vector<double> further = node.further.variables(path_.request.units);
-    const std::vector<HistoryState> known = history_states(path_.inputs, path_.request.units);
-    for (std::size_t h = 0; h < further.size(); ++h)
-      all.emplace_back(known[h].name, further[h]);
+    const std::vector<double> all =
+        node.further.variables(path_.request.units, {node.slip, node.work, node.peak});
+    std::vector<std::string> names = {"slip", "friction work", "peak pressure"};
+    for (const HistoryState& state : history_states(path_.inputs, path_.request.units))
+      names.push_back(state.name);
     for (std::size_t j = 0; j < all.size() && j < node.state.size(); ++j)
-      path_.compare(fmt::format("USRNOD({}) {}", j + 1, all[j].first), "", st[j], all[j].second);
+      path_.compare(fmt::format("USRNOD({}) {}", j + 1, names[j]), "", st[j], all[j]);
   }
 
   DrivenPath& path_;
@@ -193,7 +192,7 @@ private:
 
 } // namespace
 
-void follow(DrivenPath& path) {
+void Usrbcc::follow(DrivenPath& path) const {
   std::size_t last_field = 0;
   for (const SolverInput& input : path.inputs)
     last_field = std::max(last_field, input.field);

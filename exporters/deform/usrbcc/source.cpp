@@ -1,5 +1,5 @@
 // Fills templates/deform/usrbcc/.
-#include "source.h"
+#include "usrbcc.h"
 
 #include <algorithm>
 
@@ -23,18 +23,6 @@ using fortran::Coefficient;
 namespace {
 
 constexpr std::size_t first_three = 3; // USRNOD(1..3): slip, work, peak pressure
-
-const char* result_name(Coefficient kind) {
-  switch (kind) {
-  case Coefficient::coulomb:
-    return "friction coefficient mu";
-  case Coefficient::shear:
-    return "shear factor m";
-  case Coefficient::stress:
-    break;
-  }
-  return "frictional shear stress tau_R";
-}
 
 // Adds the histories after the first three.
 void add_further(TemplateValues& values, const ExportRequest& request,
@@ -76,12 +64,12 @@ std::string result_text(Coefficient kind, const std::string& stress) {
 } // namespace
 
 Coefficient coefficient_kind(const ExportRequest& request) {
-  const std::string& word = find_exporter("deform_usrbcc")->option(request, "deform_friction");
+  const std::string word = request.option_or_empty("deform_friction");
   if (word == "shear") return Coefficient::shear;
   return word == "constant" ? Coefficient::stress : Coefficient::coulomb;
 }
 
-const SolverGives& gives(const ExportRequest&) {
+const SolverGives& Usrbcc::gives(const ExportRequest&) const {
   static const SolverGives all = {
       .states = {{.state = "sigma_n_MPa",
                   .text = "|PRESS| of COMMON /UFHCOM/",
@@ -132,7 +120,7 @@ std::size_t state_count(const std::vector<SolverInput>& inputs) {
   return first_three + history_count(inputs);
 }
 
-void check_fields(const ExportRequest&, const std::vector<SolverInput>& inputs) {
+void Usrbcc::check(const ExportRequest&, const Inputs& inputs) const {
   FaultList faults;
   if (takes_history(inputs))
     for (const SolverInput& input : inputs)
@@ -143,21 +131,17 @@ void check_fields(const ExportRequest&, const std::vector<SolverInput>& inputs) 
   faults.throw_if_any();
 }
 
-std::string quit() {
+std::string Usrbcc::quit() const {
   return fortran::quit("stop 1");
 }
 
-std::string usrbcc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  const frictab::table::Table& table = request.table;
+std::string Usrbcc::main_source(const ExportRequest& request, const Inputs& inputs) const {
   const Coefficient kind = coefficient_kind(request);
   const SolverUnit stress = solver_unit("MPa", request.units);
   TemplateValues values;
-  fortran::add_head(values, *find_exporter("deform_usrbcc"), request, inputs,
-                    {.error_action = "FTQUIT ends the simulation"});
-  const bool refuses = values.flags["refuses"];
+  fortran::add_head(values, *this, request, inputs, {.error_action = "FTQUIT ends the simulation"});
   values.lists["result"] = fortran::comments({result_text(kind, stress.name)});
-  values.text["result_name"] = result_name(kind);
-  values.text["stress_convert"] = to_canonical_text(stress, Notation::fortran);
+  values.text["result_name"] = fortran::coefficient_name(kind);
   values.text["result_convert"] =
       kind == Coefficient::stress ? values.text.at("to_solver") : std::string();
   const auto flow = std::find_if(inputs.begin(), inputs.end(), [](const SolverInput& input) {
@@ -165,12 +149,8 @@ std::string usrbcc_source(const ExportRequest& request, const std::vector<Solver
   });
   values.flags["given_flow"] = flow != inputs.end();
   values.text["flow_index"] = std::to_string(flow - inputs.begin() + 1);
-  values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
-  values.text["constants"] = fortran::constants_data(inputs);
-  values.text["coefficient"] = fortran::coefficient(table, kind);
-  values.text["core"] = fortran::core(request, {.unknown = refuses, .quit = quit()}).text;
-  values.text["arguments"] =
-      fortran::without_last_break(render_template("deform/usrbcc/arguments.f", {}));
+  fortran::add_coefficient(values, request, inputs, gives(request), kind, quit());
+  values.text["arguments"] = render_part("deform/usrbcc/arguments.f", {});
   values.flags["histories"] = takes_history(inputs);
   Lines& warmest = values.lists["warmest"];
   for (const std::size_t state : peak_temperatures(inputs))
@@ -183,9 +163,10 @@ std::string usrbcc_source(const ExportRequest& request, const std::vector<Solver
   values.text["n_states"] = std::to_string(state_count(inputs));
   add_further(values, request, inputs);
   values.flags["uses_peak"] = takes(inputs, "peak_sigma_n");
-  values.text["reads"] = fortran::reads(inputs, gives(request));
   return render_template("deform/usrbcc/frictab_usrbcc.f", values);
 }
+
+namespace {
 
 std::string usrupd_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   TemplateValues values, all;
@@ -195,10 +176,18 @@ std::string usrupd_source(const ExportRequest& request, const std::vector<Solver
   add_further(all, request, inputs);
   values.text["n_histories"] = all.text.at("n_histories");
   values.text["node_temperature"] = node_temperature(inputs, request.units);
-  values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
+  values.text["common"] = fortran::constants_common(inputs);
   values.flags = all.flags;
   values.lists = all.lists;
   return render_template("deform/usrbcc/frictab_usrupd.f", values);
+}
+
+} // namespace
+
+SourceBundle Usrbcc::sources(const ExportRequest& request, const Inputs& inputs) const {
+  SourceBundle files = {{main_file, main_source(request, inputs)}};
+  if (takes_history(inputs)) files[update_file] = usrupd_source(request, inputs);
+  return files;
 }
 
 } // namespace frictab::deform::usrbcc

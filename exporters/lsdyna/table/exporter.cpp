@@ -27,10 +27,8 @@ Lines curves(const NativeTable& table) {
       points += fmt::format("{:>20}{:>20}{}", native_number(pressure[p]),
                             native_number(table.values.value[s * pressure.size() + p]),
                             p + 1 < pressure.size() ? "\n" : "");
-    TemplateValues curve;
-    curve.text = {{"id", fmt::format("{:>10}", table_id + 1 + static_cast<int>(s))},
-                  {"points", points}};
-    out.push_back(curve);
+    out.push_back({.text = {{"id", fmt::format("{:>10}", table_id + 1 + static_cast<int>(s))},
+                            {"points", points}}});
   }
   return out;
 }

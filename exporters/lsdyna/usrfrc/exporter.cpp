@@ -1,20 +1,19 @@
 // Target `lsdyna_usrfrc`: LS-DYNA, SMP. Its names, compilation and keyword file; the source text is
 // filled in source.cpp.
-#include "codegen/exporter.h"
+#include "usrfrc.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "codegen/explicit_account.h"
 #include "codegen/fortran_build.h"
 #include "codegen/histories.h"
 #include "codegen/outside_summary.h"
 #include "codegen/recipe_states.h"
-#include "codegen/routine_target.h"
 #include "codegen/solver_units.h"
 #include "codegen/source_check.h"
 #include "codegen/speed_scale.h"
 #include "codegen/values_file.h"
-#include "source.h"
 #include "table/outside.h"
 
 namespace frictab::lsdyna::usrfrc {
@@ -36,7 +35,8 @@ Deck keywords(const ExportRequest& request, const std::vector<SolverInput>& inpu
                                     "*USER_INTERFACE_FRICTION\n"
                                     "$     ifid       noc      noci      nhsv\n"
                                     "{}{:>10}{:>10}{:>10}\n",
-                                    contact, values.size(), values.size(), state_count(inputs))};
+                                    contact, values.size(), values.size(),
+                                    explicit_state_count(inputs))};
   deck.of_model = fmt::format(
       "*CONTROL_CONTACT\n"
       "$   slsfac    rwpnal    islchk    shlthk    penopt    thkchg     orien    enmass\n"
@@ -60,36 +60,16 @@ Deck keywords(const ExportRequest& request, const std::vector<SolverInput>& inpu
   return deck;
 }
 
-json history(const SolverUnits& units, const std::vector<SolverInput>& inputs) {
-  const std::string length = solver_unit("mm", units).name, stress = solver_unit("MPa", units).name;
-  json out = json::array();
-  const auto add = [&](const std::string& name, const std::string& unit,
-                       const std::string& meaning) {
-    out.push_back(
-        {{"number", out.size() + 1}, {"name", name}, {"unit", unit}, {"meaning", meaning}});
-  };
-  add("slip", length, "accumulated slip while under pressure");
-  add("friction_work", stress + "*" + length, "friction work per area");
-  add("peak_pressure", stress, "peak pressure");
-  add("n_outside", "1", "cycles in which the state was outside the range");
-  add("slip_remainder", length, "what the solver's precision rounds off 1");
-  add("friction_work_remainder", stress + "*" + length, "what the solver's precision rounds off 2");
-  for (const HistoryState& state : with_remainders(history_states(inputs, units), before_histories))
-    add(state.name, state.unit, state.meaning);
-  add("tau_R", stress, "frictional shear stress of the last cycle in contact");
-  add("mu", "1", "that over the pressure");
-  return out;
-}
-
 BuildVariant variant(const ExportRequest& request, const std::string& name, double eps,
                      const std::vector<std::string>& flags) {
   BuildVariant out =
       fortran::fortran_variant(request, name, eps, {"frictab_usrfrc.f"}, flags, true);
-  out.command.push_back("@{dir}/cstop.f"); // called by the bundle's own ftquit
-  out.extra["cstop.f"] = "C     Stand-in for the solver's routine.\n"
-                         "      subroutine cstop(text)\n"
-                         "      character*(*) text\n"
-                         "      end\n";
+  // The bundle's own ftquit calls it.
+  fortran::add_source(out, "cstop.f",
+                      "C     Stand-in for the solver's routine.\n"
+                      "      subroutine cstop(text)\n"
+                      "      character*(*) text\n"
+                      "      end\n");
   return out;
 }
 
@@ -122,74 +102,63 @@ const char* const target_notes =
     "arithmetic are double in both. Beyond a side with outside = error the routine writes state "
     "and value to the standard output and ends the analysis through CSTOP.";
 
-class Usrfrc final : public RoutineTarget {
-public:
-  Usrfrc()
-      : RoutineTarget(
-            {.name = "lsdyna_usrfrc",
-             .order = 54,
-             .title = "LS-DYNA USRFRC, SMP",
-             .signature_source = source_of_signature,
-             .notes = target_notes,
-             .options = {values_option(), speed_scale_option(), outside_summary_option()}},
-            "usrfrc",
-            {.argument = "nosl",
-             .meaning = "number of the contact",
-             .number = true,
-             .alone = "1",
-             .deck = {{"<contact>", "@"}}}) {}
+} // namespace
 
-private:
-  const SolverGives& gives(const ExportRequest& request) const override {
-    return usrfrc::gives(request);
-  }
+Usrfrc::Usrfrc()
+    : RoutineTarget({.name = "lsdyna_usrfrc",
+                     .order = 54,
+                     .title = "LS-DYNA USRFRC, SMP",
+                     .signature_source = source_of_signature,
+                     .notes = target_notes,
+                     .options = {values_option(), speed_scale_option(), outside_summary_option()}},
+                    "usrfrc",
+                    {.argument = "nosl",
+                     .meaning = "number of the contact",
+                     .number = true,
+                     .alone = "1",
+                     .deck = {{"<contact>", "@"}}}) {}
 
-  SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const override {
-    return {{"frictab_usrfrc.f", usrfrc_source(request, inputs)}};
-  }
+void Usrfrc::add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const {
+  out["arguments"] = recipe_states(inputs);
+  out["arguments_note"] = "USRFRC's own 58 arguments; listed is where each state comes from";
+  out["result"] = {{"name", "fxis, fyis, fzis; fdat(3..5)"},
+                   {"meaning", "force along what would hold the node, of magnitude "
+                               "min(tau_R*areas*frc(1,.), that force)"}};
+  out["state_variables_by"] = "contact node, ufhist(i, ilbsv(ii))";
+  out["state_variables"] = state_variables_json(
+      explicit_state_variables(inputs, request.units,
+                               {.slip = "accumulated slip while under pressure",
+                                .step = "cycle",
+                                .mu = "that over the pressure"}));
+  out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
+  out["build"] = {"compare the argument list with that of usrfrc in the dyn21.f of your release's "
+                  "object package; older ones end at isurface and have no history",
+                  "replace subroutine usrfrc in dyn21.f by frictab_usrfrc.f",
+                  "build with the package's Makefile, which sets the kinds of real and integer"};
+  out["compile"] = {"make", compile_line("gfortran", {"frictab_usrfrc.f"})};
+  out["compile_note"] = "the last line only checks the source";
+  add_deck(out, keywords(request, inputs));
+  out["input_deck_note"] = "if the deck has *CONTROL_CONTACT, USRFRC goes there; the contact is a "
+                           "forming contact, or one-way or node-to-surface contact (only they "
+                           "have nodal areas), with "
+                           "FS above 0 (recalled: friction is processed only then)";
+}
 
-  void add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const override {
-    out["arguments"] = recipe_states(inputs);
-    out["arguments_note"] = "USRFRC's own 58 arguments; listed is where each state comes from";
-    out["result"] = {{"name", "fxis, fyis, fzis; fdat(3..5)"},
-                     {"meaning", "force along what would hold the node, of magnitude "
-                                 "min(tau_R*areas*frc(1,.), that force)"}};
-    out["state_variables_by"] = "contact node, ufhist(i, ilbsv(ii))";
-    out["state_variables"] = history(request.units, inputs);
-    out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
-    out["build"] = {
-        "compare the argument list with that of usrfrc in the dyn21.f of your release's "
-        "object package; older ones end at isurface and have no history",
-        "replace subroutine usrfrc in dyn21.f by frictab_usrfrc.f",
-        "build with the package's Makefile, which sets the kinds of real and integer"};
-    out["compile"] = {"make", compile_line("gfortran", {"frictab_usrfrc.f"})};
-    out["compile_note"] = "the last line only checks the source";
-    add_deck(out, keywords(request, inputs));
-    out["input_deck_note"] =
-        "if the deck has *CONTROL_CONTACT, USRFRC goes there; the contact is a "
-        "forming contact, or one-way or node-to-surface contact (only they "
-        "have nodal areas), with "
-        "FS above 0 (recalled: friction is processed only then)";
-  }
+std::vector<BuildVariant> Usrfrc::builds(const ExportRequest& request) const {
+  return {variant(request, "double", 0x1p-53,
+                  {"-fdefault-real-8", "-fdefault-double-8", "-fdefault-integer-8"}),
+          variant(request, "single", 0x1p-24, {})};
+}
 
-  std::vector<BuildVariant> builds(const ExportRequest& request) const override {
-    return {variant(request, "double", 0x1p-53,
-                    {"-fdefault-real-8", "-fdefault-double-8", "-fdefault-integer-8"}),
-            variant(request, "single", 0x1p-24, {})};
-  }
+Driver Usrfrc::driver(const ExportRequest& request, const Inputs&) const {
+  return {.gives = gives(request), .most_points = 128, .peak_presses = true};
+}
 
-  Driver driver(const ExportRequest& request, const Inputs&) const override {
-    return {.gives = usrfrc::gives(request), .most_points = 128, .peak_presses = true};
-  }
+TemplateValues Usrfrc::driver_values(const ExportRequest& request, const Inputs& inputs) const {
+  return area_of_driver(request, inputs);
+}
 
-  TemplateValues driver_values(const ExportRequest& request, const Inputs& inputs) const override {
-    return area_of_driver(request, inputs);
-  }
-
-  void follow(DrivenPath& path) const override { usrfrc::follow(path); }
-
-  std::string quit() const override { return usrfrc::quit(); }
-};
+namespace {
 
 const Registered<ExporterPointer> registered{make_exporter<Usrfrc>};
 

@@ -6,7 +6,7 @@
 
 #include "codegen/explicit_account.h"
 #include "codegen/speed_scale.h"
-#include "lsdyna/usrfrc/source.h"
+#include "lsdyna/usrfrc/usrfrc.h"
 
 namespace frictab::lsdyna::usrfrc {
 
@@ -169,15 +169,8 @@ private:
     GivenStates out;
     out.pressure = path_.stress.to_canonical(-g.normal / g.area);
     out.speed = seconds() > 0 ? move / seconds() : 0;
-    out.slip = (account_.keeps(1) ? path_.length.to_canonical(node.kept.slip) : 0) + move;
-    out.work = account_.keeps(2)
-                   ? path_.length.to_canonical(path_.stress.to_canonical(node.kept.work))
-                   : 0;
-    out.peak_pressure =
-        std::max(account_.keeps(3) ? path_.stress.to_canonical(node.kept.peak) : 0, out.pressure);
-    out.area = path_.length.to_canonical(path_.length.to_canonical(g.area));
+    account_.fill(out, account_.kept(node.kept), node.memory, move, g.area);
     out.properties = call_.properties;
-    if (account_.keeps_histories()) out.memory = &node.memory;
     if (has_temperature_) {
       // Bilinear on the segment, whose corners lie at (-1,-1), (1,-1), (1,1), (-1,1).
       const double segment =
@@ -232,14 +225,11 @@ private:
     double slip = over > 0 ? move : 0;
     if (over > 0 && over < stiffness * move) slip = over / stiffness;
     const double pressure = -g.normal / g.area, stress = force / g.area;
-    const double peak = std::max(account_.keeps(3) ? node.kept.peak : 0, pressure);
+    const double peak = std::max(account_.kept(node.kept).peak, pressure);
     const double work = 0.5 * (size_of(g.before) + force) / g.area * slip;
-    account_.add(node.kept, {slip, work, pressure, stress, path_.is_outside(x)});
-    const double slipped = path_.length.to_canonical(slip);
-    node.memory.advance(
-        {path_.stress.to_canonical(pressure), seconds() > 0 ? slipped / seconds() : 0, followed_,
-         path_.length.to_canonical(path_.length.to_canonical(g.area))},
-        {path_.stress.to_canonical(peak), path_.stress.to_canonical(stress), slipped, seconds()});
+    const ExplicitChange change = {slip, work, pressure, stress, path_.is_outside(x)};
+    account_.add(node.kept, change);
+    account_.advance(node.memory, change, peak, g.area, seconds(), followed_);
     return force;
   }
 
@@ -258,10 +248,11 @@ private:
 
 } // namespace
 
-void follow(DrivenPath& path) {
-  const std::size_t all = state_count(path.inputs);
+void Usrfrc::follow(DrivenPath& path) const {
+  const std::size_t all = explicit_state_count(path.inputs);
   path.drive_at_both_paces([&] { return CyclePath(path, all); });
-  for (const std::size_t fewer : {all - 2, std::size_t{4}, std::size_t{2}, std::size_t{0}})
+  for (const std::size_t fewer :
+       {all - shown_states, std::size_t{4}, std::size_t{2}, std::size_t{0}})
     path.drive(CyclePath(path, fewer), 1.0 / 12);
 }
 

@@ -1,7 +1,8 @@
 // Fills templates/lsdyna/usrfrc/frictab_usrfrc.f.
-#include "source.h"
+#include "usrfrc.h"
 
 #include "codegen/coefficient.h"
+#include "codegen/explicit_account.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_parts.h"
 #include "codegen/fortran_stop.h"
@@ -15,7 +16,7 @@ namespace frictab::lsdyna::usrfrc {
 
 using namespace codegen;
 
-const SolverGives& gives(const ExportRequest&) {
+const SolverGives& Usrfrc::gives(const ExportRequest&) const {
   static const SolverGives all = {
       .states = {{.state = "sigma_n_MPa", .text = "-FNI/AREAS of the node", .read = "press"},
                  {.state = "v_rel_mm_s",
@@ -47,53 +48,47 @@ const SolverGives& gives(const ExportRequest&) {
                    .part = "once"},
       .constant = {.read = "@{fallback}", .canonical = true, .part = "once"},
       .history = "UFHIST(@{number})",
-      .before_histories = before_histories,
+      .before_histories = explicit_states,
       .area = "AREAS of the node",
       .smooths_speed = true};
   return all;
 }
 
-std::size_t state_count(const std::vector<SolverInput>& inputs) {
-  return before_histories + 2 * history_count(inputs) + 2;
-}
-
-std::string quit() {
+std::string Usrfrc::quit() const {
   return fortran::quit("call cstop('E r r o r   t e r m i n a t i o n')");
 }
 
-std::string usrfrc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+SourceBundle Usrfrc::sources(const ExportRequest& request, const Inputs& inputs) const {
   const frictab::table::Table& table = request.table;
   TemplateValues values;
-  fortran::add_head(values, *find_exporter("lsdyna_usrfrc"), request, inputs,
+  fortran::add_head(values, *this, request, inputs,
                     {.error_action = "CSTOP ends the analysis",
                      .further_properties = speed_scale(request, inputs)});
-  const std::size_t before_rest = before_histories + history_count(inputs);
+  const std::size_t before_rest = explicit_states + history_count(inputs);
   fortran::add_histories(values, inputs, request.units, false);
-  values.text["n_history"] = std::to_string(state_count(inputs));
-  values.text["n_kept"] = std::to_string(state_count(inputs) - 2);
+  values.text["n_history"] = std::to_string(explicit_state_count(inputs));
+  values.text["n_kept"] = std::to_string(explicit_state_count(inputs) - shown_states);
   const SolverUnit stress = solver_unit("MPa", request.units);
   values.text["least"] = fortran_number(stress.from_canonical(fortran::least_pressure));
-  values.text["at_stress"] = std::to_string(state_count(inputs) - 1);
+  values.text["at_stress"] = std::to_string(explicit_state_count(inputs) - 1);
   values.text["n_histories"] = std::to_string(history_count(inputs));
   values.text["before_rest"] = std::to_string(before_rest);
   values.text["first_rest"] = std::to_string(before_rest + 1);
   values.lists["histories"] =
-      fortran::comments(numbered(history_states(inputs, request.units), before_histories + 1));
+      fortran::comments(numbered(history_states(inputs, request.units), explicit_states + 1));
   values.text["core"] =
-      fortran::core(request,
-                    {.unknown = true,
-                     .quit = quit(),
-                     .quits = true,
-                     .summary = fortran::outside_summary(*find_exporter("lsdyna_usrfrc"), request)})
+      fortran::core(request, {.unknown = true,
+                              .quit = quit(),
+                              .quits = true,
+                              .summary = fortran::outside_summary(*this, request)})
           .text;
-  values.text["arguments"] =
-      fortran::without_last_break(render_template("lsdyna/usrfrc/arguments.f", {}));
+  values.text["arguments"] = render_part("lsdyna/usrfrc/arguments.f", {});
   values.flags["has_ends"] = !frictab::table::all_ends(table).empty();
   add_speed_scale(values, request, inputs);
   values.flags["uses_temperature"] = takes(inputs, "T_contact_C");
   values.text["reads_once"] = fortran::reads(inputs, gives(request), "once");
   values.text["reads"] = fortran::reads(inputs, gives(request), "", 4);
-  return render_template("lsdyna/usrfrc/frictab_usrfrc.f", values);
+  return {{"frictab_usrfrc.f", render_template("lsdyna/usrfrc/frictab_usrfrc.f", values)}};
 }
 
 } // namespace frictab::lsdyna::usrfrc

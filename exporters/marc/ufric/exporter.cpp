@@ -1,17 +1,15 @@
 // Target `marc_ufric`: Marc and Simufact Forming. Its names, compilation and reference in a model;
 // the source text is filled in source.cpp.
-#include "codegen/exporter.h"
 #include "codegen/coefficient_path.h"
+#include "ufric.h"
 
 #include <nlohmann/json.hpp>
 
 #include "codegen/fortran_build.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/recipe_states.h"
-#include "codegen/routine_target.h"
 #include "codegen/source_check.h"
 #include "codegen/values_file.h"
-#include "source.h"
 
 namespace frictab::marc::ufric {
 
@@ -34,19 +32,6 @@ std::string input_deck(const Choices& chosen) {
          "$ Simufact Forming: the same routine in the Marc installation that it runs\n";
 }
 
-json result(const Choices& chosen) {
-  if (chosen.coefficient == fortran::Coefficient::shear)
-    return {{"name", "FRIC"},
-            {"meaning", "shear factor m = tau_R/(YIEL/sqrt(3)); 0 without normal stress"},
-            {"at_most", fortran::largest_coefficient},
-            {"unit", "1"}};
-  return {{"name", "FRIC"},
-          {"meaning", "friction coefficient mu = tau_R/|FN|"},
-          {"least_pressure_MPa", fortran::least_pressure},
-          {"at_most", fortran::largest_coefficient},
-          {"unit", "1"}};
-}
-
 const char* const source_of_signature =
     "recalled: the argument list, what its arguments hold (MIBODY(4); VREL and X of 1 and 2 "
     "components in 2-D, 2 and 3 in 3-D; FN a stress in stress-based models and a force in nodal "
@@ -67,92 +52,81 @@ const char* const target_notes =
     "Beyond a side with outside = error the routine writes state and value to the standard output "
     "and ends the analysis through QUIT(1234).";
 
-class Ufric final : public RoutineTarget {
-public:
-  Ufric()
-      : RoutineTarget(
-            {.name = "marc_ufric",
-             .order = 50,
-             .title = "Marc and Simufact Forming UFRIC",
-             .signature_source = source_of_signature,
-             .notes = target_notes,
-             .options =
-                 {{"marc_friction", {"coulomb", "shear"}, "what UFRIC gives back: mu or m"},
-                  {"marc_normal",
-                   {"stress", "force"},
-                   "what FN is: the normal stress (stress-based models) or a force (nodal ones)"},
-                  {"marc_dimension", {"2d", "3d"}, "sizes of UFRIC's arrays X and VREL"},
-                  values_option()}},
-            "ufric",
-            {.argument = "nsurf",
-             .meaning = "number of the contact body that is touched",
-             .number = true,
-             .alone = "1"}) {}
+} // namespace
 
-  // Warns without this option, because UFRIC's arguments do not contain the model's dimension.
-  std::string caution(const ExportRequest& request) const override {
-    return request.options.count("marc_dimension")
-               ? ""
-               : "marc_ufric is for 2-D models; in 3-D it would take one component of the sliding "
-                 "velocity for all of it: [export.options] marc_dimension = \"3d\"";
-  }
+Ufric::Ufric()
+    : RoutineTarget(
+          {.name = "marc_ufric",
+           .order = 50,
+           .title = "Marc and Simufact Forming UFRIC",
+           .signature_source = source_of_signature,
+           .notes = target_notes,
+           .options =
+               {{"marc_friction", {"coulomb", "shear"}, "what UFRIC gives back: mu or m"},
+                {"marc_normal",
+                 {"stress", "force"},
+                 "what FN is: the normal stress (stress-based models) or a force (nodal ones)"},
+                {"marc_dimension", {"2d", "3d"}, "sizes of UFRIC's arrays X and VREL"},
+                values_option()}},
+          "ufric",
+          {.argument = "nsurf",
+           .meaning = "number of the contact body that is touched",
+           .number = true,
+           .alone = "1"}) {}
 
-private:
-  const SolverGives& gives(const ExportRequest& request) const override {
-    return ufric::gives(request);
-  }
+std::string Ufric::caution(const ExportRequest& request) const {
+  return request.options.count("marc_dimension")
+             ? ""
+             : "marc_ufric is for 2-D models; in 3-D it would take one component of the sliding "
+               "velocity for all of it: [export.options] marc_dimension = \"3d\"";
+}
 
-  SourceBundle sources(const ExportRequest& request, const Inputs& inputs) const override {
-    return {{"frictab_ufric.f", ufric_source(request, inputs)}};
-  }
+void Ufric::add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const {
+  const Choices chosen = choices(request);
+  out["arguments"] = recipe_states(inputs);
+  out["arguments_note"] = "UFRIC's own 10 arguments; listed is where each state comes from";
+  out["result"] = fortran::coefficient_result(
+      chosen.coefficient, "FRIC",
+      chosen.coefficient == fortran::Coefficient::shear
+          ? "shear factor m = tau_R/(YIEL/sqrt(3)); 0 without normal stress"
+          : "friction coefficient mu = tau_R/|FN|",
+      request.units);
+  out["dimension"] = chosen.slip_components == 1 ? "2d" : "3d";
+  out["state_variables"] = json::array();
+  out["properties"] = json::array();
+  out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
+  out["compile"] = {"run_marc -jid <job> -user frictab_ufric.f",
+                    compile_line("gfortran", {"frictab_ufric.f"})};
+  out["compile_note"] = "the first line is recalled; the last one only checks the source";
+  out["input_deck"] = input_deck(chosen);
+}
 
-  void add_recipe(json& out, const ExportRequest& request, const Inputs& inputs) const override {
-    const Choices chosen = choices(request);
-    out["arguments"] = recipe_states(inputs);
-    out["arguments_note"] = "UFRIC's own 10 arguments; listed is where each state comes from";
-    out["result"] = result(chosen);
-    out["dimension"] = chosen.slip_components == 1 ? "2d" : "3d";
-    out["state_variables"] = json::array();
-    out["properties"] = json::array();
-    out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
-    out["compile"] = {"run_marc -jid <job> -user frictab_ufric.f",
-                      compile_line("gfortran", {"frictab_ufric.f"})};
-    out["compile_note"] = "the first line is recalled; the last one only checks the source";
-    out["input_deck"] = input_deck(chosen);
-  }
+std::vector<BuildVariant> Ufric::builds(const ExportRequest& request) const {
+  BuildVariant out = fortran::fortran_variant(request, "double", 0x1p-53, {"frictab_ufric.f"});
+  if (!fortran::ends(request)) return {out};
+  // The bundle's own ftquit calls it.
+  fortran::add_source(out, "quit.f",
+                      "C     Stand-in for the solver's routine.\n"
+                      "      subroutine quit(number)\n"
+                      "      integer number\n"
+                      "      end\n");
+  return {out};
+}
 
-  std::vector<BuildVariant> builds(const ExportRequest& request) const override {
-    BuildVariant out = fortran::fortran_variant(request, "double", 0x1p-53, {"frictab_ufric.f"});
-    if (!fortran::ends(request)) return {out};
-    out.command.push_back("@{dir}/quit.f"); // called by the bundle's own ftquit
-    out.extra["quit.f"] = "C     Stand-in for the solver's routine.\n"
-                          "      subroutine quit(number)\n"
-                          "      integer number\n"
-                          "      end\n";
-    return {out};
-  }
+Driver Ufric::driver(const ExportRequest& request, const Inputs&) const {
+  return {.gives = gives(request), .result = choices(request).coefficient};
+}
 
-  Driver driver(const ExportRequest& request, const Inputs&) const override {
-    return {.gives = ufric::gives(request), .result = choices(request).coefficient};
-  }
+TemplateValues Ufric::driver_values(const ExportRequest& request, const Inputs&) const {
+  return {.text = {}, .flags = {{"in_space", choices(request).slip_components == 2}}, .lists = {}};
+}
 
-  TemplateValues driver_values(const ExportRequest& request, const Inputs&) const override {
-    return {
-        .text = {}, .flags = {{"in_space", choices(request).slip_components == 2}}, .lists = {}};
-  }
+void Ufric::follow(DrivenPath& path) const {
+  follow_coefficient(
+      path, {.result = choices(path.request).coefficient, .name = "FRIC", .signed_pressure = true});
+}
 
-  void follow(DrivenPath& path) const override {
-    follow_coefficient(
-        path,
-        {.result = choices(path.request).coefficient, .name = "FRIC", .signed_pressure = true});
-  }
-
-  std::string arguments(const ExportRequest& request) const override {
-    return ufric::arguments(request);
-  }
-
-  std::string quit() const override { return ufric::quit(); }
-};
+namespace {
 
 const Registered<ExporterPointer> registered{make_exporter<Ufric>};
 

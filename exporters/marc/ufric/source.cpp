@@ -1,5 +1,5 @@
 // Fills templates/marc/ufric/frictab_ufric.f.
-#include "source.h"
+#include "ufric.h"
 
 #include <fmt/format.h>
 
@@ -16,11 +16,10 @@ using namespace codegen;
 using fortran::Coefficient;
 
 Choices choices(const ExportRequest& request) {
-  const Exporter& self = *find_exporter("marc_ufric");
-  return {self.option(request, "marc_friction") == "shear" ? Coefficient::shear
-                                                           : Coefficient::coulomb,
-          self.option(request, "marc_normal") == "force",
-          self.option(request, "marc_dimension") == "2d" ? 1 : 2};
+  return {request.option_or_empty("marc_friction") == "shear" ? Coefficient::shear
+                                                              : Coefficient::coulomb,
+          request.option_or_empty("marc_normal") == "force",
+          request.option_or_empty("marc_dimension") == "3d" ? 2 : 1};
 }
 
 namespace {
@@ -41,7 +40,7 @@ SolverGives given(bool by_force) {
 
 } // namespace
 
-const SolverGives& gives(const ExportRequest& request) {
+const SolverGives& Ufric::gives(const ExportRequest& request) const {
   static const SolverGives stress = given(false), force = given(true);
   return choices(request).by_force ? force : stress;
 }
@@ -77,19 +76,18 @@ std::vector<std::string> result_lines(const Choices& chosen, const std::string& 
 
 } // namespace
 
-std::string quit() {
+std::string Ufric::quit() const {
   return fortran::quit("call quit(1234)");
 }
 
-std::string arguments(const ExportRequest& request) {
+std::string Ufric::arguments(const ExportRequest& request) const {
   const int components = choices(request).slip_components;
-  TemplateValues values;
-  values.text = {{"n_coord", std::to_string(components + 1)},
-                 {"n_slip", std::to_string(components)}};
-  return render_template("marc/ufric/arguments.f", values);
+  return render_template("marc/ufric/arguments.f",
+                         {.text = {{"n_coord", std::to_string(components + 1)},
+                                   {"n_slip", std::to_string(components)}}});
 }
 
-std::string ufric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+SourceBundle Ufric::sources(const ExportRequest& request, const Inputs& inputs) const {
   const table::Table& table = request.table;
   const Choices chosen = choices(request);
   if (chosen.by_force && !fortran::same_at_every_pressure(table, chosen.coefficient))
@@ -99,25 +97,19 @@ std::string ufric_source(const ExportRequest& request, const std::vector<SolverI
                                  table.model),
                      "a stress-based friction model and marc_normal = \"stress\"");
   TemplateValues values;
-  fortran::add_head(values, *find_exporter("marc_ufric"), request, inputs,
-                    {.error_action = "QUIT ends the analysis"});
+  fortran::add_head(values, *this, request, inputs, {.error_action = "QUIT ends the analysis"});
   const bool refuses = values.flags["refuses"];
   const bool coulomb = chosen.coefficient == Coefficient::coulomb;
   const SolverUnit stress = solver_unit("MPa", request.units);
   values.lists["result"] = fortran::comments(result_lines(chosen, stress.name));
-  values.text["result_name"] = coulomb ? "friction coefficient mu" : "shear factor m";
-  values.text["arguments"] = fortran::without_last_break(arguments(request));
+  values.text["result_name"] = fortran::coefficient_name(chosen.coefficient);
+  values.text["arguments"] = without_last_break(arguments(request));
   values.text["n_slip"] = std::to_string(chosen.slip_components);
-  values.text["stress_convert"] = to_canonical_text(stress, Notation::fortran);
-  values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
-  values.text["constants"] = fortran::constants_data(inputs);
-  values.text["coefficient"] = fortran::coefficient(table, chosen.coefficient);
-  values.text["core"] = fortran::core(request, {.unknown = refuses, .quit = quit()}).text;
+  fortran::add_coefficient(values, request, inputs, gives(request), chosen.coefficient, quit());
   values.flags["coulomb"] = coulomb;
   values.flags["by_force"] = chosen.by_force;
   values.flags["guards_pressure"] = refuses || (chosen.by_force && coulomb);
-  values.text["reads"] = fortran::reads(inputs, gives(request));
-  return render_template("marc/ufric/frictab_ufric.f", values);
+  return {{"frictab_ufric.f", render_template("marc/ufric/frictab_ufric.f", values)}};
 }
 
 } // namespace frictab::marc::ufric

@@ -58,11 +58,6 @@ NativeForm form() {
   return out;
 }
 
-bool takes_speed(const ExportRequest& request) {
-  const auto inputs = request.table.inputs();
-  return std::find(inputs.begin(), inputs.end(), "v_rel_mm_s") != inputs.end();
-}
-
 std::string formula_text(const Card& card) {
   switch (card.ifric) {
   case 1:
@@ -104,7 +99,7 @@ std::vector<std::string> comments(const Exporter& self, const ExportRequest& req
     texts.push_back(fmt::format("held: {} = {:.6g}", state, value));
   texts.push_back("Worst drift of the frictab table it is made from: " + drift_text(request.table));
   texts.push_back("Source: " + self.signature_source);
-  return wrapped_comments(texts);
+  return comment_lines(texts, 88, "  ");
 }
 
 std::string real_field(double value) {
@@ -166,7 +161,8 @@ public:
 
   SourceBundle generate(const ExportRequest& request) const override {
     const NativeProblem problem = native_problem(request, form());
-    const FittedCard fitted = fit_card(problem, takes_speed(request));
+    const FittedCard fitted =
+        fit_card(problem, input_index(request.table, "v_rel_mm_s").has_value());
     const table::FixedStates held = fixed_states(request);
     SourceBundle files = {{file_name, card_text(*this, request, problem, fitted, held)}};
     files["recipe.json"] = recipe(request, problem, fitted, held, files);
@@ -174,10 +170,7 @@ public:
   }
 
   std::vector<BuildVariant> variants(const ExportRequest&) const override {
-    BuildVariant deck;
-    deck.name = "deck";
-    deck.eps = 5e-9; // nine digits
-    return {deck};
+    return {native_deck()};
   }
 
   void drive(const Built& built, const ExportRequest& request, std::size_t rows,
@@ -238,10 +231,7 @@ std::string Friction::recipe(const ExportRequest& request, const NativeProblem& 
   for (std::size_t c = 0; c < columns.size(); ++c)
     out["arguments"].push_back(argument_json(columns[c], problem.axes[c]));
   out["result"] = {{"name", "mu"}, {"meaning", "tau_R = mu * contact pressure"}};
-  out["held"] = json::object();
-  for (const auto& [state, value] : held)
-    out["held"][state] = value;
-  out["held_note"] = "in canonical units; what that costs on the validation rows is in verify.json";
+  add_fixed_states(out, held);
   out["card"] = {{"Ifric", fitted.card.ifric}, {"formula", formula_text(fitted.card)}};
   out["card"]["Fric"] = fitted.card.fric;
   for (std::size_t i = 0; i < fitted.card.c.size(); ++i)
@@ -254,13 +244,9 @@ std::string Friction::recipe(const ExportRequest& request, const NativeProblem& 
        {{"sigma_n_MPa", fitted.loss.pressure_MPa}, {"v_rel_mm_s", fitted.loss.speed_mm_s}}},
       {"below_MPa", follows ? fitted.loss.below_MPa : 0.0}};
   out["loss_text"] = loss_text(fitted);
-  out["state_variables"] = json::array();
-  out["properties"] = json::array();
-  out["compile"] = json::array();
-  out["input_deck"] = fmt::format("#include {}\n# /INTER/TYPE7, TYPE24 or TYPE25: fric_ID = {}\n",
-                                  file_name, card_id);
-  out["table"] = recipe_table(request);
-  return io::json_text(out);
+  return recipe_of_text(std::move(out), request,
+                        fmt::format("#include {}\n# /INTER/TYPE7, TYPE24 or TYPE25: fric_ID = {}\n",
+                                    file_name, card_id));
 }
 
 const Registered<ExporterPointer> registered{make_exporter<Friction>};

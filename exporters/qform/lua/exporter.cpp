@@ -64,13 +64,10 @@ std::string recipe(const Exporter& self, const ExportRequest& request,
 // Runs all rows in one process; states and answers go through files.
 void run_rows(const Built& built, const ExportRequest& request, std::size_t rows,
               std::span<const double* const> columns, std::span<double> tau) {
-  const std::vector<std::string> needed = request.table.inputs();
   std::vector<std::pair<const double*, SolverUnit>> arguments; // null: not used
   for (const InputArgument& argument : entry_arguments(request.table, request.units)) {
-    const auto at = std::find(needed.begin(), needed.end(), argument.name);
-    arguments.emplace_back(
-        at == needed.end() ? nullptr : columns[static_cast<std::size_t>(at - needed.begin())],
-        argument.solver);
+    const std::optional<std::size_t> at = input_index(request.table, argument.name);
+    arguments.emplace_back(at ? columns[*at] : nullptr, argument.solver);
   }
   const auto path = [&](const char* name) { return (built.directory / name).string(); };
   std::string text;

@@ -8,8 +8,10 @@
 
 #include "codegen/baked_table.h"
 #include "codegen/entry_arguments.h"
-#include "codegen/layer.h"
+#include "codegen/entry_text.h"
+#include "codegen/layer_text.h"
 #include "codegen/number_text.h"
+#include "codegen/sides.h"
 #include "codegen/table_text.h"
 #include "codegen/variables.h"
 #include "core/template.h"
@@ -21,7 +23,6 @@
 namespace frictab::qform::lua {
 
 using namespace codegen;
-using table::axis_ends;
 using table::AxisEnds;
 using table::Outside;
 using table::Table;
@@ -32,20 +33,11 @@ namespace {
 constexpr std::size_t most_locals = 120;
 // A Lua 5.1 function also has a limited number of constants.
 constexpr std::size_t chunk_size = 8192;
+constexpr std::size_t comment_width = 90;
 
 std::string number(double value) {
   const std::string text = c_number(value);
   return text[0] == '-' ? "(" + text + ")" : text; // "--" would be a comment
-}
-
-template <class Numbers> std::string block(const Numbers& numbers, std::size_t indent = 4) {
-  std::vector<std::string> texts;
-  for (const auto value : numbers)
-    if constexpr (std::is_integral_v<std::remove_const_t<decltype(value)>>)
-      texts.push_back(std::to_string(value));
-    else
-      texts.push_back(c_number(value));
-  return number_lines(texts, 98, std::string(indent, ' '));
 }
 
 // Returns the variables of a function with this formula, in which constants are written as numbers.
@@ -98,71 +90,52 @@ Code code_of(const std::vector<Wanted>& wanted, const Variables& variables) {
   return out;
 }
 
-std::vector<std::string> sides(const Table& table, const Variables& variables, Outside kind) {
+std::vector<std::string> tests_of(const Table& table, const Variables& variables, Outside answer) {
   std::vector<std::string> tests;
-  for (const AxisEnds& axis : axis_ends(table)) {
-    const bool refuses = kind == Outside::error;
-    const auto add = [&](const char* relation, double limit) {
-      tests.push_back(fmt::format("{} {} {}", variables.name(axis.name), relation, number(limit)));
-    };
-    if (axis.below == kind) add("<", refuses ? axis.refused_below : axis.low);
-    if (axis.above == kind) add(">", refuses ? axis.refused_above : axis.high);
-  }
+  for (const Side& side : sides(table, answer))
+    tests.push_back(
+        fmt::format("{} {} {}", variables.name(side.axis), side.sign(), number(side.limit)));
   return tests;
 }
 
 // Clamps the state of an axis that is clamped at an end.
 std::vector<std::string> held_lines(const Table& table, const Variables& variables) {
   std::vector<std::string> lines;
-  for (const AxisEnds& axis : axis_ends(table)) {
-    if (!expr::symbols(*table.extension).count(axis.name)) continue;
-    const auto end = [&](const char* relation, double at) {
-      lines.push_back(fmt::format("if {0} {1} {2} then {0} = {2} end", variables.name(axis.name),
-                                  relation, number(at)));
-    };
-    if (axis.below != Outside::law) end("<", axis.low);
-    if (axis.above != Outside::law) end(">", axis.high);
-  }
+  for (const Side& side : clamped_sides(table))
+    lines.push_back(fmt::format("if {0} {1} {2} then {0} = {2} end", variables.name(side.axis),
+                                side.sign(), number(side.end)));
   return lines;
 }
 
-void add_layer(TemplateValues& values, const UnitLayer& l, const std::vector<std::string>& names) {
+void add_layer_data(TemplateValues& values, const UnitLayer& l,
+                    const std::vector<std::string>& names) {
   Lines features;
   for (std::size_t f = 0; f < l.features.size(); ++f) {
-    TemplateValues feature;
-    feature.text["weights"] = block(l.weight[f]);
-    features.push_back(feature);
+    features.push_back({.text = {{"weights", number_block(l.weight[f])}}});
   }
   values.lists["features"] = features;
   values.text["feature_names"] = join(names, ", ");
   values.text["units"] = std::to_string(l.units());
   values.text["outputs"] = std::to_string(l.outputs);
-  values.text["bias"] = block(l.bias, 2);
-  values.text["gain"] = block(l.gain, 2);
-  values.text["offset"] = block(l.offset, 2);
+  values.text["bias"] = number_block(l.bias, 2);
+  values.text["gain"] = number_block(l.gain, 2);
+  values.text["offset"] = number_block(l.offset, 2);
 }
 
 // Adds ft_piece, the law's own formula. Returns all statements, to find the functions that they
 // call.
 std::string add_piece(TemplateValues& values, const Table& table) {
   const LayeredFormula formula = split_layer(*table.extension);
-  const UnitLayer none;
-  const UnitLayer& layer = formula.layer ? *formula.layer : none;
-  const std::size_t features = layer.features.size();
-  Variables variables =
-      variables_of(table, *table.extension,
-                   formula.layer ? names_of_a_layer(features) : std::set<std::string>{});
-  std::vector<Wanted> wanted;
-  for (const expr::Expr& feature : layer.features)
-    wanted.push_back({feature, variables.give(fmt::format("feature{}", wanted.size()))});
-  wanted.push_back({formula.rest, variables.name("value")});
-  for (std::size_t m = 0; m < layer.outputs; ++m)
-    variables.set(layer_output(m), fmt::format("net[{}]", m + 1));
+  const std::size_t features = formula.layer.features.size();
+  Variables variables = variables_of(table, *table.extension, names_of_layer(formula.layer));
+  const std::string value = variables.name("value");
+  const std::vector<Wanted> wanted =
+      layer_formulas(formula, value, {.output = "net[{}]", .first = 1, .slope = ""}, variables);
   const Code code = code_of(wanted, variables);
   const auto before = code.lines.begin() + static_cast<std::ptrdiff_t>(
                                                features > 0 ? code.first_lines[features - 1] : 0);
-  values.flags["has_layer"] = formula.layer.has_value();
-  add_layer(values, layer, {code.results.begin(), code.results.end() - 1});
+  values.flags["has_layer"] = formula.has_layer();
+  add_layer_data(values, formula.layer, {code.results.begin(), code.results.end() - 1});
   values.lists["held"] = items(held_lines(table, variables));
   values.lists["before"] = items({code.lines.begin(), before});
   values.lists["piece"] = items({before, code.lines.end()});
@@ -176,7 +149,7 @@ void add_no_piece(TemplateValues& values) {
   values.flags["has_layer"] = values.flags["piece_table"] = false;
   for (const char* list : {"held", "before", "piece"})
     values.lists[list];
-  add_layer(values, UnitLayer{}, {});
+  add_layer_data(values, UnitLayer{}, {});
   values.text["piece_result"] = values.text["piece_parameters"] = "";
 }
 
@@ -184,9 +157,8 @@ void add_values(TemplateValues& values, const std::vector<double>& numbers) {
   const std::span<const double> all = numbers;
   Lines& chunks = values.lists["chunks"];
   for (std::size_t i = 0; i < all.size(); i += chunk_size) {
-    TemplateValues chunk;
-    chunk.text["text"] = block(all.subspan(i, std::min(chunk_size, all.size() - i)));
-    chunks.push_back(chunk);
+    chunks.push_back(
+        {.text = {{"text", number_block(all.subspan(i, std::min(chunk_size, all.size() - i)))}}});
   }
 }
 
@@ -205,10 +177,10 @@ void add_axes(TemplateValues& values, const Table& table, const Variables& varia
     logarithm = logarithm || axis.log;
     TemplateValues one;
     one.text["comment"] = comment_text((axis.log ? "ln " : "") + axis.name).substr(0, 90);
-    one.text["nodes"] = block(axis.coordinates());
+    one.text["nodes"] = number_block(axis.coordinates());
     const table::SplineAxis spline = cubic ? table::spline_axis(axis) : table::SplineAxis{};
-    one.text["first"] = block(spline.first);
-    one.text["basis"] = block(spline.basis);
+    one.text["first"] = number_block(spline.first);
+    one.text["basis"] = number_block(spline.basis);
     values.lists["axes"].push_back(one);
   }
   values.text["n_axes"] = std::to_string(table.axes.size());
@@ -238,9 +210,7 @@ void add_interpolation(TemplateValues& values, const Table& table, const Variabl
   values.flags["uses_log"] = false;
   for (const char* text : {"n_axes", "strides", "supports", "no_weights", "coordinates"})
     values.text[text] = "";
-  values.text["value_comment"] = comment_text(
-      fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "coefficients of " : "",
-                  table.log_value ? "ln " : "", models::quantity_name(table.quantity)));
+  values.text["value_comment"] = comment_text(baked_values_text(table, "coefficients of "));
   values.text["only_value"] = only_value(table, variables);
   if (interpolates) add_axes(values, table, variables);
 }
@@ -263,17 +233,11 @@ std::string canonical(const SolverInput& input) {
 void add_entry(TemplateValues& values, const ExportRequest& request,
                const std::vector<SolverInput>& inputs) {
   const Table& table = request.table;
-  std::vector<std::string> entry, arguments, converted, given;
+  std::vector<std::string> entry, converted, given;
   Lines call;
   const std::vector<InputArgument> all = entry_arguments(table, request.units);
   for (const InputArgument& argument : all) {
     entry.push_back(argument.argument);
-    const std::string range = argument.used ? range_text(argument, table) : "not used by this law";
-    for (const std::string& line :
-         wrap_text(comment_text(fmt::format("{} ({}): {}; {}", argument.argument,
-                                            argument.solver.name, argument.meaning, range)),
-                   90))
-      arguments.push_back(line.substr(0, 90));
     const auto input = std::find_if(inputs.begin(), inputs.end(), [&](const SolverInput& i) {
       return i.argument.name == argument.name;
     });
@@ -289,45 +253,35 @@ void add_entry(TemplateValues& values, const ExportRequest& request,
   values.text["given"] = join(given, ", ");
   values.text["to_solver"] = from_canonical_text(stress, Notation::c);
   values.text["stress"] = stress.name;
-  values.lists["arguments"] = items(arguments);
+  values.lists["arguments"] = items(comment_lines(argument_texts(request, all), comment_width));
   values.lists["call"] = call;
   for (const AxisEnds& axis : table::all_ends(table)) {
-    TemplateValues end;
-    end.text = {{"value", canonical(inputs[axis.input])},
-                {"low", number(axis.low)},
-                {"high", number(axis.high)}};
-    values.lists["ends"].push_back(end);
+    values.lists["ends"].push_back({.text = {{"value", canonical(inputs[axis.input])},
+                                             {"low", number(axis.low)},
+                                             {"high", number(axis.high)}}});
   }
   values.lists["ends"];
 }
 
 std::vector<std::string> about(const ExportRequest& request) {
   const Table& table = request.table;
-  std::vector<std::string> out;
-  const std::vector<std::string> texts = {
-      fmt::format("Friction of the law \"{}\" {}, for QForm; generated by frictab {}", table.model,
-                  table.is_direct() ? "by the law itself" : "from a table", tool_version()),
-      "Data: " + origin_text(table), "Units: " + request.units.text(),
-      "Worst drift from the law: " + drift_text(table),
-      "tau_R_MPa = " + expr::to_text(table.combine)};
-  for (const std::string& text : texts) {
-    std::string indent;
-    for (const std::string& line : wrap_text(comment_text(text), 90)) {
-      out.push_back(indent + line.substr(0, 90));
-      indent = "  ";
-    }
-  }
-  return out;
+  return comment_lines(
+      {fmt::format("Friction of the law \"{}\" {}, for QForm; generated by frictab {}", table.model,
+                   table.is_direct() ? "by the law itself" : "from a table", tool_version()),
+       "Data: " + origin_text(table), "Units: " + request.units.text(),
+       "Worst drift from the law: " + drift_text(table),
+       "tau_R_MPa = " + expr::to_text(table.combine)},
+      comment_width, "  ");
 }
 
 std::vector<std::string> outside(const Table& table) {
   std::vector<std::string> out = outside_lines(table);
   if (out.empty())
-    return wrap_text(comment_text("Outside the range the value at the nearest edge is used; " +
-                                  unchanged_states(table) + " enter the formula unchanged."),
-                     90);
+    return comment_lines({"Outside the range the value at the nearest edge is used; " +
+                          unchanged_states(table) + " enter the formula unchanged."},
+                         comment_width);
   for (std::string& line : out)
-    line = comment_text(line).substr(0, 90);
+    line = comment_text(line).substr(0, comment_width);
   out.insert(out.begin(), "Outside the range (error: NaN):");
   return out;
 }
@@ -350,7 +304,7 @@ std::string lua_source(const ExportRequest& request, const std::vector<SolverInp
   const Variables variables = variables_of(table, table.combine);
   const Code formula = code_of({{table.combine, "tau_R"}}, variables);
   const std::vector<std::string> extending =
-      table.is_direct() ? std::vector<std::string>{} : sides(table, variables, Outside::law);
+      table.is_direct() ? std::vector<std::string>{} : tests_of(table, variables, Outside::law);
   std::string all = join(formula.lines, "\n") + "\n";
   values.flags["has_piece"] = table.is_direct() || !extending.empty();
   values.text["quantity"] = models::quantity_name(table.quantity);
@@ -373,7 +327,7 @@ std::string lua_source(const ExportRequest& request, const std::vector<SolverInp
   const std::vector<std::string> names = names_of(table.inputs(), variables);
   values.lists["states"] = items(names);
   values.text["parameters"] = arguments(names);
-  values.lists["refusing"] = items(sides(table, variables, Outside::error));
+  values.lists["refusing"] = items(tests_of(table, variables, Outside::error));
   values.flags["extends"] = !extending.empty();
   values.text["extending"] = join(extending, " or\n");
   values.text["piece_call"] =

@@ -4,8 +4,7 @@ C     src/codegen/driver.h). States: 1 pressure, 2 speed, 3 slip,
 C     4 work, 5 peak pressure, 6 temperature.
       subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
       include 'aba_param.inc'
-      integer*4 n, ns, np, nf, nh
-      real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n)
+@include fortran/ftdriv_arguments.f
 C     Powers of two: dividing by them changes no bits. Any motion is
 C     more than the critical slip.
       parameter (dtime = 2.0D0**(-30), slipcr = 2.0D0**(-50))
@@ -81,9 +80,7 @@ C     SED, SFD, PNEWDT.
       subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
      &  field, nout, out)
       include 'aba_param.inc'
-      integer*4 n, npar, nv, ns, np, nf, nout
-      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
-      real*8 out(nout,n)
+@include fortran/ftincr_arguments.f
       character*80 cin, csl, cms
       dimension t(2), ddg(2,2), ddp(2), ds(2), ddt(2,2), dg(2), tlm(2)
       dimension tot(2), time(2), co(3), rco(3), drot(2,2), temp(2)

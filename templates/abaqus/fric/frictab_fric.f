@@ -1,9 +1,7 @@
 C     FRIC for Abaqus/Standard (*FRICTION, USER): frictional stress
 C     with its derivatives, limit tau_R @{from}.
 @{head}
-@for line in coefficient
-C     @{line.text}
-@end
+C     @{coefficient...}
 C     Below @{smallest} MPa the coefficient tau_R/p is that at @{smallest} MPa,
 C     so that friction begins at 0 with the pressure.
 C     NaN in gives NaN in TAU; STATEV stay as they were.
@@ -12,29 +10,20 @@ C     Stick is elastic: TAU = tau_R/gc * elastic slip, up to the
 C     critical elastic slip gc; beyond it the point slips under tau_R,
 C     along its slip. gc is property @{critical}, else 0.005*CHRLNGTH.
 C
-C     PROPS (PROPERTIES=@{n_props}; a property the deck does not give
-C     takes the value in brackets):
-@for line in properties
-C     @{line.text}
-@end
-C
+@include abaqus/properties.f
 C     STATEV (DEPVAR=@{depvar}), by contact point, at the end of the increment:
 C     1 accumulated slip under pressure (@{length}), 2 friction work per
 C     area (@{stress}*@{length}), 3 peak pressure (@{stress}), 4 increments in which
 C     the state was outside the range, 5 and 6 elastic slip (@{length}),
 C     7 coefficient tau_R/p, @{stamp} the increment these belong to,
 C     @{first} to @{depvar} numbers 1 to @{n_states} at its start.
-@for line in histories
-C     @{line.text}
-@end
+C     @{histories...}
 C     With fewer there is no history: slip and work count as 0, the
 C     peak pressure is the pressure, elastic slip follows from TAU.
 C
 C     DDTDDP and the coupling of directions are not symmetric: *STEP,
 C     UNSYMM=YES.
-@for line in source
-C     @{line.text}
-@end
+C     @{source...}
 C
 @{arguments}
 C
@@ -55,14 +44,7 @@ C     and what TAU changes by per change of the limit
       external ftqnan
       logical ftnan
       external ftnan, ftsize
-@if has_ends
-      logical ftout
-      external ftout
-@end
-@if refuses
-      logical ftstop
-      external ftstop
-@end
+@include fortran/range_checks.f
 @if has_histories
 C     What histories add to the derivatives by speed and temperature
       double precision hv, ht
@@ -339,7 +321,5 @@ C     Length of a vector in the contact plane
 C
 @{states_text}
 C
-@if has_histories
 @{histories_text}
-@end
 @{core}

@@ -8,8 +8,7 @@ C     3 temperature.
 @end
       subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
       include 'aba_param.inc'
-      integer*4 n, ns, np, nf, nh
-      real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n)
+@include fortran/ftdriv_arguments.f
       character*80 cin, csl, cms
       dimension press(n), temp(n), fav(n,nf)
 @if new
@@ -67,9 +66,7 @@ C     by slip rate, pressure, temperature and slip, sum of the others.
       subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
      &  field, nout, out)
       include 'aba_param.inc'
-      integer*4 n, npar, nv, ns, np, nf, nout
-      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
-      real*8 out(nout,n)
+@include fortran/ftincr_arguments.f
       character*80 cin, csl, cms
       dimension press(n), temp(n), fav(n,nf)
 @if new

@@ -1,19 +1,12 @@
 C     FRIC_COEF for Abaqus/Standard (*FRICTION, USER=COEFFICIENT):
 C     coefficient of friction tau_R/p @{from}.
 @{head}
-@for line in coefficient
-C     @{line.text}
-@end
+C     @{coefficient...}
 C     Below @{smallest} MPa, and without pressure, the coefficient is that
 C     at @{smallest} MPa. At most @{most}.
 C     NaN in gives NaN in fCoef, with derivatives 0.
 C
-C     PROPS (PROPERTIES=@{n_props}; a property the deck does not give
-C     takes the value in brackets):
-@for line in properties
-C     @{line.text}
-@end
-C
+@include abaqus/properties.f
 @if new
 C     State variables (DEPVAR=@{depvar}), at the end of the increment:
 C     1 friction work per area (@{stress}*@{length}), 2 peak pressure (@{stress}),
@@ -22,15 +15,11 @@ C     4 coefficient, 5 equivalent slip (@{length}), @{stamp} the increment these
 C     belong to, @{first} to @{depvar} numbers 1 to @{n_states} at its start. With fewer, or
 C     more than one point in a call, there is no history: friction
 C     work is 0 and the peak pressure is the pressure.
-@for line in histories
-C     @{line.text}
-@end
+C     @{histories...}
 @else
 C     No state variables: this argument list has none.
 @end
-@for line in source
-C     @{line.text}
-@end
+C     @{source...}
 C
 @{arguments}
 C

@@ -3,8 +3,8 @@ C     points (see ftdriv in src/codegen/driver.h). States: 1 pressure,
 C     2 speed, 3 slip, 4 work, 5 peak pressure, 6 temperature.
       subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
       include 'vaba_param.inc'
-      integer*4 n, ns, np, nf, nh
-      real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n), a
+@include fortran/ftdriv_arguments.f
+      real*8 a
 C     Powers of two, as areas: dividing by them changes no bits.
       parameter (dtime = 2.0**(-30))
       character*80 cin, csec, cmain
@@ -71,15 +71,7 @@ C       sums lies behind them.
       end do
       end
 C
-C     Sets a state variable, and another one to what is rounded off it.
-      subroutine ftput(st, i, j, value, nst)
-      include 'vaba_param.inc'
-      dimension st(nst)
-      real*8 value
-      st(i) = real(value, kind(st))
-      if (j .gt. 0) st(j) = real(value - st(i), kind(st))
-      end
-C
+@include abaqus/put_state.f
 C     One increment of VFRIC (ftincr in src/codegen/driven_path.h).
 C     par: time increment, whether there are temperatures, values of
 C     the main surface (0, 1 or n), step, increment, directions of
@@ -89,9 +81,7 @@ C     force (2), values of other nodes that were changed.
       subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
      &  field, nout, out)
       include 'vaba_param.inc'
-      integer*4 n, npar, nv, ns, np, nf, nout
-      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
-      real*8 out(nout,n)
+@include fortran/ftincr_arguments.f
       character*80 cin, csec, cmain
       dimension ftan(nint(par(6)),n), state(ns,nint(par(8)))
       dimension slip(nint(par(7)),n), prev(nint(par(7)),n), stick(n)

@@ -3,8 +3,7 @@ C     points (see ftdriv in src/codegen/driver.h). States: 1 pressure,
 C     2 speed, 3 temperature.
       subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
       include 'vaba_param.inc'
-      integer*4 n, ns, np, nf, nh
-      real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n)
+@include fortran/ftdriv_arguments.f
       character*80 cin, csec, cmain
       dimension coef(n), deriv(n,3), props(np), rate(n), press(n)
       dimension temp(n), fav(n,nf), jflags(2), rdata(3)
@@ -38,9 +37,7 @@ C     have to be 0.
       subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
      &  field, nout, out)
       include 'vaba_param.inc'
-      integer*4 n, npar, nv, ns, np, nf, nout
-      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
-      real*8 out(nout,n)
+@include fortran/ftincr_arguments.f
       character*80 cin, csec, cmain
       dimension coef(n), deriv(n,3), props(np), rate(n), press(n)
       dimension temp(n), fav(n,nf), jflags(2), rdata(3)

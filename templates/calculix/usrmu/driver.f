@@ -3,8 +3,7 @@ C     src/codegen/driver.h). States: 1 pressure, 2 speed, 3 sliding
 C     distance, 4 temperature.
       subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
       implicit none
-      integer*4 n, ns, np, nf, nh
-      real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n)
+@include fortran/ftdriv_arguments.f
 C     A power of two: dividing by it changes no bits.
       real*8 step, al(3), xn(3), t(3)
       parameter (step = 2.0D0**(-30))
@@ -34,9 +33,7 @@ C     v: pressure, speed, slip, temperature.
       subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
      &  field, nout, out)
       implicit none
-      integer*4 n, npar, nv, ns, np, nf, nout
-      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
-      real*8 out(nout,n)
+@include fortran/ftincr_arguments.f
       real*8 step, al(3), xn(3), t(3), across
       integer k
 C     Along the normal (2,-1,2)/3 something moves that is no slip, which

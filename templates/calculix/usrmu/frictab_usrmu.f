@@ -7,9 +7,7 @@ C     UM: mu = tau_R/p. Below @{least} MPa it is mu of that pressure,
 C     and at most @{most}.
 C     What CalculiX does not give is a constant, COMMON /FTCONS/ CST,
 C     filled in BLOCK DATA FTDATA below. Threads may call it at once.
-@for line in source
-C     @{line.text}
-@end
+C     @{source...}
 C
 C     PRES: pressure. AL: relative displacement since the start of the
 C     increment, VAL its part along the normal XN. T: tangential

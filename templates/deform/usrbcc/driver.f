@@ -5,8 +5,7 @@ C     8 surface expansion. A user variable is a history or a field; what
 C     it is not is 0.
       subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
       implicit none
-      integer*4 n, ns, np, nf, nh
-      real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n)
+@include fortran/ftdriv_arguments.f
       integer nbcd(2,2), ndie, i, k, nusrn
       double precision rz(2,2), drz(2,2), usrnod(max(nf,3+nh),2)
       double precision temo(2), temc(2)
@@ -56,9 +55,7 @@ C     calls change that are not for friction, and of other variables.
       subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
      &  field, nout, out)
       implicit none
-      integer*4 n, npar, nv, ns, np, nf, nout
-      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
-      real*8 out(nout,n)
+@include fortran/ftincr_arguments.f
       integer nbcd(2,2), ndie, k, nusrn, next
       double precision rz(2,2), drz(2,2), usrnod(nint(par(2)),n), other
       double precision temo(2), temc(2)

@@ -3,9 +3,7 @@ C     @{result_name}, @{from}.
 @{head}
 C     NaN in gives NaN out.
 C
-@for line in result
-C     @{line.text}
-@end
+C     @{result...}
 C     It acts for friction only (IMODE=1 deformation, ITYPE=2), for
 C     every MODEL; otherwise VARIABLE stays as it is.
 C     SLDVEL and PRESS are computed for ELASTIC (meshed) dies only:
@@ -13,9 +11,7 @@ C     with rigid dies both are not what the law needs.
 @if histories
 C     USRNOD(1..3) of a node: accumulated slip (@{length}), friction
 C     work per area (@{stress}*@{length}), peak pressure (@{stress}),
-@for line in further
-C     @{line.text},
-@end
+C     @{further...},
 C     kept by FTUPD (frictab_usrupd.f), which USRUPD has to call once
 C     per converged step: the law sees them one step late. With fewer
 C     than @{n_states} user variables per node they count as 0.
@@ -23,9 +19,7 @@ C     than @{n_states} user variables per node they count as 0.
 C     What DEFORM does not give is a constant, COMMON /FTCONS/ CST,
 C     filled in BLOCK DATA FTDATA below. Nothing is read from files
 C     or from USRDEF.
-@for line in source
-C     @{line.text}
-@end
+C     @{source...}
 C
 @{arguments}
 C
@@ -129,9 +123,7 @@ C     The larger of both; NaN where one is.
       end
 C
 @end
-@if has_histories
 @{histories_text}
-@end
 @{constants}
 @{coefficient}
 @{core}

@@ -6,9 +6,7 @@ C         CALL FTUPD
 C     USRN2(1) accumulated slip while under pressure (@{length})
 C     USRN2(2) friction work per area (@{stress}*@{length})
 C     USRN2(3) peak pressure (@{stress})
-@for line in further
-C     @{line.text}
-@end
+C     @{further...}
 C     It acts at the end of a converged step (ISTATUS=1), so friction
 C     sees these values one step late. PRESR(1) is the tangential and
 C     PRESR(2) the normal traction; of both only the magnitude is used.

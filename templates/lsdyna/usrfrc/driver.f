@@ -4,8 +4,7 @@ C     3 slip, 4 work, 5 peak pressure, 6 temperature. Default real and
 C     integer are the solver's, as the routine's.
       subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
       implicit none
-      integer*4 n, ns, np, nf, nh
-      real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n)
+@include fortran/ftdriv_arguments.f
 C     Powers of two: dividing by them changes no bits.
       real*8 step, a
       parameter (step = 2.0D0**(-30))
@@ -103,9 +102,7 @@ C     values of other places.
       subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
      &  field, nout, out)
       implicit none
-      integer*4 n, npar, nv, ns, np, nf, nout
-      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
-      real*8 out(nout,n)
+@include fortran/ftincr_arguments.f
       integer m, nodes, i, k, j, ii, nseg
       parameter (m = 40)
       integer insv(m), lsv(m), ix(m,4), iisv5(m), iseg(m), ilbsv(m)

@@ -5,18 +5,14 @@ C     NaN in gives a NaN force; such a node's history stays as it was.
 C
 C     UA, constants of the interface (a constant the deck does not
 C     give takes the value in brackets):
-@for line in properties
-C     @{line.text}
-@end
+C     @{properties...}
 C     UFHIST (NHSV=@{n_history}), by node:
 C     1 accumulated slip (@{length}), 2 friction work per area
 C     (@{stress}*@{length}), 3 peak pressure (@{stress}), 4 cycles in
 C     which the state was outside the range, 5 and 6 what the solver's
 C     precision rounds off 1 and 2.
 @if has_histories
-@for line in histories
-C     @{line.text}
-@end
+C     @{histories...}
 C     from @{first_rest} on: what the solver's precision rounds off them.
 C     @{at_stress} frictional shear stress (@{stress}) of the last cycle in
 C     contact, @{n_history} that over the pressure: to be looked at.
@@ -33,9 +29,7 @@ C     that would hold the node (old force and stiffness times relative
 C     displacement, tangential part) is cut down to tau_R times the
 C     node's area, times the segment's scale factor FRC(1,.). FS, FD,
 C     DC and VC of the contact card have no influence.
-@for line in source
-C     @{line.text}
-@end
+C     @{source...}
 C
 C     Default real and integer are those of the solver's precision, as
 C     its own Makefile sets them; all that is computed is double.
@@ -56,14 +50,7 @@ C     Slip and work before this cycle; a sum as UFHIST holds it
       double precision fttau, ftqnan, ftlost
       logical ftnan
       external fttau, ftqnan, ftlost, ftnan
-@if has_ends
-      logical ftout
-      external ftout
-@end
-@if refuses
-      logical ftstop
-      external ftstop
-@end
+@include fortran/range_checks.f
 @if has_histories
       double precision past(@{n_histories}), next(@{n_histories}), dtime
 @end
@@ -261,7 +248,5 @@ C     A pressed node without area ends the analysis.
       return
       end
 C
-@if has_histories
 @{histories_text}
-@end
 @{core}

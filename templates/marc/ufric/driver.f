@@ -3,8 +3,7 @@ C     src/codegen/driver.h). States: 1 normal stress, 2 speed,
 C     3 temperature, 4 flow stress.
       subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
       implicit none
-      integer*4 n, ns, np, nf, nh
-      real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n)
+@include fortran/ftdriv_arguments.f
       integer mibody(4), inc, nsurf, k
       double precision coord(3), vrel(2), temp(2), time
       mibody(1) = 11
@@ -32,9 +31,7 @@ C     stress.
       subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
      &  field, nout, out)
       implicit none
-      integer*4 n, npar, nv, ns, np, nf, nout
-      real*8 par(npar), v(nv,n), st(ns,n), prop(np), field(2*nf,n)
-      real*8 out(nout,n)
+@include fortran/ftincr_arguments.f
       integer mibody(4), inc, nsurf, k
       double precision coord(3), vrel(2), temp(2), time
       mibody(1) = 13

@@ -3,15 +3,11 @@ C     @{result_name}, @{from}.
 @{head}
 C     NaN in gives NaN out.
 C
-@for line in result
-C     @{line.text}
-@end
+C     @{result...}
 C     There is no history: Marc gives this routine no state variables.
 C     What it does not give is a constant, COMMON /FTCONS/ CST, filled
 C     in BLOCK DATA FTDATA below.
-@for line in source
-C     @{line.text}
-@end
+C     @{source...}
 C
 @{arguments}
 C

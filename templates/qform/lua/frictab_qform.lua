@@ -1,15 +1,9 @@
-@for line in about
--- @{line.text}
-@end
+-- @{about...}
 --
 -- frictab_tau_R takes, in this order, and gives tau_R in @{stress}:
-@for line in arguments
---   @{line.text}
-@end
+--   @{arguments...}
 -- Arguments the law does not use may be nil. NaN in one that it uses gives NaN.
-@for line in outside
--- @{line.text}
-@end
+-- @{outside...}
 -- Plain Lua 5.1: runs in LuaJIT and in every later Lua.
 
 local exp, log, sqrt, sin, acos = math.exp, math.log, math.sqrt, math.sin, math.acos
@@ -201,16 +195,12 @@ local net = {}
 local function ft_piece(
   @{piece_parameters}
 )
-@for line in held
-  @{line.text}
-@end
+  @{held...}
 @if piece_table
   local steps = {}
 @end
 @if has_layer
-@for line in before
-  @{line.text}
-@end
+  @{before...}
   local feature = {@{feature_names}}
   for j = 1, @{outputs} do
     net[j] = ft_offset[j]
@@ -225,9 +215,7 @@ local function ft_piece(
     net[j] = net[j] + ft_gain[i] * ft_unit(a)
   end
 @end
-@for line in piece
-  @{line.text}
-@end
+  @{piece...}
   return @{piece_result}
 end
 
@@ -239,9 +227,7 @@ local function ft_tau(
 @for name in states
   if @{name.text} ~= @{name.text} then return @{name.text} end
 @end
-@for side in refusing
-  if @{side.text} then return ft_nan end -- outside = error
-@end
+  if @{refusing...} then return ft_nan end -- outside = error
 @if interpolates
   local @{value} = ft_interpolate({
     @{coordinates}
@@ -265,9 +251,7 @@ local function ft_tau(
 @if formula_table
   local steps = {}
 @end
-@for line in formula
-  @{line.text}
-@end
+  @{formula...}
   return @{result}
 end
 
@@ -291,8 +275,6 @@ end
 -- of the call below, in the units above. parameter(name, default) is QForm's own.
 function FrictionStress(@{given})
   return frictab_tau_R(
-@for line in call
-    @{line.text}
-@end
+    @{call...}
   )
 end

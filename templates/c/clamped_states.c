@@ -1,0 +1,5 @@
+@for input in held
+  const double @{input.name} =
+      @{input.value};
+@end
+@include c/constants.c
