@@ -44,8 +44,7 @@ void* Library::address_or_null(void* handle, const std::string& symbol) {
 std::vector<LoadedLibrary> loaded_libraries() {
   std::vector<LoadedLibrary> all;
   ::dl_iterate_phdr(add_loaded, &all);
-  std::sort(all.begin(), all.end(),
-            [](const LoadedLibrary& a, const LoadedLibrary& b) { return a.name < b.name; });
+  std::ranges::sort(all, {}, &LoadedLibrary::name);
   return all;
 }
 
