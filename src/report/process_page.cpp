@@ -82,7 +82,7 @@ void draw_histogram(svg::Plot& plot, std::span<const double> values,
     const double at = (values[i] - axis.low) / (axis.high - axis.low) * bins;
     if (at >= 0 && at < bins) sums[static_cast<std::size_t>(at)] += weights[i];
   }
-  const double most = *std::max_element(sums.begin(), sums.end());
+  const double most = *std::ranges::max_element(sums);
   if (!(most > 0)) return;
   std::vector<double> x, y;
   for (std::size_t b = 0; b < bins; ++b)
@@ -111,8 +111,7 @@ words::Picture laws_picture(const Process& p, const Dataset& tests,
   for (const LawThere& law : a.laws) {
     lines.push_back(
         calibrate::predict(calibrate::find_fit(calibration, law.law)->delivered().model, rows));
-    if (law.leads)
-      most = std::max(most, *std::max_element(lines.back().begin(), lines.back().end()));
+    if (law.leads) most = std::max(most, *std::ranges::max_element(lines.back()));
   }
   const svg::Axis x_axis = svg::nice_axis(low, high, 6, axis_name("sigma_n_MPa")),
                   y_axis = svg::nice_axis(0, 1.15 * most, 6, axis_name("tau_R_MPa"));
@@ -205,7 +204,7 @@ words::Section where(const Process& p, const Dataset& tests) {
   words::Section section = words::process_coverage(p);
   const auto& states = p.coverage.states;
   if (states.size() < 2) return section;
-  words::Pictures maps{"panels", {}};
+  words::Pictures maps{"panels"};
   for (std::size_t s = 1; s < states.size(); ++s)
     maps.pictures.push_back(map_picture(p, tests, states[0], states[s]));
   section.say("Shades: friction work of the process; rings: a few rows of each test, named under "
@@ -220,13 +219,12 @@ words::Picture force_picture(const Process& p) {
   const process::Tool& tool = *p.history.tool;
   const bool by_stroke = !tool.stroke_mm.empty();
   const std::vector<double>& x = by_stroke ? tool.stroke_mm : p.history.time_s;
-  double most = *std::max_element(tool.force_kN.begin(), tool.force_kN.end());
+  double most = *std::ranges::max_element(tool.force_kN);
   const process::Assessment& a = p.latest();
   for (const LawThere& law : a.laws)
-    if (law.leads)
-      most = std::max(most, *std::max_element(law.force_kN.begin(), law.force_kN.end()));
-  const svg::Axis x_axis = svg::nice_axis(0, *std::max_element(x.begin(), x.end()), 6,
-                                          by_stroke ? "stroke / mm" : "t / s");
+    if (law.leads) most = std::max(most, *std::ranges::max_element(law.force_kN));
+  const svg::Axis x_axis =
+      svg::nice_axis(0, *std::ranges::max_element(x), 6, by_stroke ? "stroke / mm" : "t / s");
   const svg::Axis y_axis = svg::nice_axis(0, most, 5, "force / kN");
   svg::Plot plot(340, 220, x_axis, y_axis);
   const Strokes strokes(a);
