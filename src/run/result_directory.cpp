@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 void add_once(std::vector<std::string>& names, const std::string& name) {
-  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  if (std::ranges::find(names, name) == names.end()) names.push_back(name);
 }
 
 // Adds the stems of files named like a model: no registry has the names of laws with traced effects
@@ -49,7 +49,7 @@ std::vector<std::string> ResultDirectory::all_files() const {
   for (const auto& entry : fs::recursive_directory_iterator(directory_))
     if (entry.is_regular_file())
       files.push_back(entry.path().lexically_relative(directory_).string());
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 
