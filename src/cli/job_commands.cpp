@@ -36,8 +36,8 @@ bool has_job(const std::string& given) {
 std::string job_file(const std::string& given) {
   if (has_job(given)) return given.empty() ? usual_job : given;
   throw InputError({}, "no JOB is given, and this folder has no job.toml",
-                   "name a job file; frictab init --from FILES makes one from data files, "
-                   "frictab twin DIR a synthetic campaign with one");
+                   "name a job file; frictab init --from FILES makes one from data files, frictab "
+                   "twin DIR a synthetic campaign with one");
 }
 
 job::Job read_job(const std::string& file, const CommonOptions& common) {

@@ -2,8 +2,6 @@
 #include "cli/printed_explanation.h"
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include "cli/print.h"
 #include "core/wrapped.h"
@@ -12,9 +10,7 @@ namespace frictab::cli {
 
 namespace {
 
-using Fields = std::vector<std::pair<std::string, std::string>>;
-
-void print_fields(const Fields& fields, std::size_t indent) {
+void print_fields(const Explanation::Fields& fields, std::size_t indent) {
   std::size_t width = 0;
   for (const auto& [label, text] : fields)
     width = std::max(width, label.size());
