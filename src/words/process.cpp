@@ -315,14 +315,9 @@ namespace {
 
 std::string setting_text(const process::Setting& at) {
   std::vector<std::string> parts;
-  const auto add = [&](const char* name, double value) {
-    if (std::isfinite(value))
-      parts.push_back(state_text(name, value, data::find_quantity(name)->unit));
-  };
-  add("sigma_n_MPa", at.sigma_n_MPa);
-  add("psi", at.psi);
-  add("v_rel_mm_s", at.v_rel_mm_s);
-  add("T_tool_C", at.T_tool_C);
+  for (std::size_t s = 0; s < at.size(); ++s)
+    if (const char* name = process::setting_names[s]; std::isfinite(at[s]))
+      parts.push_back(state_text(name, at[s], data::find_quantity(name)->unit));
   return join(parts, ", ");
 }
 
