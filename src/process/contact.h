@@ -32,7 +32,7 @@ struct Held {
   double cost_percent = 0;  // largest change of a law's result between the two
 };
 
-// Of its first file, for faults.
+// Returns the place of its first file, for faults.
 Place place_of(const data::Dataset& data);
 
 struct ContactHistory {

@@ -60,7 +60,7 @@ struct Run {
   std::string data_fingerprint() const;              // empty if no data were read
   // Records a finished stage for stages.json and adds it to `present`.
   void finish(const std::string& stage);
-  // Whether STAGE.json of an earlier run can be taken; if not, a note gives the reason. Throws
+  // Returns true if STAGE.json of an earlier run can be taken; else a note gives the reason. Throws
   // InputError if the file was changed.
   bool is_current(const std::string& stage, std::string_view wanted_by);
 };
