@@ -22,11 +22,7 @@ void add_job(CLI::App& app, std::string& file, const std::string& description) {
   app.add_option("JOB", file, description + "; without it job.toml of this folder");
 }
 
-namespace {
-
 constexpr const char* usual_job = "job.toml";
-
-} // namespace
 
 bool has_job(const std::string& given) {
   std::error_code error;
@@ -64,16 +60,12 @@ void print_notes(const run::Run& run, const CommonOptions& common) {
     note(common, line);
 }
 
-namespace {
-
-void show_summary(const std::string& text) {
+static void show_summary(const std::string& text) {
   if (colours_on(stdout))
     print_out("{}", coloured(printable(text)));
   else
     show(text);
 }
-
-} // namespace
 
 int print_plan(const job::Job& job, const std::string& command, const CommonOptions& common) {
   const run::Plan plan = run::plan_of(job, command);

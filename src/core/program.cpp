@@ -85,16 +85,12 @@ fs::path temporary_place() {
   return set && *set ? fs::absolute(set) : "/tmp";
 }
 
-namespace {
-
 // Removes twice, because other threads may still write to the tree during an interruption.
-void remove_tree(const fs::path& path) noexcept {
+static void remove_tree(const fs::path& path) noexcept {
   std::error_code ignored;
   for (int time = 0; time < 2; ++time)
     fs::remove_all(path, ignored);
 }
-
-} // namespace
 
 TemporaryDirectory::TemporaryDirectory() {
   const fs::path place = temporary_place();

@@ -8,10 +8,8 @@
 
 namespace frictab {
 
-namespace {
-
 // Optimal string alignment distance, case-insensitive.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
+static std::size_t edit_distance(std::string_view a, std::string_view b) {
   const auto low = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i)
@@ -28,8 +26,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   }
   return d[a.size()][b.size()];
 }
-
-} // namespace
 
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
   std::string best;
@@ -167,9 +163,7 @@ std::size_t utf8_length(std::string_view text) {
   return 0;
 }
 
-namespace {
-
-bool is_utf8(std::string_view text) {
+static bool is_utf8(std::string_view text) {
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);
     if (length == 0) return false;
@@ -177,8 +171,6 @@ bool is_utf8(std::string_view text) {
   }
   return true;
 }
-
-} // namespace
 
 std::string to_utf8(std::string_view text) {
   if (is_utf8(text)) return std::string(text);

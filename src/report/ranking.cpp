@@ -105,10 +105,8 @@ words::Section ranking_with_bars(const ReportInput& input) {
   return section;
 }
 
-namespace {
-
-words::Section law_against_measurement(const ReportInput& input, std::size_t i,
-                                       const PlotFrame& frame) {
+static words::Section law_against_measurement(const ReportInput& input, std::size_t i,
+                                              const PlotFrame& frame) {
   const calibrate::ModelFit& fit = input.calibration.fits[i];
   const models::Law& law = *fit.model.law;
   const LawPlots plots = law_plots(input, i, frame);
@@ -128,8 +126,6 @@ words::Section law_against_measurement(const ReportInput& input, std::size_t i,
       section.add(words::Pictures{"states", {{std::move(states)}}});
   return section;
 }
-
-} // namespace
 
 words::Section each_law(const ReportInput& input) {
   words::Section section{"plots", "Plots", "Each law against the measurement"};

@@ -136,10 +136,8 @@ std::string pixel(double value) {
   return text == "-0" ? "0" : text;
 }
 
-namespace {
-
 // low < high. A step is 1, 2 or 5 times a power of ten.
-Axis axis_with_ticks(double low, double high, int wanted) {
+static Axis axis_with_ticks(double low, double high, int wanted) {
   Axis axis;
   const double rough = (high - low) / std::max(wanted, 1);
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -166,8 +164,6 @@ Axis axis_with_ticks(double low, double high, int wanted) {
   axis.decimals = std::clamp(-static_cast<int>(std::floor(std::log10(step) + 1e-9)), 0, 12);
   return axis;
 }
-
-} // namespace
 
 Axis nice_axis(double low, double high, int wanted, std::string label) {
   if (!std::isfinite(low)) low = 0;

@@ -85,17 +85,13 @@ std::vector<fs::path> ResultDirectory::all_tables() const {
   return files;
 }
 
-namespace {
-
 // Checks that the file has the name of its table's model, because all stages find tables by file
 // name.
-void check_model(const table::Table& table, const fs::path& file) {
+static void check_model(const table::Table& table, const fs::path& file) {
   if (table.model == file.stem()) return;
   throw InputError({file.string(), 0, 0}, "holds a table of '" + table.model + "'",
                    "tabulate again; a table from elsewhere is for `frictab export --table`");
 }
-
-} // namespace
 
 std::vector<table::Table> ResultDirectory::tables() const {
   std::vector<table::Table> tables;

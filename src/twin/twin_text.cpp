@@ -10,9 +10,7 @@
 
 namespace frictab::twin {
 
-namespace {
-
-std::vector<std::string> split(std::string_view text, char separator) {
+static std::vector<std::string> split(std::string_view text, char separator) {
   std::vector<std::string> parts;
   while (true) {
     const auto end = text.find(separator);
@@ -21,8 +19,6 @@ std::vector<std::string> split(std::string_view text, char separator) {
     text.remove_prefix(end + 1);
   }
 }
-
-} // namespace
 
 std::vector<KeyValue> read_pairs(std::string_view text, char separator, const std::string& option,
                                  std::span<const std::string> known, FaultList& faults) {
