@@ -28,7 +28,7 @@ std::vector<fs::path> recipes_below(const fs::path& directory) {
   std::error_code error;
   for (const auto& entry : fs::recursive_directory_iterator(directory, error))
     if (entry.path().filename() == "recipe.json") found.push_back(entry.path());
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   if (found.empty())
     throw InputError({directory.string(), 0, 0}, "there are no exported sources",
                      "name the folder that `frictab export` wrote: --check -o out/export");
@@ -52,7 +52,7 @@ public:
          codegen::files_of_recipe(io::read_file(recipe), recipe.string())) {
       const std::vector<std::string> compilers = codegen::compilers_of(name);
       if (compilers.empty()) continue;
-      const auto compiler = std::find_if(compilers.begin(), compilers.end(), have_program);
+      const auto compiler = std::ranges::find_if(compilers, have_program);
       if (compiler == compilers.end())
         missing_.insert(join(compilers, ", "));
       else

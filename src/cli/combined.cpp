@@ -52,19 +52,20 @@ NamedTables named_files(const std::vector<std::string>& laws) {
 }
 
 // Returns the options that apply to all laws.
-codegen::ExportOptions export_options(const CombineOptions& options, const CommonOptions& common) {
-  if (!options.job.empty()) {
-    const codegen::ExportOptions said = job::read_job(options.job, common.set).exports;
-    if (said.form == codegen::ExportForm::direct)
-      throw InputError({options.job, 0, 0},
+codegen::ExportOptions export_options(const ExportArguments& arguments,
+                                      const CommonOptions& common) {
+  if (!arguments.job.empty()) {
+    const codegen::ExportOptions of_job = job::read_job(arguments.job, common.set).exports;
+    if (of_job.form == codegen::ExportForm::direct)
+      throw InputError({arguments.job, 0, 0},
                        "--combine writes tables, and the job asks for the direct form",
                        "--set export.form=table");
-    return said;
+    return of_job;
   }
   codegen::ExportOptions out;
-  out.targets = options.targets;
-  out.units = options.units;
-  out.temperature = options.temperature;
+  out.targets = arguments.targets;
+  out.units = arguments.units;
+  out.temperature = arguments.temperature;
   return out;
 }
 
@@ -171,19 +172,19 @@ std::vector<fs::path> combined_recipes(const std::string& directory) {
 
 } // namespace
 
-int export_combined(const CombineOptions& options, const CommonOptions& common) {
+int export_combined(const ExportArguments& arguments, const CommonOptions& common) {
   need_directory(common, "--combine");
-  NamedTables laws = named_files(options.laws);
-  const codegen::ExportOptions said = export_options(options, common);
-  const auto exporters = combining(said.targets, common);
+  NamedTables laws = named_files(arguments.combine);
+  const codegen::ExportOptions options = export_options(arguments, common);
+  const auto exporters = combining(options.targets, common);
   for (const fs::path& file : laws.files)
     codegen::check_request_size(table::read_description(file.string()).table, exporters,
-                                said.options);
+                                options.options);
   for (const fs::path& file : laws.files)
     laws.tables.push_back(table::read_table(file.string()));
   io::OutputFiles output(common.output);
   for (const codegen::Exporter* exporter : exporters)
-    write(output, *exporter, laws, said, common.output);
+    write(output, *exporter, laws, options, common.output);
   commit_and_list(output, common);
   note(common, "frictab verify --combined " + common.output + " proves them");
   return 0;

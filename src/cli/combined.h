@@ -3,22 +3,14 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "cli/command.h"
+#include "cli/sources.h"
 #include "verify/verification.h"
 
 namespace frictab::cli {
 
-struct CombineOptions {
-  std::vector<std::string> laws; // "PUNCH=tables/coulomb.h5"
-  std::string job;               // its [export] applies to all laws; empty: the next two do
-  std::vector<std::string> targets;
-  std::string units, temperature;
-};
-
 // Writes DIR/<target>/ for each target.
-int export_combined(const CombineOptions& options, const CommonOptions& common);
+int export_combined(const ExportArguments& arguments, const CommonOptions& common);
 
 // Verifies all targets in the directory. Throws InputError where there are none.
 verify::Verification verify_combined(const std::string& directory,

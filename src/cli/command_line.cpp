@@ -57,12 +57,13 @@ Number whole_number(const char* option, const std::string& text, Number most) {
 }
 
 // CLI11's own checks accept nan, and print the largest double with all its digits.
-std::string number_above(const std::string& text, bool (*allowed)(double), const char* wanted) {
+std::string fault_of_number(const std::string& text, const char* wanted, bool may_be_0) {
   double value = 0;
   const char* const end = text.data() + text.size();
   const auto [stopped, error] = std::from_chars(text.data(), end, value);
-  if (error == std::errc() && stopped == end && std::isfinite(value) && allowed(value)) return "";
-  return fmt::format("'{}' is not {}", text, wanted);
+  const bool good = error == std::errc() && stopped == end && std::isfinite(value) &&
+                    (value > 0 || (may_be_0 && value == 0));
+  return good ? "" : fmt::format("'{}' is not {}", text, wanted);
 }
 
 std::string footer_of(const Command& command) {
@@ -81,18 +82,18 @@ void add_common(CLI::App& app, CommonOptions& common, unsigned uses) {
   const auto shown = [uses](CLI::Option* option, unsigned use) {
     if ((uses & use) == 0) option->group("");
   };
+  const auto number = [&app](const char* names, const char* text, const auto& take) {
+    return app.add_option_function<std::string>(names, take, text)->type_name("N");
+  };
   shown(app.add_option("-o,--output", common.output, "Output directory, instead of the job's")
             ->type_name("DIR"),
         uses_output);
   shown(app.add_flag("--force", common.force, "Overwrite files that frictab would leave alone"),
         uses_force);
-  shown(app.add_option_function<std::string>(
-               "-j,--threads",
+  shown(number("-j,--threads", "Threads; 0 = all cores",
                [&common](const std::string& text) {
                  common.threads = whole_number("--threads", text, most_threads);
-               },
-               "Threads; 0 = all cores")
-            ->type_name("N"),
+               }),
         uses_threads);
   shown(app.add_flag("-q,--quiet", common.quiet, "Nothing on stderr unless something fails"),
         uses_quiet);
@@ -100,13 +101,10 @@ void add_common(CLI::App& app, CommonOptions& common, unsigned uses) {
       app.add_flag("-v,--verbose", common.verbose, "Say more: the whole summary, notes on stderr"),
       uses_verbose);
   shown(app.add_flag("--json", common.json, "Print the result as JSON"), uses_json);
-  shown(app.add_option_function<std::string>(
-               "--seed",
+  shown(number("--seed", "Random seed: the same seed gives the same bytes",
                [&common](const std::string& text) {
                  common.seed = whole_number("--seed", text, largest_seed);
-               },
-               "Random seed: the same seed gives the same bytes")
-            ->type_name("N"),
+               }),
         uses_seed);
   shown(app.add_option("--set", common.set, "Override a job key: --set table.tolerance_MPa=0.1")
             ->type_name("KEY=VALUE")
@@ -187,7 +185,7 @@ std::string command_in(const std::vector<std::string>& words) {
   std::string command;
   for (const std::string& word : words) {
     const std::vector<std::string> below = commands_of(command);
-    if (std::find(below.begin(), below.end(), word) != below.end())
+    if (std::ranges::find(below, word) != below.end())
       command += (command.empty() ? "" : " ") + word;
   }
   return command;
@@ -220,53 +218,49 @@ std::string unknown_option(const std::vector<std::string>& words,
     const bool is_long = word.starts_with("--");
     if (!is_long && !(word.size() > 1 && word[0] == '-' && std::isalpha(word[1] & 0xff))) continue;
     const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
-    if (std::find(known.begin(), known.end(), name) == known.end()) return is_long ? name : word;
+    if (std::ranges::find(known, name) == known.end()) return is_long ? name : word;
   }
   return "";
 }
 
-int print_unknown_option(const std::string& option, const std::string& command,
-                         const std::vector<std::string>& known) {
-  // Any letter is near any other.
-  std::string near = option.starts_with("--") ? nearest_name(option, known) : "";
-  if (!near.empty()) near = "did you mean " + near + "? ";
-  print_error("error: unknown option {}\n  hint: {}`frictab {}{}--help` lists them\n",
-              printable(option), near, command, command.empty() ? "" : " ");
-  return 2;
+// "frictab table slice" for the command "table slice", "frictab" for none.
+std::string with_program(const std::string& command) {
+  return command.empty() ? "frictab" : "frictab " + command;
+}
+
+// Returns the message for arguments that cannot be used, with its hint.
+std::string usage_fault(const CLI::App& app, const CLI::ParseError& error,
+                        const std::vector<std::string>& words) {
+  const std::string command = command_in(words), program = with_program(command);
+  const std::vector<std::string> below = commands_of(command);
+  const std::vector<std::string> known = options_of(app_of(app, command));
+  if (const std::string option = unknown_option(words, known); !option.empty()) {
+    // Any letter is near any other.
+    std::string near = option.starts_with("--") ? nearest_name(option, known) : "";
+    if (!near.empty()) near = "did you mean " + near + "? ";
+    return fmt::format("unknown option {}\n  hint: {}`{} --help` lists them", printable(option),
+                       near, program);
+  }
+  if (!command.empty() && words[0][0] == '-')
+    return fmt::format("{0} stands before the command\n  hint: {1} {0} ...", printable(words[0]),
+                       program);
+  const std::size_t named = pieces(command, ' ').size();
+  const bool begins_with_it = join({words.begin(), words.begin() + long(named)}, " ") == command;
+  if (!below.empty() && begins_with_it && words.size() > named && words[named][0] != '-')
+    return fmt::format("unknown command '{}{}{}'\n  hint: {}", command, command.empty() ? "" : " ",
+                       printable(words[named]), suggest(words[named], below));
+  if (!command.empty() && !below.empty() && error.get_name() == "RequiredError")
+    return fmt::format("{} needs a command\n  hint: one of {}", program, join(below, ", "));
+  return fmt::format("{}\n  hint: run `{} --help`", printable(error.what()), program);
 }
 
 int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   if (error.get_exit_code() == 0) return app.exit(error); // --help, --version
-  if (argc == 1) {
+  if (argc == 1)
     print_error("{}",
                 app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
-    return 2;
-  }
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  const std::string command = command_in(words);
-  const std::vector<std::string> below = commands_of(command);
-  std::vector<std::string> known = options_of(app_of(app, command));
-  if (const std::string option = unknown_option(words, known); !option.empty())
-    return print_unknown_option(option, command, known);
-  if (!command.empty() && words[0][0] == '-') {
-    print_error("error: {} stands before the command\n  hint: frictab {} {} ...\n",
-                printable(words[0]), command, printable(words[0]));
-    return 2;
-  }
-  const std::size_t named = pieces(command, ' ').size();
-  const bool begins_with_it = join({words.begin(), words.begin() + long(named)}, " ") == command;
-  if (!below.empty() && begins_with_it && words.size() > named && words[named][0] != '-') {
-    print_error("error: unknown command '{}{}{}'\n  hint: {}\n", command,
-                command.empty() ? "" : " ", printable(words[named]), suggest(words[named], below));
-    return 2;
-  }
-  if (!command.empty() && !below.empty() && error.get_name() == "RequiredError") {
-    print_error("error: frictab {} needs a command\n  hint: one of {}\n", command,
-                join(below, ", "));
-    return 2;
-  }
-  print_error("error: {}\n  hint: run `frictab {}{}--help`\n", printable(error.what()), command,
-              command.empty() ? "" : " ");
+  else
+    print_error("error: {}\n", usage_fault(app, error, {argv + 1, argv + argc}));
   return 2;
 }
 
@@ -277,8 +271,8 @@ int finish(int exit_code) {
   if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return exit_code;
   const int why = errno;                           // 0 if an earlier write failed
   if (os::nobody_reads_stdout()) return exit_code; // as in `frictab list | head -1`
-  print_error("error: what was to be printed cannot be written{}\n  hint: is the disk full, "
-              "or the file or pipe of stdout closed?\n",
+  print_error("error: what was to be printed cannot be written{}\n  hint: is the disk full, or the "
+              "file or pipe of stdout closed?\n",
               why == 0 ? "" : std::string(": ") + std::strerror(why));
   return 3;
 }
@@ -298,13 +292,11 @@ int run_parsed(CLI::App& app, const Runners& runners, const CommonOptions& commo
 } // namespace
 
 std::string positive_number(const std::string& text) {
-  return number_above(
-      text, [](double x) { return x > 0; }, "a number above 0");
+  return fault_of_number(text, "a number above 0", false);
 }
 
 std::string number_from_0(const std::string& text) {
-  return number_above(
-      text, [](double x) { return x >= 0; }, "a number from 0 on");
+  return fault_of_number(text, "a number from 0 on", true);
 }
 
 int print_exception() {

@@ -8,6 +8,7 @@
 
 #include "cli/explanation.h"
 #include "codegen/exporter.h"
+#include "core/names.h"
 #include "job/literature.h"
 
 namespace frictab::cli {
@@ -15,9 +16,8 @@ namespace frictab::cli {
 namespace {
 
 std::vector<std::string> target_names() {
-  std::vector<std::string> names{"all"};
-  for (const codegen::Exporter& target : codegen::all_exporters())
-    names.push_back(target.name);
+  std::vector<std::string> names = all_names(codegen::all_exporters(), &codegen::Exporter::name);
+  names.insert(names.begin(), "all");
   return names;
 }
 
@@ -29,10 +29,7 @@ const CLI::App& root_of(const CLI::App& app) {
 }
 
 std::vector<std::string> command_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* sub : root_of(app).get_subcommands({}))
-    names.push_back(sub->get_name());
-  return names;
+  return all_names(root_of(app).get_subcommands({}), &CLI::App::get_name);
 }
 
 // Possible values: "TEXT:{csv,hdf5}" of CLI::IsMember, "{models,effects}", or registered names.

@@ -14,8 +14,6 @@
 
 namespace frictab::cli::completion_command {
 
-namespace {
-
 std::string quoted(const std::string& text) {
   return "'" + replace_all(text, "'", "'\\''") + "'";
 }
@@ -31,19 +29,21 @@ std::vector<std::string> names_below(const CommandText& command) {
   return names;
 }
 
-// Name in the scripts for the kind of value that an option or argument takes.
-std::string kind_of(const OptionText& option) {
+// The text of a script for the kind of value that an option or argument takes.
+std::string by_kind(const OptionText& option, const std::string& words,
+                    const std::string& directory, const std::string& file,
+                    const std::string& other) {
   switch (option.kind()) {
   case OptionText::Kind::words:
-    return "words " + join(option.words, " ");
+    return words;
   case OptionText::Kind::directory:
-    return "directory";
+    return directory;
   case OptionText::Kind::file:
-    return "file";
+    return file;
   case OptionText::Kind::other:
     break;
   }
-  return "other";
+  return other;
 }
 
 // ---- bash ----
@@ -87,6 +87,10 @@ constexpr const char* bash_tail = R"(  esac
 complete -F _frictab frictab
 )";
 
+std::string bash_value(const OptionText& option) {
+  return by_kind(option, "words " + join(option.words, " "), "directory", "file", "other");
+}
+
 std::string bash_of(const CommandText& command) {
   std::string out = fmt::format("  {})\n    case $before in\n", quoted(command.name));
   std::vector<std::string> names;
@@ -94,7 +98,7 @@ std::string bash_of(const CommandText& command) {
     names.insert(names.end(), option.names.begin(), option.names.end());
     if (!option.value.empty())
       out += fmt::format("    {}) _frictab_values {}; return ;;\n", join(option.names, " | "),
-                         kind_of(option));
+                         bash_value(option));
   }
   out += fmt::format("    esac\n    if [[ $cur == -* ]]; then\n      _frictab_values words {}\n",
                      join(names, " "));
@@ -102,7 +106,7 @@ std::string bash_of(const CommandText& command) {
     out +=
         fmt::format("    else\n      _frictab_values words {}\n", join(names_below(command), " "));
   else if (!command.places.empty())
-    out += fmt::format("    else\n      _frictab_values {}\n", kind_of(command.places.front()));
+    out += fmt::format("    else\n      _frictab_values {}\n", bash_value(command.places.front()));
   return out + "    fi\n    ;;\n";
 }
 
@@ -130,18 +134,10 @@ std::string zsh_text(const std::string& text) {
 }
 
 std::string zsh_action(const OptionText& option) {
-  switch (option.kind()) {
-  case OptionText::Kind::words:
-    return option.value == "TARGETS" ? "_values -s , target " + join(option.words, " ")
-                                     : "(" + join(option.words, " ") + ")";
-  case OptionText::Kind::directory:
-    return "_files -/";
-  case OptionText::Kind::file:
-    return "_files";
-  case OptionText::Kind::other:
-    break;
-  }
-  return " "; // nothing to offer
+  const std::string words = join(option.words, " ");
+  return by_kind(option,
+                 option.value == "TARGETS" ? "_values -s , target " + words : "(" + words + ")",
+                 "_files -/", "_files", " "); // a blank: nothing to offer
 }
 
 std::string zsh_option(const OptionText& option) {
@@ -199,17 +195,10 @@ std::string fish_option(const OptionText& option, const std::string& here) {
     out += name.size() == 2 ? " -s " + name.substr(1) : " -l " + name.substr(2);
   out += " -d " + fish_quoted(first_line(option.description));
   if (option.value.empty()) return out + "\n";
-  switch (option.kind()) {
-  case OptionText::Kind::words:
-    return out + " -x -a " + fish_quoted(join(option.words, " ")) + "\n";
-  case OptionText::Kind::directory:
-    return out + " -x -a '(__fish_complete_directories)'\n";
-  case OptionText::Kind::file:
-    return out + " -r -F\n";
-  case OptionText::Kind::other:
-    break;
-  }
-  return out + " -x\n";
+  return out +
+         by_kind(option, " -x -a " + fish_quoted(join(option.words, " ")),
+                 " -x -a '(__fish_complete_directories)'", " -r -F", " -x") +
+         "\n";
 }
 
 std::string fish_of(const CommandText& command) {
@@ -334,7 +323,5 @@ const Registered<Command> registered{[] {
         "PowerShell; $PROFILE then has: . ./frictab.ps1"},
        {"frictab completion zsh > ~/.zfunc/_frictab", "zsh, with ~/.zfunc in fpath"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::completion_command

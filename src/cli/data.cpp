@@ -17,8 +17,6 @@
 
 namespace frictab::cli::data_command {
 
-namespace {
-
 struct Options {
   std::string job;
   std::string write; // csv or hdf5
@@ -91,7 +89,5 @@ const Registered<Command> registered{[] {
       {{"frictab data job.toml", "a line per test; data.html has all strokes"},
        {"frictab data job.toml --write hdf5", "and the data in canonical names and units"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::data_command

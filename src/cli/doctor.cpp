@@ -26,8 +26,6 @@ namespace frictab::cli::doctor_command {
 
 using expr::Expr;
 
-namespace {
-
 namespace fs = std::filesystem;
 
 struct Finding {
@@ -110,8 +108,7 @@ Finding target_finding(const codegen::Exporter& target) {
       const std::string& program = variant.program();
       const bool there =
           program.empty() || (program.find('/') == program.npos && !os::on_path(program).empty());
-      if (!there && std::count(lacking.begin(), lacking.end(), program) == 0)
-        lacking.push_back(program);
+      if (!there && std::ranges::count(lacking, program) == 0) lacking.push_back(program);
     }
     if (lacking.empty()) return finding;
     finding.ok = false;
@@ -202,7 +199,5 @@ const Registered<Command> registered{[] {
       "doctor", 90,        "Say what this machine has for the job, and what is missing",
       declare,  uses_json, {{"frictab doctor", "compilers, libraries, what verify can run here"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::doctor_command

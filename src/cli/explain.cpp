@@ -18,11 +18,7 @@
 
 namespace frictab::cli::explain_command {
 
-namespace {
-
-using Fields = std::vector<std::pair<std::string, std::string>>;
-
-nlohmann::ordered_json json_of(const Fields& fields) {
+nlohmann::ordered_json json_of(const Explanation::Fields& fields) {
   auto out = nlohmann::ordered_json::object();
   for (const auto& [label, text] : fields)
     out[label] = text;
@@ -107,7 +103,5 @@ const Registered<Command> registered{[] {
        {"frictab explain tolerance_MPa", "a key of the job, by its last part"},
        {"frictab explain exit-codes", "a topic; units, csv, rules, experiment are others"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::explain_command

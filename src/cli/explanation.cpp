@@ -1,13 +1,16 @@
 // Reads explanations from the registries and the job schema: nothing is written twice.
 #include "cli/explanation.h"
 
+#include <algorithm>
 #include <limits>
 #include <span>
 
 #include <fmt/format.h>
 
+#include "cli/command_tree.h"
 #include "cli/topics.h"
 #include "codegen/exporter.h"
+#include "core/names.h"
 #include "core/text.h"
 #include "data/quantity.h"
 #include "effects/effect.h"
@@ -69,9 +72,8 @@ std::string remarks_of(const models::Law& law) {
   for (const auto& [input, ends] : law.clamped_inputs)
     remarks.push_back(fmt::format("held below {} {} and above {}", input, shortest(ends.first),
                                   shortest(ends.second)));
-  remarks.push_back(
-      "limited to 0 <= tau_R <= k where the data have sigma_f_MPa (models.shear_limit; k by "
-      "models.shear_yield)");
+  remarks.push_back("limited to 0 <= tau_R <= k where the data have sigma_f_MPa "
+                    "(models.shear_limit; k by models.shear_yield)");
   return join(remarks, "; ");
 }
 
@@ -79,7 +81,7 @@ Explanation about(const models::Law& law) {
   const models::Conventions usual;
   std::vector<std::string> free_inputs =
       models::inputs(law, models::Conventions{usual.shear_yield, usual.k_over_sigma_f, false});
-  Explanation out{law.name, "friction law", law.title, {}, "parameters", {}};
+  Explanation out{law.name, "friction law", law.title, {}, "parameters"};
   out.fields = {{"formula", law.formula},
                 {"inputs", join(free_inputs, ", ")},
                 {"may use", join(law.may_use, ", ")},
@@ -104,14 +106,14 @@ std::string what_it_takes(const effects::EffectForm& effect) {
 }
 
 Explanation about(const effects::EffectForm& effect) {
-  Explanation out{effect.name, "effect", effect.title, {}, "parameters", {}};
+  Explanation out{effect.name, "effect", effect.title, {}, "parameters"};
   out.fields = {{"formula", effect.formula}, {"acts on", what_it_takes(effect)}};
   out.items = parameter_items(effect.parameters, false);
   return out;
 }
 
 Explanation about(const codegen::Exporter& target) {
-  Explanation out{target.name, "target", target.title, {}, "choices in [export.options]", {}};
+  Explanation out{target.name, "target", target.title, {}, "choices in [export.options]"};
   out.fields = {{"signature", target.signature_source}, {"notes", target.notes}};
   if (target.combines()) out.fields.push_back({"laws distinguished by", target.several_laws});
   for (const codegen::ExportOption& option : target.options) {
@@ -124,7 +126,7 @@ Explanation about(const codegen::Exporter& target) {
 }
 
 Explanation about(const data::Quantity& quantity) {
-  Explanation out{quantity.name, "quantity", quantity.meaning, {}, "", {}};
+  Explanation out{quantity.name, "quantity", quantity.meaning};
   out.fields = {{"symbol", quantity.symbol}, {"unit", quantity.unit}};
   if (quantity.lowest > -std::numeric_limits<double>::infinity())
     out.fields.push_back({"lowest", shortest(quantity.lowest)});
@@ -136,19 +138,16 @@ Explanation about(const data::Quantity& quantity) {
   return out;
 }
 
-std::vector<std::pair<std::string, std::string>> key_fields(const job::KeyRule& rule) {
-  std::vector<std::pair<std::string, std::string>> fields{{"value", job::expected(rule)}};
+Explanation::Fields key_fields(const job::KeyRule& rule) {
   const std::string normal = job::default_text(rule);
-  if (!normal.empty())
-    fields.push_back({"default", normal});
-  else
-    fields.push_back({"absent", rule.absent});
+  Explanation::Fields fields{{"value", job::expected(rule)}, {"default", normal}};
+  if (normal.empty()) fields.back() = {"absent", rule.absent};
   if (!rule.example.empty()) fields.push_back({"example", rule.example});
   return fields;
 }
 
 Explanation about(const job::KeyRule& rule) {
-  return {rule.path, "job key", rule.meaning, key_fields(rule), "", {}};
+  return {rule.path, "job key", rule.meaning, key_fields(rule)};
 }
 
 bool is_below(const std::string& path, const std::string& section) {
@@ -156,7 +155,7 @@ bool is_below(const std::string& path, const std::string& section) {
 }
 
 Explanation about_section(const std::string& path, const std::string& title) {
-  Explanation out{path.empty() ? "job" : path, "job section", title, {}, "keys", {}};
+  Explanation out{path.empty() ? "job" : path, "job section", title, {}, "keys"};
   for (const job::KeyRule& rule : job::key_rules())
     if (is_below(rule.path, path)) out.items.push_back({rule.path, rule.meaning, key_fields(rule)});
   return out;
@@ -168,26 +167,22 @@ Explanation about_process(const std::string& title) {
   out.fields = {
       {"contact", "one row per written increment and facet (or node) that touches: time_s, facet, "
                   "area_mm2, sigma_n_MPa, and v_rel_mm_s or slip_1_mm and slip_2_mm"},
-      {"derived",
-       "v_rel_mm_s from slips, as a vector; s_mm since each facet first touched; psi from "
-       "area_mm2/area_start_mm2; sigma_f_MPa by process.flow_curve or a formula"},
+      {"derived", "v_rel_mm_s from slips, as a vector; s_mm since each facet first touched; psi "
+                  "from area_mm2/area_start_mm2; sigma_f_MPa by process.flow_curve or a formula"},
       {"held", "what is missing: psi at 1, other states at the median of the tests, with what that "
                "may cost"},
       {"tool", "time_s, force_kN, speed_mm_s; stroke_mm, and friction_J, which shows a wrong "
                "symmetry or unit"},
       {"files",
-       "as [data] reads them: text, workbooks, HDF5, MATLAB, several files, other names and "
-       "units"},
+       "as [data] reads them: text, workbooks, HDF5, MATLAB, several files, other names and units"},
       {"scripts", "frictab process --script abaqus, calculix, deform, getfem, lsdyna"},
-      {"first order",
-       "a force's change at the motion as it was; for the shape of the part only its "
-       "sign, none under a given force or energy; beyond 10 % rerun"}};
+      {"first order", "a force's change at the motion as it was; for the shape of the part only "
+                      "its sign, none under a given force or energy; beyond 10 % rerun"}};
   std::vector<Explanation::Item> columns;
   const auto add = [&](const char* file, std::span<const data::Quantity> quantities) {
     for (const data::Quantity& quantity : quantities)
       columns.push_back({fmt::format("{}: {}", file, quantity.name),
-                         fmt::format("[{}] {}", quantity.unit, quantity.meaning),
-                         {}});
+                         fmt::format("[{}] {}", quantity.unit, quantity.meaning)});
   };
   add("contact", process::contact_quantities());
   add("tool", process::tool_quantities());
@@ -199,91 +194,70 @@ Explanation about_process(const std::string& title) {
 // Layout required of a table made elsewhere: `verify --table`, `export --table` and `table` read
 // it.
 Explanation about_table_layout() {
-  Explanation out{
-      "table-layout",
-      "file",
-      "a table as netCDF-4-compatible HDF5: one dataset `value` and one dimension scale "
-      "per axis, in the root group; made by frictab or by anyone else",
-      {},
-      "datasets and attributes",
-      {}};
+  Explanation out{"table-layout",
+                  "file",
+                  "a table as netCDF-4-compatible HDF5: one dataset `value` and one dimension "
+                  "scale per axis, in the root group; made by frictab or by anyone else",
+                  {},
+                  "datasets and attributes",
+                  {}};
   out.fields = {
       {"tau_R", "the formula `combine` of the interpolated value, the states and the constants"},
       {"axes", "1 to 8, or none for a constant; outside, the nearest edge is used, or what "
                "outside_low and outside_high say"},
-      {"not needed",
-       "all other attributes; frictab writes model, data_hash, "
-       "data_origin, tool_version, tolerance_MPa, tolerance_from, worst_case_MPa, refinement "
-       "and others to the root, and Conventions, title, source and comment of CF"}};
+      {"not needed", "all other attributes; frictab writes model, data_hash, data_origin, "
+                     "tool_version, tolerance_MPa, tolerance_from, worst_case_MPa, refinement and "
+                     "others to the root, and Conventions, title, source and comment of CF"}};
   out.items = {
-      {"value", "numbers, row-major in the order of the axes, finite; any HDF5 storage", {}},
-      {"value: quantity", "mu or tau_R: what is tabulated", {}},
-      {"value: transform",
-       "linear, or log where it is interpolated in ln; log needs the schema",
-       {}},
+      {"value", "numbers, row-major in the order of the axes, finite; any HDF5 storage"},
+      {"value: quantity", "mu or tau_R: what is tabulated"},
+      {"value: transform", "linear, or log where it is interpolated in ln; log needs the schema"},
       {"value: interpolation",
-       "linear (in the axes' coordinates), or cubic (then `spline` is not-a-knot)",
-       {}},
+       "linear (in the axes' coordinates), or cubic (then `spline` is not-a-knot)"},
       {"value: combine",
        "tau_R_MPa as a Python expression of `value`, canonical states (explain sigma_n_MPa) and "
        "constants, with minimum, maximum, exp, log, sqrt, sin, tanh, arccos, where",
        {{"example", "minimum(value*sigma_n_MPa, m*0.577*sigma_f_MPa)"}}},
-      {"value: NAME", "one number attribute per constant of combine", {}},
-      {"AXIS",
-       "ascending nodes, at least 2; a dimension scale of `value`, named like a quantity",
-       {}},
-      {"AXIS: units", "the canonical unit of that quantity, 1 for a number", {}},
-      {"AXIS: transform", "linear, or log where it is interpolated in ln", {}},
-      {"AXIS: kinks", "optional, cubic only: nodes at which the spline bends, in one text", {}},
+      {"value: NAME", "one number attribute per constant of combine"},
+      {"AXIS", "ascending nodes, at least 2; a dimension scale of `value`, named like a quantity"},
+      {"AXIS: units", "the canonical unit of that quantity, 1 for a number"},
+      {"AXIS: transform", "linear, or log where it is interpolated in ln"},
+      {"AXIS: kinks", "optional, cubic only: nodes at which the spline bends, in one text"},
       {"AXIS: outside_low, outside_high",
-       "optional, what a query beyond that end gets: clamp (as without), error or law",
-       {}},
+       "optional, what a query beyond that end gets: clamp (as without), error or law"},
       {"AXIS: data_low, data_high",
-       "optional: what the data reach on which the law was calibrated",
-       {}},
+       "optional: what the data reach on which the law was calibrated"},
       {"ln_AXIS",
        "written for readers of netCDF: the logarithm of a log axis, in which interpolation is "
-       "right",
-       {}},
+       "right"},
       {"AXIS: share_beyond_data",
-       "written for readers: share of the nodes that lie beyond them, 0 to 1",
-       {}},
+       "written for readers: share of the nodes that lie beyond them, 0 to 1"},
       {"distance",
        "written for readers: radius around each node that holds half a test's worth of rows; 1 is "
-       "what the data span of one axis",
-       {}},
-      {"/: share_far", "optional: share of the range, 0 to 1, with a distance above 0.25", {}},
+       "what the data span of one axis"},
+      {"/: share_far", "optional: share of the range, 0 to 1, with a distance above 0.25"},
       {"value: extension",
        "where a side says law: the law's own `value` (never its ln) as an expression of the axes "
-       "and constants; a long one goes on in extension_2, extension_3, ...",
-       {}},
+       "and constants; a long one goes on in extension_2, extension_3, ..."},
       {"/: range_low_STATE, range_high_STATE",
        "range of a state of combine that is not an axis, for verify; a name that is not a "
-       "canonical state is an "
-       "input only where these are there",
-       {}},
+       "canonical state is an input only where these are there"},
       {"/: units_STATE, long_name_STATE, levels_STATE",
-       "optional: of such an input; levels: 0 = A, 1 = B of a text column",
-       {}},
+       "optional: of such an input; levels: 0 = A, 1 = B of a text column"},
       {"/: schema",
-       "frictab/table/2; of /1 are files whose `value` holds ln where transform is log",
-       {}},
-      {"/: model", "optional: a name of letters, digits, '_', '.', '-'", {}}};
+       "frictab/table/2; of /1 are files whose `value` holds ln where transform is log"},
+      {"/: model", "optional: a name of letters, digits, '_', '.', '-'"}};
   return out;
 }
 
 // Returns the path of the rule: "table.axes.*.nodes" for "table.axes.psi.nodes".
 std::string rule_path(const std::string& path) {
-  std::string out, rest = path;
-  while (!rest.empty()) {
-    const std::size_t dot = rest.find('.');
-    const std::string key = rest.substr(0, dot);
-    rest = dot == rest.npos ? "" : rest.substr(dot + 1);
+  std::string out;
+  for (const std::string& key : pieces(path, '.')) {
     const job::SectionRule* section = job::find_section(out);
-    bool by_name = false;
-    if (section && section->children)
-      for (const std::string& name : section->children())
-        by_name = by_name || name == key;
+    const std::vector<std::string> names =
+        section && section->children ? section->children() : std::vector<std::string>();
+    const bool by_name = std::ranges::find(names, key) != names.end();
     out += (out.empty() ? "" : ".") + (by_name ? std::string("*") : key);
   }
   return out;
@@ -301,7 +275,7 @@ std::optional<Explanation> about_last_part(const std::string& name) {
 }
 
 Explanation about(const job::System& system) {
-  Explanation out{system.name, "tribosystem", system.title, {}, "parameters", {}};
+  Explanation out{system.name, "tribosystem", system.title, {}, "parameters"};
   const auto add = [&](const char* label, const std::string& text) {
     if (!text.empty()) out.fields.emplace_back(label, text);
   };
@@ -337,39 +311,32 @@ std::optional<Explanation> explain(const std::string& name) {
   if (const codegen::Exporter* target = codegen::find_exporter(name)) return about(*target);
   if (const data::Quantity* quantity = data::find_quantity(name)) return about(*quantity);
   if (name == "job")
-    return about_section("", "the job file (TOML): every key, all optional but data.training; "
-                             "'*' stands for a name: of a quantity, an option or a target");
+    return about_section("", "the job file (TOML): every key, all optional but data.training; '*' "
+                             "stands for a name: of a quantity, an option or a target");
   if (name == "table-layout") return about_table_layout();
   for (const job::System& system : job::systems())
     if (system.name == name) return about(system);
   if (auto topic = explain_topic(name)) return topic;
   const std::string path = rule_path(name);
   if (const job::KeyRule* key = job::find_key(path)) return about(*key);
-  if (const job::SectionRule* section = job::find_section(path); section && path == "process")
-    return about_process(section->meaning);
   if (const job::SectionRule* section = job::find_section(path))
-    return about_section(path, section->meaning);
+    return path == "process" ? about_process(section->meaning)
+                             : about_section(path, section->meaning);
   return about_last_part(name);
 }
 
 std::vector<std::string> explainable() {
-  std::vector<std::string> names;
-  for (const std::string& law : job::literature().names())
-    names.push_back(law);
-  for (const effects::EffectForm& effect : effects::all_effects())
-    names.push_back(effect.name);
-  for (const codegen::Exporter& target : codegen::all_exporters())
-    names.push_back(target.name);
-  for (const data::Quantity& quantity : data::quantities())
-    names.push_back(quantity.name);
-  names.push_back("job");
-  names.push_back("table-layout");
-  for (const job::System& system : job::systems())
-    names.push_back(system.name);
-  for (const std::string& topic : topic_names())
-    names.push_back(topic);
-  for (const job::SectionRule& section : job::section_rules())
-    names.push_back(section.path);
+  std::vector<std::string> names = job::literature().names();
+  const auto add = [&](const std::vector<std::string>& more) {
+    names.insert(names.end(), more.begin(), more.end());
+  };
+  add(effects::effect_names());
+  add(all_names(codegen::all_exporters(), &codegen::Exporter::name));
+  add(all_names(data::quantities(), &data::Quantity::name));
+  add({"job", "table-layout"});
+  add(all_names(job::systems(), &job::System::name));
+  add(topic_names());
+  add(all_names(job::section_rules(), &job::SectionRule::path));
   for (const job::KeyRule& key : job::key_rules()) {
     names.push_back(key.path);
     if (job::last_part(key.path) != "*") names.push_back(job::last_part(key.path));

@@ -15,14 +15,14 @@ struct Explanation {
   std::string kind;  // "friction law", "effect", "target", "quantity", "job key", "job keys",
                      // "job section", "file", "topic"
   std::string title; // one line
-  std::vector<std::pair<std::string, std::string>> fields; // label, text; in order
+  using Fields = std::vector<std::pair<std::string, std::string>>; // label, text; in order
+  Fields fields = {};
   struct Item {
-    std::string name;
-    std::string text;
-    std::vector<std::pair<std::string, std::string>> fields;
+    std::string name, text;
+    Fields fields = {};
   };
-  std::string items_label; // "parameters", "keys"
-  std::vector<Item> items;
+  std::string items_label = {}; // "parameters", "keys"
+  std::vector<Item> items = {};
 };
 
 // Explains a law, also a user's own.

@@ -17,119 +17,97 @@
 
 namespace frictab::cli::export_command {
 
-namespace {
-
-struct Options {
-  std::string job;
-  std::string table;
-  std::vector<std::string> targets{"c", "abaqus_vfric"};
-  std::string units = "mm-t-s", temperature = "degC";
-  std::vector<std::string> combine;
-  std::string law, system;
-  std::vector<std::string> parameters, ranges;
-  bool check = false;
-};
-
-int export_alone(const Options& options, const CommonOptions& common) {
+int export_alone(const ExportArguments& arguments, const CommonOptions& common) {
   need_directory(common, "--table FILE");
-  const auto exporters = codegen::exporters_named(options.targets);
-  codegen::check_request_size(table::read_description(options.table).table, exporters, {});
-  const table::Table table = table::read_table(options.table);
+  const auto exporters = codegen::exporters_named(arguments.targets);
+  codegen::check_request_size(table::read_description(arguments.table).table, exporters, {});
+  const table::Table table = table::read_table(arguments.table);
   io::OutputFiles output(common.output);
-  write_sources(output, exporters, table, {options.units, options.temperature});
+  write_sources(output, exporters, table, {arguments.units, arguments.temperature});
   commit_and_list(output, common);
   return 0;
 }
 
-int write(const Options& options, const CommonOptions& common) {
-  codegen::exporters_named(options.targets); // a mistyped target is a fault of any export
-  if (!options.combine.empty()) {
-    if (!options.table.empty())
+int write(const ExportArguments& arguments, const CommonOptions& common) {
+  codegen::exporters_named(arguments.targets); // a mistyped target is a fault of any export
+  if (!arguments.combine.empty()) {
+    if (!arguments.table.empty())
       throw InputError({}, "--combine and --table exclude each other",
                        "--combine NAME=FILE takes the tables itself");
-    return export_combined(
-        {options.combine, options.job, options.targets, options.units, options.temperature},
-        common);
+    return export_combined(arguments, common);
   }
-  if (!common.set.empty() && (!options.law.empty() || !options.table.empty()))
+  if (!common.set.empty() && (!arguments.law.empty() || !arguments.table.empty()))
     throw InputError({}, "--set overrides keys of a job, and here is none",
                      "--units, --temperature, and of --law --param and --range; other options take "
                      "a job, whose table.model may be a law of constants");
-  if (!options.system.empty()) {
-    if (!options.job.empty() || !options.table.empty() || !options.law.empty() ||
-        !options.parameters.empty())
+  if (!arguments.system.empty()) {
+    if (!arguments.job.empty() || !arguments.table.empty() || !arguments.law.empty() ||
+        !arguments.parameters.empty())
       throw InputError({}, "--system has its law and parameters",
                        "without JOB, --table, --law, --param");
-    return export_system(
-        {options.system, options.ranges, options.targets, options.units, options.temperature},
-        common);
+    return export_system(arguments, common);
   }
-  if (!options.law.empty()) {
-    if (!options.job.empty() || !options.table.empty())
+  if (!arguments.law.empty()) {
+    if (!arguments.job.empty() || !arguments.table.empty())
       throw InputError({}, "--law stands alone", "without JOB and --table");
-    return export_law({options.law, options.parameters, options.ranges, options.targets,
-                       options.units, options.temperature},
-                      common);
+    return export_law(arguments, common);
   }
-  if (!options.parameters.empty() || !options.ranges.empty())
+  if (!arguments.parameters.empty() || !arguments.ranges.empty())
     throw InputError({}, "--param and --range belong to --law", "--law coulomb --param mu=0.08");
   const std::string how =
-      "give a JOB file, --table FILE -o DIR [--targets c,abaqus_vfric], --law NAME --param P=V "
-      "... -o DIR, --system NAME -o DIR, or --combine NAME=FILE ... -o DIR --targets abaqus_vfric";
-  if (options.table.empty() && !has_job(options.job))
+      "give a JOB file, --table FILE -o DIR [--targets c,abaqus_vfric], --law NAME --param P=V ... "
+      "-o DIR, --system NAME -o DIR, or --combine NAME=FILE ... -o DIR --targets abaqus_vfric";
+  if (arguments.table.empty() && !has_job(arguments.job))
     throw InputError({}, "nothing to export", how);
-  if (!options.table.empty() && !options.job.empty())
+  if (!arguments.table.empty() && !arguments.job.empty())
     throw InputError({}, "JOB and --table exclude each other", how);
-  if (!options.table.empty()) return export_alone(options, common);
-  return run_stage_command(options.job, common, "export");
+  if (!arguments.table.empty()) return export_alone(arguments, common);
+  return run_stage_command(arguments.job, common, "export");
 }
 
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
-  const auto options = std::make_shared<Options>();
-  add_job(app, options->job, "Job file; the sources of its tables are written");
-  app.add_option("--table", options->table, "A table file, without a job; needs -o DIR")
+  const auto arguments = std::make_shared<ExportArguments>();
+  add_job(app, arguments->job, "Job file; the sources of its tables are written");
+  app.add_option("--table", arguments->table, "A table file, without a job; needs -o DIR")
       ->type_name("FILE");
-  app.add_option("--targets", options->targets,
+  app.add_option("--targets", arguments->targets,
                  "Without a JOB: FE codes, a list or all (frictab list targets)")
       ->delimiter(',')
       ->take_all()
       ->allow_extra_args(false) // or it takes a JOB that follows
       ->type_name("TARGETS");
-  app.add_option("--units", options->units, "Without a JOB: " + codegen::unit_systems_text())
+  app.add_option("--units", arguments->units, "Without a JOB: " + codegen::unit_systems_text())
       ->type_name("SYSTEM");
-  app.add_option("--temperature", options->temperature,
+  app.add_option("--temperature", arguments->temperature,
                  "Without a JOB: degC or K, in which the simulation has temperatures")
       ->type_name("UNIT");
-  app.add_option("--combine", options->combine,
+  app.add_option("--combine", arguments->combine,
                  "Several laws in one user file, by the names of their contacts in the deck "
                  "(PUNCH=A.h5 DIE=B.h5); needs -o DIR. A JOB's [export] holds for all of them")
       ->type_name("NAME=TABLE");
-  app.add_option("--law", options->law,
+  app.add_option("--law", arguments->law,
                  "A friction law with known constants, without data; needs -o DIR")
       ->type_name("LAW");
-  app.add_option("--system", options->system,
+  app.add_option("--system", arguments->system,
                  "A tribosystem of `frictab list systems`, or a file in their form; needs -o DIR")
       ->type_name("NAME|FILE");
-  app.add_option("--param", options->parameters, "With --law: one of its parameters")
+  app.add_option("--param", arguments->parameters, "With --law: one of its parameters")
       ->type_name("NAME=NUMBER");
-  app.add_option("--range", options->ranges,
+  app.add_option("--range", arguments->ranges,
                  "With --law: over which states; usual are those of Table 1. With a range of "
                  "sigma_f_MPa the shear limit holds")
       ->type_name("STATE=LOW..HIGH");
-  app.add_flag("--check", options->check,
+  app.add_flag("--check", arguments->check,
                "Then compile each source on its own, with the compiler that is here; with -o DIR "
                "alone those that DIR has");
-  return [options, &common]() -> int {
-    if (!options->check) return write(*options, common);
-    const bool nothing_new = options->job.empty() && options->table.empty() &&
-                             options->law.empty() && options->system.empty() &&
-                             options->combine.empty();
-    if (nothing_new && !common.output.empty()) return check_sources(common.output);
-    const int code = write(*options, common);
+  return [arguments, &common]() -> int {
+    if (!arguments->check) return write(*arguments, common);
+    const bool of_job = arguments->is_of_job();
+    if (of_job && arguments->job.empty() && !common.output.empty())
+      return check_sources(common.output);
+    const int code = write(*arguments, common);
     if (code != 0 || common.dry_run) return code;
-    const bool of_job = options->combine.empty() && options->table.empty() &&
-                        options->law.empty() && options->system.empty();
-    return check_sources(of_job ? read_job(job_file(options->job), common).directory + "/export"
+    return check_sources(of_job ? read_job(job_file(arguments->job), common).directory + "/export"
                                 : common.output);
   };
 }
@@ -150,7 +128,5 @@ const Registered<Command> registered{[] {
         "abaqus_vfric -o both",
         "two laws in one user file"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::export_command

@@ -13,8 +13,6 @@
 
 namespace frictab::cli::help_command {
 
-namespace {
-
 int run(const CLI::App& root, const std::vector<std::string>& words) {
   if (words.size() == 1)
     if (const auto topic = explain_topic(words.front())) {
@@ -62,7 +60,5 @@ const Registered<Command> registered{[] {
                   {"frictab help table slice", "of a command below another"},
                   {"frictab help exit-codes", "a topic"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::help_command

@@ -23,8 +23,6 @@
 
 namespace frictab::cli::init_command {
 
-namespace {
-
 namespace fs = std::filesystem;
 
 struct Options {
@@ -72,10 +70,10 @@ std::string relative_to(const fs::path& file, const std::string& directory) {
 
 // Whether these globs find these files and no others.
 bool find_exactly(const std::vector<std::string>& globs, std::vector<std::string> files) {
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   try {
     std::vector<std::string> found = data::find_files(globs, "", {});
-    std::sort(found.begin(), found.end());
+    std::ranges::sort(found);
     return found == files;
   } catch (const InputError&) { // no match
     return false;
@@ -90,7 +88,7 @@ std::vector<std::string> training_names(const std::vector<std::string>& files,
   std::vector<std::string> folders;
   for (const std::string& file : files)
     if (const std::string glob = (fs::path(file).parent_path() / any).string();
-        std::find(folders.begin(), folders.end(), glob) == folders.end())
+        std::ranges::find(folders, glob) == folders.end())
       folders.push_back(glob);
   const fs::path above = fs::path(folders.front()).parent_path().parent_path();
   const std::string of_all = (above / "*" / any).string();
@@ -126,7 +124,7 @@ std::vector<guess::File> guesses_of(const std::vector<std::string>& files,
 
 // Whether names of files and folders contain this folder, or a file in it.
 bool is_named(const fs::path& folder, const std::vector<std::string>& names) {
-  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+  return std::ranges::any_of(names, [&](const std::string& name) {
     const fs::path one = fs::path(name).lexically_normal();
     return (one / "").lexically_normal() == (folder / "").lexically_normal() ||
            one.parent_path() == folder;
@@ -164,10 +162,10 @@ void add_folders_not_looked_into(const std::vector<std::string>& from,
   }
   if (found.empty()) return;
   if (found.size() > most) counted.resize(most);
-  passed.push_back(fmt::format("not looked into: {}{}; if they have data, name them too: "
-                               "frictab init --force --from {} {}",
-                               join(counted, ", "), found.size() > most ? ", ..." : "",
-                               join(from, " "), found.size() > most ? "FOLDER" : join(found, " ")));
+  passed.push_back(fmt::format(
+      "not looked into: {}{}; if they have data, name them too: frictab init --force --from {} {}",
+      join(counted, ", "), found.size() > most ? ", ..." : "", join(from, " "),
+      found.size() > most ? "FOLDER" : join(found, " ")));
 }
 
 // Keeps the sheets of these names, or like them with *; tables of tests in other workbooks stay.
@@ -179,14 +177,13 @@ void keep_sheets(std::vector<guess::File>& guesses, const std::vector<std::strin
     return name == sheet || os::is_like(name, sheet);
   };
   for (const std::string& sheet : sheets)
-    if (std::none_of(names.begin(), names.end(),
-                     [&](const std::string& name) { return is_meant(name, sheet); }))
+    if (std::ranges::none_of(names, [&](const std::string& name) { return is_meant(name, sheet); }))
       throw InputError({}, fmt::format("no workbook has a table in a sheet '{}'", sheet),
                        suggest(sheet, names));
   std::erase_if(guesses, [&](const guess::File& guess) {
     return !sheets.empty() && !guess.sheet.empty() &&
-           std::none_of(sheets.begin(), sheets.end(),
-                        [&](const std::string& sheet) { return is_meant(guess.sheet, sheet); });
+           std::ranges::none_of(
+               sheets, [&](const std::string& sheet) { return is_meant(guess.sheet, sheet); });
   });
 }
 
@@ -268,7 +265,5 @@ const Registered<Command> registered{[] {
                  {{"frictab init my_job", "my_job/job.toml with every key and its default"},
                   {"frictab init guessed --from data/*.csv", "a job guessed from data files"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::init_command

@@ -22,11 +22,7 @@ void add_job(CLI::App& app, std::string& file, const std::string& description) {
   app.add_option("JOB", file, description + "; without it job.toml of this folder");
 }
 
-namespace {
-
 constexpr const char* usual_job = "job.toml";
-
-} // namespace
 
 bool has_job(const std::string& given) {
   std::error_code error;
@@ -36,8 +32,8 @@ bool has_job(const std::string& given) {
 std::string job_file(const std::string& given) {
   if (has_job(given)) return given.empty() ? usual_job : given;
   throw InputError({}, "no JOB is given, and this folder has no job.toml",
-                   "name a job file; frictab init --from FILES makes one from data files, "
-                   "frictab twin DIR a synthetic campaign with one");
+                   "name a job file; frictab init --from FILES makes one from data files, frictab "
+                   "twin DIR a synthetic campaign with one");
 }
 
 job::Job read_job(const std::string& file, const CommonOptions& common) {
@@ -64,16 +60,12 @@ void print_notes(const run::Run& run, const CommonOptions& common) {
     note(common, line);
 }
 
-namespace {
-
-void show_summary(const std::string& text) {
+static void show_summary(const std::string& text) {
   if (colours_on(stdout))
     print_out("{}", coloured(printable(text)));
   else
     show(text);
 }
-
-} // namespace
 
 int print_plan(const job::Job& job, const std::string& command, const CommonOptions& common) {
   const run::Plan plan = run::plan_of(job, command);

@@ -69,7 +69,7 @@ std::vector<double> parameters_of(const models::Law& law, const std::vector<std:
   const std::vector<std::string> names = models::parameter_names(law);
   FaultList faults;
   for (const auto& [name, value] : given)
-    if (std::find(names.begin(), names.end(), name) == names.end())
+    if (std::ranges::find(names, name) == names.end())
       faults.add({}, fmt::format("{} has no parameter '{}'", law.name, name),
                  names.empty() ? "it has none" : suggest(name, names));
   std::vector<double> out;
@@ -112,7 +112,7 @@ std::vector<table::StateRange> ranges_of(const models::AssembledLaw& law,
                                          const std::map<std::string, std::string>& given) {
   FaultList faults;
   for (const auto& [name, text] : given)
-    if (std::find(law.inputs.begin(), law.inputs.end(), name) == law.inputs.end())
+    if (std::ranges::find(law.inputs, name) == law.inputs.end())
       faults.add({}, fmt::format("{} does not take {}", law.model.law->name, name),
                  "it takes " + join(law.inputs, ", "));
   std::vector<table::StateRange> out;
@@ -132,13 +132,13 @@ std::vector<table::StateRange> ranges_of(const models::AssembledLaw& law,
 
 // Makes the model. Without a flow stress it has no shear limit, the same as with data that lack
 // one.
-models::Model model_of(const LawOptions& options,
+models::Model model_of(const ExportArguments& arguments,
                        const std::map<std::string, std::string>& ranges) {
-  const models::Law& law = law_of(options.law);
+  const models::Law& law = law_of(arguments.law);
   models::Model model;
   model.law = models::shared_law(law);
   model.conventions.shear_limit = ranges.count(flow_stress) > 0;
-  model.parameters = parameters_of(law, options.parameters);
+  model.parameters = parameters_of(law, arguments.parameters);
   if (const auto distance = calibrate::slip_distance(law, model.conventions)) {
     model.law = models::unregistered_law(
         calibrate::at_slip_distance(law, *distance, model.parameters[*distance]));
@@ -156,11 +156,11 @@ std::string model_file(const models::Model& model) {
 
 } // namespace
 
-int export_law(const LawOptions& options, const CommonOptions& common) {
+int export_law(const ExportArguments& arguments, const CommonOptions& common) {
   need_directory(common, "--law NAME");
-  const auto given = assignments(options.ranges, "--range", "sigma_f_MPa=300..900");
-  const models::AssembledLaw law(model_of(options, given));
-  const auto exporters = codegen::exporters_named(options.targets);
+  const auto given = assignments(arguments.ranges, "--range", "sigma_f_MPa=300..900");
+  const models::AssembledLaw law(model_of(arguments, given));
+  const auto exporters = codegen::exporters_named(arguments.targets);
   const auto ranges = ranges_of(law, given);
   const table::Tolerance allowed = table::auto_tolerance(law, ranges);
   table::TableOptions usual;
@@ -168,38 +168,38 @@ int export_law(const LawOptions& options, const CommonOptions& common) {
   usual.tolerance_from = allowed.from;
   table::Table table = table::build_table(law, ranges, usual);
   table.record.tool_version = tool_version();
-  table.record.data_origin = options.origin;
+  table.record.data_origin = arguments.origin;
   verify::VerifyInput input{law, table, "the new table", nullptr, allowed.MPa};
   input.allowed_from = allowed.from;
   verify::Verification verification{allowed.MPa, {}};
   verification.records = verify::verify(input, {});
   verify::set_drift(table.record, verification.records.front());
   io::OutputFiles output(common.output);
-  table::write_table(table, output.stage(options.law + ".h5"), usual.hdf5);
-  output.write(options.law + ".json", model_file(law.model));
-  write_sources(output, exporters, table, {options.units, options.temperature});
+  table::write_table(table, output.stage(arguments.law + ".h5"), usual.hdf5);
+  output.write(arguments.law + ".json", model_file(law.model));
+  write_sources(output, exporters, table, {arguments.units, arguments.temperature});
   commit_and_list(output, common);
   show(words::as_text(words::drift(verification, words::Detail::full)));
   return verification.passed() ? 0 : 1;
 }
 
-int export_system(const SystemOptions& options, const CommonOptions& common) {
+int export_system(const ExportArguments& arguments, const CommonOptions& common) {
   need_directory(common, "--system NAME");
-  const job::System system = job::system_named(options.system);
-  LawOptions law{system.law,         {}, options.ranges, options.targets, options.units,
-                 options.temperature};
+  const job::System system = job::system_named(arguments.system);
+  ExportArguments of_law = arguments;
+  of_law.law = system.law;
   for (const job::System::Constant& one : system.parameters)
-    law.parameters.push_back(one.name + "=" + shortest(one.value));
+    of_law.parameters.push_back(one.name + "=" + shortest(one.value));
   for (const auto& [state, range] : system.range) {
     const std::string start = state + "=";
-    if (std::none_of(options.ranges.begin(), options.ranges.end(),
-                     [&](const std::string& given) { return given.starts_with(start); }))
-      law.ranges.push_back(start + shortest(range.first) + ".." + shortest(range.second));
+    if (std::ranges::none_of(arguments.ranges,
+                             [&](const std::string& given) { return given.starts_with(start); }))
+      of_law.ranges.push_back(start + shortest(range.first) + ".." + shortest(range.second));
   }
-  law.origin =
+  of_law.origin =
       fmt::format("{}: {} tests; {}; {}", system.name, system.tests, system.source, system.licence);
   if (!system.caution.empty()) note(common, "caution: " + system.caution);
-  return export_law(law, common);
+  return export_law(of_law, common);
 }
 
 } // namespace frictab::cli

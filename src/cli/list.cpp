@@ -19,8 +19,6 @@
 
 namespace frictab::cli::list_command {
 
-namespace {
-
 struct Line {
   std::string name;
   std::string title;
@@ -116,7 +114,5 @@ const Registered<Command> registered{[] {
                  uses_json,
                  {{"frictab list", "everything"}, {"frictab list targets", "the FE codes"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::list_command

@@ -15,8 +15,6 @@
 
 namespace frictab::cli::man_command {
 
-namespace {
-
 // Escapes text for roff: no request at the start of a line, hyphens that can be searched for and
 // copied. A long line of settings may be broken at its separators.
 std::string roff(const std::string& text) {
@@ -149,7 +147,5 @@ const Registered<Command> registered{[] {
                  {{"frictab man table slice > slice.1", "to be read by man -l slice.1"},
                   {"frictab man -o man1", "one file per command"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::man_command

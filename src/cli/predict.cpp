@@ -12,8 +12,6 @@
 
 namespace frictab::cli::predict_command {
 
-namespace {
-
 struct Options {
   std::string law;
   std::string data;
@@ -53,14 +51,13 @@ int predict(const Options& options, const CommonOptions& common) {
 
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<Options>();
-  app.add_option(
-         "JOB|MODEL", options->law,
-         "A job that was calibrated: its mapping reads DATA; or models/NAME.json: then DATA "
-         "has canonical columns")
+  app.add_option("JOB|MODEL", options->law,
+                 "A job that was calibrated: its mapping reads DATA; or models/NAME.json: then "
+                 "DATA has canonical columns")
       ->required();
-  app.add_option("DATA", options->data,
-                 "Rows to predict (CSV or HDF5); no stress is needed. DATA "
-                 "alone: of job.toml in this folder");
+  app.add_option(
+      "DATA", options->data,
+      "Rows to predict (CSV or HDF5); no stress is needed. DATA alone: of job.toml in this folder");
   app.add_option("--model", options->model, "Law of the job, instead of the first of table.model")
       ->type_name("LAW");
   output_is_a_file(app);
@@ -77,7 +74,5 @@ const Registered<Command> registered{[] {
       {{"frictab predict job.toml data/validation.csv -o predicted.csv", "by the job's first law"},
        {"frictab predict out/models/coulomb.json data/validation.csv", "by one law, to stdout"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::predict_command

@@ -2,19 +2,13 @@
 #include "cli/printed_explanation.h"
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include "cli/print.h"
 #include "core/wrapped.h"
 
 namespace frictab::cli {
 
-namespace {
-
-using Fields = std::vector<std::pair<std::string, std::string>>;
-
-void print_fields(const Fields& fields, std::size_t indent) {
+static void print_fields(const Explanation::Fields& fields, std::size_t indent) {
   std::size_t width = 0;
   for (const auto& [label, text] : fields)
     width = std::max(width, label.size());
@@ -23,8 +17,6 @@ void print_fields(const Fields& fields, std::size_t indent) {
       print_out("{:{}}{:<{}}  {}\n", "", indent, label + ":", width + 1,
                 wrapped(text, page_width, indent + width + 3));
 }
-
-} // namespace
 
 void print_explanation(const Explanation& it) {
   print_out("{} ({})\n  {}\n", it.name, it.kind, wrapped(it.title, page_width, 2));

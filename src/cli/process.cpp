@@ -2,19 +2,19 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <ranges>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/job_commands.h"
 #include "core/error.h"
+#include "core/names.h"
 #include "core/template.h"
 #include "core/text.h"
 #include "job/toml_tree.h"
 
 namespace frictab::cli::process_command {
-
-namespace {
 
 namespace fs = std::filesystem;
 
@@ -33,10 +33,10 @@ std::string from_job(const std::string& file, const std::string& job) {
 }
 
 std::string list_of(const std::vector<std::string>& files, const std::string& job) {
-  std::vector<std::string> quoted;
+  std::vector<std::string> named;
   for (const std::string& file : files)
-    quoted.push_back(job::toml_quoted(from_job(file, job)));
-  return "[" + join(quoted, ", ") + "]";
+    named.push_back(from_job(file, job));
+  return job::toml_list(named, false);
 }
 
 // A first argument without .toml is a contact file; the job is then that of this folder.
@@ -76,9 +76,7 @@ const std::map<std::string, std::string>& scripts() {
 int print_script(const std::string& solver) {
   const auto found = scripts().find(solver);
   if (found == scripts().end()) {
-    std::vector<std::string> known;
-    for (const auto& [name, path] : scripts())
-      known.push_back(name);
+    const auto known = all_names(std::views::keys(scripts()));
     throw InputError({}, fmt::format("no script for '{}'", solver), suggest(solver, known));
   }
   show(std::string(embedded_template(found->second)));
@@ -139,7 +137,5 @@ const Registered<Command> process{[] {
        "before and after the tests that it proposed"}};
   return command;
 }};
-
-} // namespace
 
 } // namespace frictab::cli::process_command

@@ -7,8 +7,6 @@
 
 namespace frictab::cli::schema_command {
 
-namespace {
-
 std::function<int()> declare(CLI::App&, const CommonOptions&) {
   return [] {
     print_out("{}", job::json_schema());
@@ -17,15 +15,13 @@ std::function<int()> declare(CLI::App&, const CommonOptions&) {
 }
 
 const Registered<Command> registered{[] {
-  return Command{"schema",
-                 85,
-                 "JSON Schema of the job file: editors complete and check its keys",
-                 declare,
-                 0,
-                 {{"frictab schema > job.schema.json", "then `#:schema job.schema.json` on top of "
-                                                       "the job"}}};
+  return Command{
+      "schema",
+      85,
+      "JSON Schema of the job file: editors complete and check its keys",
+      declare,
+      0,
+      {{"frictab schema > job.schema.json", "then `#:schema job.schema.json` on top of the job"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::schema_command

@@ -17,8 +17,6 @@
 
 namespace frictab::cli::status_command {
 
-namespace {
-
 struct StageStatus {
   std::string name, state, why; // done | stale | missing
 };
@@ -29,7 +27,7 @@ std::string law_without_table(const job::Job& job) {
   for (const std::filesystem::path& file : os::entries_of(job.directory + "/tables"))
     tables.push_back(file.stem().string());
   for (const std::string& law : job.table.model)
-    if (std::none_of(tables.begin(), tables.end(), [&](const std::string& table) {
+    if (std::ranges::none_of(tables, [&](const std::string& table) {
           return table == law || table.starts_with(law + "_q"); // table of a quantile
         }))
       return law;
@@ -133,7 +131,5 @@ const Registered<Command> registered{[] {
                   {"frictab status --check", "are all files as they were written?"},
                   {"frictab status job.toml --json", "for a script"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::status_command

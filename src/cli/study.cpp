@@ -12,7 +12,6 @@
 #include "core/shard.h"
 #include "core/text.h"
 #include "io/json.h"
-#include "study/check_study.h"
 #include "study/plan.h"
 #include "study/report_study.h"
 #include "study/run_study.h"
@@ -82,8 +81,8 @@ int run(const Options& options, const CommonOptions& common) {
   const study::RunCounts counts = run_study(plan, {shard, options.retry});
   tell(counts, common);
   if (counts.failed > 0 && !options.failures_ok) {
-    print_error("error: {} failed\n  hint: `frictab study status {}` says why; with "
-                "--failures-ok they are left to the report\n",
+    print_error("error: {} failed\n  hint: `frictab study status {}` says why; with --failures-ok "
+                "they are left to the report\n",
                 counts.failed == 1 ? "1 campaign" : thousands(counts.failed) + " campaigns",
                 printable(plan.study.file));
     return counts.broken > 0 ? 3 : 2;
@@ -101,7 +100,7 @@ int report(const Options& options, const CommonOptions& common) {
 int check(const Options& options, const CommonOptions& common) {
   const study::Plan plan = read_plan(options, common);
   const study::Found found(plan.study.directory);
-  const std::vector<std::string> lines = check_study(plan, found);
+  const std::vector<std::string> lines = differences_of(plan, found);
   const study::Counts counts = counts_of(plan, found);
   if (common.json)
     show(io::json_text({{"schema", "frictab/study-check/1"},

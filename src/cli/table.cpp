@@ -43,13 +43,9 @@ void add_fixed_states_option(CLI::App& app, std::vector<std::string>& at) {
       ->allow_extra_args(false);
 }
 
-namespace {
-
 const Registered<Command> registered{[] {
   return Command{"table", 10, "Look into table files: info, slice, diff, convert",
                  nullptr, 0,  {{"frictab help table slice", "options of a command below it"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli

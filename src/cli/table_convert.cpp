@@ -11,8 +11,6 @@
 
 namespace frictab::cli::table_convert_command {
 
-namespace {
-
 struct Options {
   std::string file;
   std::string to;
@@ -55,7 +53,5 @@ const Registered<Command> registered{[] {
                  {{"frictab table convert out/tables/coulomb.h5 --to csv -o grid.csv",
                    "every node, with tau_R"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::table_convert_command

@@ -11,8 +11,6 @@
 
 namespace frictab::cli::table_diff_command {
 
-namespace {
-
 struct Options {
   std::string a, b;
   std::vector<std::string> at;
@@ -63,7 +61,5 @@ const Registered<Command> registered{[] {
        {"frictab table diff out/tables/coulomb.h5 loose/tables/coulomb.h5 --max-MPa 5",
         "exit code 1 where it is more"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::table_diff_command

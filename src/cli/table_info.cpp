@@ -10,13 +10,10 @@
 
 namespace frictab::cli::table_info_command {
 
-namespace {
-
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   const auto file = std::make_shared<std::string>();
   app.add_option("FILE", *file,
-                 "Table file (HDF5); `frictab explain table-layout` says what is in "
-                 "one")
+                 "Table file (HDF5); `frictab explain table-layout` says what is in one")
       ->required();
   output_is_a_file(app);
   return [file, &common] {
@@ -37,7 +34,5 @@ const Registered<Command> registered{[] {
                  uses_output | uses_force | uses_json,
                  {{"frictab table info out/tables/coulomb.h5", "axes, formula, drift"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::table_info_command

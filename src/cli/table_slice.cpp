@@ -12,8 +12,6 @@
 
 namespace frictab::cli::table_slice_command {
 
-namespace {
-
 struct Options {
   std::string file;
   std::vector<std::string> at;
@@ -84,7 +82,5 @@ const Registered<Command> registered{[] {
         "CSV"},
        {"frictab table slice out/tables/coulomb.h5 --along sigma_n_MPa --svg mu.svg", "a plot"}}};
 }};
-
-} // namespace
 
 } // namespace frictab::cli::table_slice_command

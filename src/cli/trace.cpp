@@ -10,8 +10,6 @@
 
 namespace frictab::cli::trace_command {
 
-namespace {
-
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   struct Arguments {
     std::string file;
@@ -41,7 +39,5 @@ const Registered<Command> trace{[] {
                       {"frictab trace job.toml --power", "and what these tests could have shown"}};
   return command;
 }};
-
-} // namespace
 
 } // namespace frictab::cli::trace_command

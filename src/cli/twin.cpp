@@ -12,8 +12,6 @@
 #include "twin/twin_summary.h"
 
 namespace frictab::cli::twin_command {
-namespace {
-
 struct Options {
   std::string directory;
   std::string format = "csv";
@@ -112,10 +110,9 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
                  "plant an effect (repeatable): form=saturation,column=s_mm,strength=0.15,on=mu; "
                  "on = mu, m or tau; column may be a derived quantity or latent")
       ->allow_extra_args(false);
-  app.add_option(
-         "--law", options->twin.law,
-         "the truth is this friction law, fitted to the twin's own physics, instead of that "
-         "physics (frictab list models)")
+  app.add_option("--law", options->twin.law,
+                 "the truth is this friction law, fitted to the twin's own physics, instead of "
+                 "that physics (frictab list models)")
       ->type_name("LAW");
   app.add_option("--profile", options->twin.profile,
                  "contact normal stress over the stroke: constant, or varied (by test constant, "
@@ -125,9 +122,10 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
       ->capture_default_str();
   app.add_option("--noise", options->twin.noise, "normal, t4 or heteroscedastic")
       ->capture_default_str();
-  app.add_option("--scatter", options->scatter,
-                 "noise instead of the set's, relative: \"test=0.04,slow=0.035,rho=0.95,"
-                 "white=0.012\", any subset; rho: of the slow part, from row to row");
+  app.add_option(
+      "--scatter", options->scatter,
+      "noise instead of the set's, relative: \"test=0.04,slow=0.035,rho=0.95,white=0.012\", any "
+      "subset; rho: of the slow part, from row to row");
   app.add_option("--hide", options->twin.hide, "leave a column out of the files (repeatable)")
       ->allow_extra_args(false);
   app.add_flag("--no-bystanders", options->no_bystanders, "write canonical columns only");
@@ -154,5 +152,4 @@ Command make() {
 
 const Registered<Command> registered{make};
 
-} // namespace
 } // namespace frictab::cli::twin_command

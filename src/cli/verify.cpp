@@ -26,8 +26,6 @@
 
 namespace frictab::cli::verify_command {
 
-namespace {
-
 namespace fs = std::filesystem;
 
 struct Options {
@@ -110,10 +108,10 @@ int with_failures_written(const FailurePlaces& places, const CommonOptions& comm
                           const std::function<int()>& verify) {
   if (!places.junit.empty() && !common.dry_run)
     write_one(places.junit,
-              verify::failure_junit({{{},
-                                      "the verification has not ended: a routine or a signal ended "
-                                      "the process",
-                                      "frictab verify without --junit shows how it ends"}}));
+              verify::failure_junit(
+                  {{{},
+                    "the verification has not ended: a routine or a signal ended the process",
+                    "frictab verify without --junit shows how it ends"}}));
   try {
     const NoExit guarded;
     return verify();
@@ -213,10 +211,9 @@ const Registered<Command> registered{[] {
     app.add_option("--table", options->table, "A table file, without a job")->type_name("FILE");
     app.add_option("--model", options->model, "The model file it was made from")->type_name("FILE");
     app.add_option("--data", options->data, "Rows to compare on (CSV or HDF5)")->type_name("FILE");
-    app.add_option(
-           "--combined", options->combined,
-           "Directory of `export --combine`: each law through the entry they share, against "
-           "its table")
+    app.add_option("--combined", options->combined,
+                   "Directory of `export --combine`: each law through the entry they share, "
+                   "against its table")
         ->type_name("DIR");
     app.add_option("--max-drift-MPa", options->max_drift_MPa, "Largest drift allowed")
         ->type_name("X")
@@ -233,15 +230,12 @@ const Registered<Command> registered{[] {
     };
   };
   command.uses = stage_uses;
-  command.examples = {
-      {"frictab verify job.toml --junit drift.xml", "tables and routines, for CI"},
-      {"frictab verify --table out/tables/coulomb.h5 --model out/models/coulomb.json --data "
-       "data/validation.csv --max-drift-MPa 0.5",
-       "one table"},
-      {"frictab verify --combined both", "what export --combine wrote"}};
+  command.examples = {{"frictab verify job.toml --junit drift.xml", "tables and routines, for CI"},
+                      {"frictab verify --table out/tables/coulomb.h5 --model "
+                       "out/models/coulomb.json --data data/validation.csv --max-drift-MPa 0.5",
+                       "one table"},
+                      {"frictab verify --combined both", "what export --combine wrote"}};
   return command;
 }};
-
-} // namespace
 
 } // namespace frictab::cli::verify_command

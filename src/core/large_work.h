@@ -11,14 +11,12 @@ namespace frictab {
 // Remedy if all rows are in memory.
 inline constexpr const char* fewer_rows =
     "every row is held in memory: data.condense = 880 holds means over blocks of each test "
-    "instead, "
-    "which say as much of slow friction as all rows; or name fewer bystanders";
+    "instead, which say as much of slow friction as all rows; or name fewer bystanders";
 
 // Remedy if the rows are read one experiment at a time.
 inline constexpr const char* one_experiment_at_a_time =
     "data that are condensed are read one experiment at a time: the largest one does not find "
-    "room; "
-    "a file per test, or shorter tests; fewer threads (-j) hold fewer at once";
+    "room; a file per test, or shorter tests; fewer threads (-j) hold fewer at once";
 
 // Thrown by `large_work` in place of std::bad_alloc; `what()` is "out of memory ...".
 class OutOfMemory : public std::bad_alloc {

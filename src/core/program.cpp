@@ -45,16 +45,14 @@ std::string shown(const os::ProcessResult& result) {
 // itself can know that it got no memory: compilers and interpreters then use one of these words.
 std::string limit_met(const os::ProcessResult& result, const os::ProcessLimits& limits) {
   if (result.ended == os::Ended::too_late)
-    return fmt::format(
-        "\ndid not end within {} s and was stopped; FRICTAB_COMPILE_SECONDS=N in the "
-        "environment allows N s",
-        limits.time.count());
+    return fmt::format("\ndid not end within {} s and was stopped; FRICTAB_COMPILE_SECONDS=N in "
+                       "the environment allows N s",
+                       limits.time.count());
   for (const char* word : {"memory", "bad_alloc"})
     if (result.beginning.find(word) != std::string::npos ||
         result.end.find(word) != std::string::npos)
       return fmt::format(
-          "\nmay use {} of memory; FRICTAB_COMPILE_GIB=N in the environment allows N "
-          "GiB",
+          "\nmay use {} of memory; FRICTAB_COMPILE_GIB=N in the environment allows N GiB",
           human_bytes(static_cast<double>(limits.memory_bytes)));
   return "";
 }
@@ -87,16 +85,12 @@ fs::path temporary_place() {
   return set && *set ? fs::absolute(set) : "/tmp";
 }
 
-namespace {
-
 // Removes twice, because other threads may still write to the tree during an interruption.
-void remove_tree(const fs::path& path) noexcept {
+static void remove_tree(const fs::path& path) noexcept {
   std::error_code ignored;
   for (int time = 0; time < 2; ++time)
     fs::remove_all(path, ignored);
 }
-
-} // namespace
 
 TemporaryDirectory::TemporaryDirectory() {
   const fs::path place = temporary_place();

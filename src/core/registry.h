@@ -32,7 +32,7 @@ public:
       const auto &a = registered_item(left), &b = registered_item(right);
       return a.order != b.order ? a.order < b.order : a.name < b.name;
     };
-    items_.insert(std::upper_bound(items_.begin(), items_.end(), item, later), std::move(item));
+    items_.insert(std::ranges::upper_bound(items_, item, later), std::move(item));
   }
 
   // Tables take time to read: they are made once, when somebody first asks for an item.

@@ -8,10 +8,8 @@
 
 namespace frictab {
 
-namespace {
-
 // Optimal string alignment distance, case-insensitive.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
+static std::size_t edit_distance(std::string_view a, std::string_view b) {
   const auto low = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i)
@@ -28,8 +26,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   }
   return d[a.size()][b.size()];
 }
-
-} // namespace
 
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
   std::string best;
@@ -139,15 +135,13 @@ std::string shortest(double value) {
 }
 
 std::size_t characters(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u;
-  }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
 }
 
 std::string shell_word(const std::string& text) {
   constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-      "_-./=,:+@%";
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+@%";
   const bool is_plain = !text.empty() && text.find_first_not_of(plain) == std::string::npos;
   return is_plain ? text : "'" + replace_all(text, "'", "'\\''") + "'";
 }
@@ -169,9 +163,7 @@ std::size_t utf8_length(std::string_view text) {
   return 0;
 }
 
-namespace {
-
-bool is_utf8(std::string_view text) {
+static bool is_utf8(std::string_view text) {
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);
     if (length == 0) return false;
@@ -179,8 +171,6 @@ bool is_utf8(std::string_view text) {
   }
   return true;
 }
-
-} // namespace
 
 std::string to_utf8(std::string_view text) {
   if (is_utf8(text)) return std::string(text);

@@ -224,6 +224,10 @@ std::string read_file(const fs::path& path, std::uint64_t most) {
 
 std::uint64_t hash_of_file(const fs::path& path, const std::string& named) {
   InputFile in(path, named);
+  return hash_of_file(in);
+}
+
+std::uint64_t hash_of_file(InputFile& in) {
   Hash hash;
   std::vector<char> piece(16 * piece_bytes);
   for (std::uint64_t at = 0;;) {

@@ -61,6 +61,7 @@ inline constexpr std::uint64_t largest_text = std::uint64_t{1} << 30;
 // These read a file; they throw as InputFile does.
 std::string read_file(const std::filesystem::path& path, std::uint64_t most = largest_text);
 std::uint64_t hash_of_file(const std::filesystem::path& path, const std::string& named);
+std::uint64_t hash_of_file(InputFile& file);
 bool are_equal(const std::filesystem::path& a, const std::filesystem::path& b);
 // The first bytes, the signature of its format. Fewer if it is shorter, none if it is not a file.
 std::string first_bytes(const std::filesystem::path& path, std::size_t count);

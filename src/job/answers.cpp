@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/names.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "data/quantity.h"
@@ -94,9 +95,7 @@ private:
     return std::nullopt;
   }
   std::string not_a_column(const std::string& answer, const std::vector<std::size_t>& open) const {
-    std::vector<std::string> names;
-    for (const std::size_t c : open)
-      names.push_back(columns()[c].name);
+    const auto names = all_names(open, [&](std::size_t c) { return columns()[c].name; });
     return fmt::format("'{}' is none of them: {}", printable(answer), suggest(answer, names));
   }
 
@@ -123,7 +122,7 @@ private:
       change(c, [&](guess::Column& one) { one.number = c + 1; });
       ask(fmt::format("What is column {} ({})?\n", c + 1, printable(columns()[c].first_values)),
           "a name of frictab list quantities, mu or experiment", [&](const std::string& answer) {
-            if (std::find(known.begin(), known.end(), answer) == known.end())
+            if (std::ranges::find(known, answer) == known.end())
               return fmt::format("'{}' is not a quantity: {}", printable(answer),
                                  suggest(answer, known));
             const bool mu = answer == coefficient_name;

@@ -94,8 +94,7 @@ void check_column(JobReader& reader, const std::string& section, const std::stri
                    !source.formula.empty();
   const bool has_column = !source.names.empty() || source.number > 0;
   if (!has_column) source.names = {name};
-  const auto quantity = std::find_if(quantities.begin(), quantities.end(),
-                                     [&](const auto& one) { return one.name == name; });
+  const auto quantity = std::ranges::find(quantities, name, &data::Quantity::name);
   if (quantity == quantities.end()) {
     if (ways > 0 || !source.unit.empty())
       reader.fault(place, path + " is a label: it has no unit and is not computed",
@@ -245,7 +244,7 @@ void check_axes(JobReader& reader) {
 // Checks that "all" is the only entry, and that a law of a later stage is among those calibrated.
 void check_models(JobReader& reader, const std::string& path,
                   const std::vector<std::string>& models) {
-  if (models.size() > 1 && std::count(models.begin(), models.end(), "all"))
+  if (models.size() > 1 && std::ranges::count(models, "all"))
     reader.fault(reader.place_of(path), fmt::format("'all' stands alone in {}", path),
                  fmt::format("{} = \"all\", or a list of names", path));
   if (path == "export.targets") return;
@@ -254,7 +253,7 @@ void check_models(JobReader& reader, const std::string& path,
     const models::Law* law = models::read_model_name(name, reader.job.models.laws).base;
     const bool by_name = !law; // a law of the literature that models.use does not name
     if (by_name) law = models::read_model_name(name, literature()).base;
-    if (law && (by_name || (!use.empty() && !std::count(use.begin(), use.end(), law->name))))
+    if (law && (by_name || (!use.empty() && !std::ranges::count(use, law->name))))
       reader.fault(reader.place_of(path),
                    fmt::format("'{}' in {} is not among models.use", name, path),
                    fmt::format("add {} to models.use{}", law->name == name ? "it" : law->name,
@@ -299,10 +298,10 @@ void check_constants(JobReader& reader) {
   for (const auto& constant : reader.job.data.constants) {
     const std::string& name = constant.first;
     const auto& laws = reader.job.models.laws.own();
-    const bool needed = std::any_of(laws.begin(), laws.end(), [&](const auto& law) {
+    const bool needed = std::ranges::any_of(laws, [&](const auto& law) {
       if (!law->build) return false; // its own faults are reported
       const std::vector<std::string> inputs = models::inputs(*law, conventions);
-      return std::count(inputs.begin(), inputs.end(), name) > 0;
+      return std::ranges::count(inputs, name) > 0;
     });
     if (!data::find_quantity(name) && !needed)
       reader.fault(reader.place_of("data.constants." + name),

@@ -34,14 +34,6 @@ std::string shown(const std::string& text) {
   return out;
 }
 
-// One text, or a list of texts.
-std::string toml_texts(const std::vector<std::string>& texts) {
-  std::vector<std::string> quoted;
-  for (const std::string& text : texts)
-    quoted.push_back(toml_quoted(text));
-  return quoted.size() == 1 ? quoted[0] : "[" + join(quoted, ", ") + "]";
-}
-
 // Whether the file is read only with its own decimal sign, which has to be named.
 bool needs_decimal(const guess::File& file) {
   return !file.own_decimal && !file.any_decimal;
@@ -79,10 +71,9 @@ std::string dialect_lines(const guess::File& file) {
 std::string source_of(const guess::Column& column, const guess::File& file) {
   if (column.number > 0) return std::to_string(column.number);
   const std::string bare = io::read_header_name(column.name).name;
-  const auto alike =
-      std::count_if(file.columns.begin(), file.columns.end(), [&](const guess::Column& c) {
-        return io::read_header_name(c.name).name == bare;
-      });
+  const auto alike = std::ranges::count_if(file.columns, [&](const guess::Column& c) {
+    return io::read_header_name(c.name).name == bare;
+  });
   return toml_quoted(alike > 1 ? column.name : bare);
 }
 
@@ -123,7 +114,7 @@ std::string columns_lines(const guess::File& file, const std::set<std::string>& 
   const bool two_names = own && other && own->number == 0 && own->name != other->name;
   std::string out;
   if (two_names)
-    out += line("experiment = " + toml_texts({own->name, other->name}),
+    out += line("experiment = " + toml_list({own->name, other->name}),
                 "the names of tests, in the rows and in their table");
   std::vector<std::string> canonical, others, above;
   for (const guess::Column& column : file.columns)
@@ -131,8 +122,7 @@ std::string columns_lines(const guess::File& file, const std::set<std::string>& 
       continue;
     else if (column.canonical.empty() && column.above)
       above.push_back(shown(column.name));
-    else if (file.wide_known &&
-             std::find(file.wide.begin(), file.wide.end(), column.name) != file.wide.end())
+    else if (file.wide_known && std::ranges::find(file.wide, column.name) != file.wide.end())
       continue;
     else if (column.canonical.empty())
       others.push_back(shown(shown_name(column)));
@@ -220,17 +210,16 @@ public:
 private:
   // Whether columns have names, in the file or as answered.
   bool has_names() const {
-    return most_.header ||
-           std::any_of(most_.columns.begin(), most_.columns.end(),
-                       [](const auto& column) { return !column.canonical.empty(); });
+    return most_.header || std::ranges::any_of(most_.columns, [](const auto& column) {
+             return !column.canonical.empty();
+           });
   }
 
   void add_head() {
-    out_.text =
-        "# Guessed from the files; every line may be wrong. frictab data shows what is read "
-        "with it,\n# frictab explain job what else there is.\n\n[data]\n";
+    out_.text = "# Guessed from the files; every line may be wrong. frictab data shows what is "
+                "read with it,\n# frictab explain job what else there is.\n\n[data]\n";
     const char* const noun = most_.sheet.empty() ? "file" : "sheet";
-    out_.text += line("training = " + toml_texts(training_),
+    out_.text += line("training = " + toml_list(training_),
                       fmt::format("{} {}{}", files_.size(), noun, files_.size() == 1 ? "" : "s"));
     add_sheets();
     for (const guess::LeftFile& left : campaign_.left) {
@@ -247,7 +236,7 @@ private:
     ask_for_groups();
     add_missing();
     if (!above_.empty())
-      out_.text += line("above = " + toml_texts({above_.begin(), above_.end()}),
+      out_.text += line("above = " + toml_list({above_.begin(), above_.end()}),
                         "lines above the rows that differ between the files");
     add_experiment();
     add_tests();
@@ -257,7 +246,7 @@ private:
     const std::string passed =
         campaign_.passed.empty() ? "" : "not read: " + shown(join(campaign_.passed, ", "));
     if (!campaign_.sheets.empty())
-      out_.text += line("sheet = " + toml_texts(campaign_.sheets), passed);
+      out_.text += line("sheet = " + toml_list(campaign_.sheets), passed);
     else if (!passed.empty())
       out_.text += "# " + passed + "\n";
   }
@@ -281,10 +270,9 @@ private:
         column.canonical.clear(); // the rows have it themselves
     out_.text += "# of " + shown(tests.label()) + ":\n";
     if (most_.wide_known) {
-      guess::Column& names = *std::find_if(
-          tests.columns.begin(), tests.columns.end(),
-          [](const guess::Column& column) { return column.canonical == "experiment"; });
-      out_.text += line("experiment = " + toml_texts({names.name, "experiment"}),
+      guess::Column& names =
+          *std::ranges::find(tests.columns, "experiment", &guess::Column::canonical);
+      out_.text += line("experiment = " + toml_list({names.name, "experiment"}),
                         "the names of tests, in their table and by [data.wide]");
       tests.columns.erase(tests.columns.begin() + (&names - tests.columns.data()));
     }
@@ -296,7 +284,7 @@ private:
     for (const guess::File& file : files_)
       markers.insert(file.missing.begin(), file.missing.end());
     if (markers.empty()) return;
-    out_.text += line("missing_values = " + toml_texts({markers.begin(), markers.end()}),
+    out_.text += line("missing_values = " + toml_list({markers.begin(), markers.end()}),
                       "far from all other numbers: taken for no value");
     out_.text += line("missing = \"drop\"", "leaves out rows in which a law lacks a value");
   }
@@ -359,10 +347,9 @@ private:
                              toml_quoted(others.front()));
     }
     if (names.empty()) return;
-    ask(fmt::format(
-            "In which units? The file does not say, and these are taken: {}. A line here replaces "
-            "the one above.",
-            join(names, ", ")),
+    ask(fmt::format("In which units? The file does not say, and these are taken: {}. A line here "
+                    "replaces the one above.",
+                    join(names, ", ")),
         lines);
   }
 
@@ -424,14 +411,15 @@ private:
     const guess::Column* force = with_force.find("F_N_N");
     const double area = points_.example_area_mm2();
     ask("Where does the contact normal stress come from? None was found.",
-        fmt::format("# sigma_n_MPa = \"COLUMN\"\n{}"
-                    "# or one value for all rows, in [data.constants] below\n",
-                    line(fmt::format("# sigma_n_MPa = {{ column = {}, area_mm2 = {} }}",
-                                     force ? source_of(*force, with_force) : "\"FORCE\"",
-                                     area > 0 ? fmt::format("{:.4g}", area) : "78.5"),
-                         area > 0 ? "a force over the nominal contact area: this one by the lines "
-                                    "above the rows"
-                                  : "a force over the nominal contact area")));
+        fmt::format(
+            "# sigma_n_MPa = \"COLUMN\"\n{}# or one value for all rows, in [data.constants] "
+            "below\n",
+            line(fmt::format("# sigma_n_MPa = {{ column = {}, area_mm2 = {} }}",
+                             force ? source_of(*force, with_force) : "\"FORCE\"",
+                             area > 0 ? fmt::format("{:.4g}", area) : "78.5"),
+                 area > 0
+                     ? "a force over the nominal contact area: this one by the lines above the rows"
+                     : "a force over the nominal contact area")));
   }
 
   void ask_for_friction() {
@@ -464,9 +452,9 @@ private:
                        toml_quoted(data::name_in_formulas(likely->name) + "*sigma_f_MPa/3**0.5")),
                    "if it is a friction factor m"));
     } else if (const guess::Column* force = points_.only_force()) {
-      ask(fmt::format("Is {} the friction force? It is the only force left, and nothing else is "
-                      "friction.",
-                      shown(shown_name(*force))),
+      ask(fmt::format(
+              "Is {} the friction force? It is the only force left, and nothing else is friction.",
+              shown(shown_name(*force))),
           fmt::format("# F_R_N = {{ column = {} }}\n", source_of(*force, most_)));
     } else {
       ask("Where is friction? Neither a shear stress, nor a coefficient, nor a friction force was "
@@ -490,9 +478,8 @@ private:
     if (points_.lacks_pressure()) lines += "# sigma_n_MPa = 500.0\n";
     if (points_.lacks_normal_force()) lines += "# F_N_N = 50.0\n";
     if (!points_.has("sigma_f_MPa"))
-      lines +=
-          line("# sigma_f_MPa = 480.0", "flow stress of the workpiece: laws with a shear limit "
-                                        "need it");
+      lines += line("# sigma_f_MPa = 480.0",
+                    "flow stress of the workpiece: laws with a shear limit need it");
     if (!lines.empty()) out_.text += "\n[data.constants]\n" + lines;
   }
 

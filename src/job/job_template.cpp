@@ -32,11 +32,6 @@ void add_commented(std::string& out, const std::string& lines) {
     out += "#" + line + "\n";
 }
 
-std::string parent(const std::string& path) {
-  const std::size_t dot = path.rfind('.');
-  return dot == path.npos ? "" : path.substr(0, dot);
-}
-
 void add_key(std::string& out, const KeyRule& rule) {
   const std::string normal = default_text(rule);
   add_prose(out, rule.absent.empty() ? rule.meaning : rule.meaning + "; absent: " + rule.absent);
@@ -49,7 +44,7 @@ void add_key(std::string& out, const KeyRule& rule) {
 void add_named_keys(std::string& out, const std::string& section) {
   for (const KeyRule& rule : key_rules()) {
     if (rule.path == section + ".*") add_prose(out, rule.meaning);
-    if (parent(rule.path) == section + ".*")
+    if (parent_of(rule.path) == section + ".*")
       add_prose(out,
                 fmt::format("{}: {}; absent: {}", last_part(rule.path), rule.meaning, rule.absent));
   }
@@ -75,8 +70,8 @@ void add_own_section(std::string& out, const SectionRule& section) {
 }
 
 bool has_keys(const std::string& section) {
-  return std::any_of(key_rules().begin(), key_rules().end(), [&](const KeyRule& rule) {
-    return parent(rule.path) == section && last_part(rule.path) != "*";
+  return std::ranges::any_of(key_rules(), [&](const KeyRule& rule) {
+    return parent_of(rule.path) == section && last_part(rule.path) != "*";
   });
 }
 
@@ -97,9 +92,9 @@ void add_named_section(std::string& out, const SectionRule& section) {
 } // namespace
 
 std::string job_template() {
-  std::string out = "# A frictab job. Lines that start with # and no blank are keys with their "
-                    "defaults\n# (or an example): remove the # to change one. `frictab explain "
-                    "KEY` says more.\n";
+  std::string out =
+      "# A frictab job. Lines that start with # and no blank are keys with their defaults\n# (or "
+      "an example): remove the # to change one. `frictab explain KEY` says more.\n";
   for (const SectionRule& section : section_rules()) {
     if (section.path.find('*') != std::string::npos) continue;
     if (section.list) {
@@ -116,7 +111,7 @@ std::string job_template() {
     out += fmt::format("\n[{}]", section.path);
     out += "  # " + section.meaning + "\n";
     for (const KeyRule& rule : key_rules())
-      if (parent(rule.path) == section.path) add_key(out, rule);
+      if (parent_of(rule.path) == section.path) add_key(out, rule);
     add_own_section(out, section);
   }
   return out;

@@ -14,11 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string parent_of(const std::string& path) {
-  const std::size_t dot = path.rfind('.');
-  return dot == path.npos ? "" : path.substr(0, dot);
-}
-
 Json reference(const std::string& path) {
   return {{"$ref", "#/definitions/" + path}};
 }
@@ -91,12 +86,8 @@ Json definition_of(const KeyRule& rule) {
 
 // Adds the fixed names in a section, each with a reference to its definition.
 void add_fixed(Json& properties, const std::string& section) {
-  for (const SectionRule& rule : section_rules())
-    if (parent_of(rule.path) == section && last_part(rule.path) != "*")
-      properties[last_part(rule.path)] = reference(rule.path);
-  for (const KeyRule& rule : key_rules())
-    if (parent_of(rule.path) == section && last_part(rule.path) != "*")
-      properties[last_part(rule.path)] = reference(rule.path);
+  for (const std::string& name : fixed_names(section))
+    properties[name] = reference(section.empty() ? name : section + "." + name);
 }
 
 // Pattern that matches any other name.

@@ -2,6 +2,7 @@
 // so that a default is written once, in job.h.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "core/text.h"
@@ -24,11 +25,7 @@ template <> struct Kind<std::vector<std::string>> {
     return std::get<std::vector<std::string>>(std::move(v));
   }
   static std::string show(const std::vector<std::string>& v) {
-    if (v.size() == 1) return toml_quoted(v[0]);
-    std::vector<std::string> quoted;
-    for (const std::string& item : v)
-      quoted.push_back(toml_quoted(item));
-    return v.empty() ? "" : "[" + join(quoted, ", ") + "]";
+    return v.empty() ? "" : toml_list(v);
   }
 };
 
@@ -92,42 +89,34 @@ template <> struct Kind<data::AutoNumber> {
   static std::string show(const data::AutoNumber& v);
 };
 
-// Enums are words of a job file; the words are listed next to the keys that use them.
-template <class T>
-requires std::is_enum_v<T>
-struct Kind<T> {
+// The words of a job for the values of an enumeration, in its order from `first_value` on. They are
+// defined where the keys are that use them.
+template <class E> std::vector<std::string> words_of();
+template <> std::vector<std::string> words_of<models::ShearYield>();
+template <class E> inline constexpr E first_value{};
+template <> inline constexpr data::Role first_value<data::Role> = data::Role::response;
+
+template <class E>
+requires std::is_enum_v<E>
+struct Kind<E> {
   static constexpr KeyType type = KeyType::text;
-  static T from(KeyValue& v);
-  static std::string show(T v);
+  static E from(KeyValue& v) { // is one of the words
+    const std::vector<std::string> words = words_of<E>();
+    const auto at = std::ranges::find(words, std::get<std::string>(v));
+    return static_cast<E>(static_cast<long>(first_value<E>) + (at - words.begin()));
+  }
+  static std::string show(E v) {
+    return toml_quoted(
+        words_of<E>()[static_cast<std::size_t>(v) - static_cast<std::size_t>(first_value<E>)]);
+  }
 };
 
-// Builds the rule of a key with a fixed path.
-template <class T>
-KeyRule key(std::string path, T& (*at)(Job&), std::string meaning, std::string absent = "",
+// Builds the rule of a key whose value is `at(job, name)`; `name`: the names at the '*' of the
+// path.
+template <class At>
+KeyRule key(std::string path, At at, std::string meaning, std::string absent = "",
             std::string example = "") {
-  KeyRule rule;
-  rule.path = std::move(path);
-  rule.type = Kind<T>::type;
-  rule.meaning = std::move(meaning);
-  rule.absent = std::move(absent);
-  rule.example = std::move(example);
-  rule.store = [at](Job& job, const std::string&, KeyValue value) {
-    at(job) = Kind<T>::from(value);
-  };
-  rule.show = [at](const Job& job) {
-    Job copy = job;
-    return Kind<T>::show(at(copy));
-  };
-  return rule;
-}
-
-// Builds the rule of a key that takes "auto" or a number; "auto" is stored as absent.
-KeyRule or_auto(std::string path, std::optional<double>& (*at)(Job&), std::string meaning);
-
-// Builds the rule of a key below a name that the user chooses.
-template <class T>
-KeyRule named(std::string path, T& (*at)(Job&, const std::string&), std::string meaning,
-              std::string absent, std::string example) {
+  using T = std::remove_reference_t<decltype(at(std::declval<Job&>(), std::string()))>;
   KeyRule rule;
   rule.path = std::move(path);
   rule.type = Kind<T>::type;
@@ -137,7 +126,60 @@ KeyRule named(std::string path, T& (*at)(Job&, const std::string&), std::string 
   rule.store = [at](Job& job, const std::string& name, KeyValue value) {
     at(job, name) = Kind<T>::from(value);
   };
+  if (rule.path.find('*') == std::string::npos)
+    rule.show = [at](const Job& job) {
+      Job copy = job;
+      return Kind<T>::show(at(copy, ""));
+    };
   return rule;
+}
+
+// Builds the rules of keys that are members of one part of a job: `part(job, name)`.
+template <class Part> class KeysOf {
+public:
+  KeysOf(std::string section, Part part) : section_(std::move(section)), part_(part) {}
+
+  template <class T, class Owner>
+  KeyRule operator()(const char* name, T Owner::*member, std::string meaning,
+                     std::string absent = "", std::string example = "") const {
+    return key(
+        section_ + "." + name,
+        [ part = part_, member ](Job & job, const std::string& names) -> auto& {
+          return part(job, names).*member;
+        },
+        std::move(meaning), std::move(absent), std::move(example));
+  }
+
+private:
+  std::string section_;
+  Part part_;
+};
+
+// A part of a job, by the members that lead to it: `part_of<&Job::table, &TableOptions::hdf5>`.
+template <auto... members> auto& part_of(Job& job, const std::string&) {
+  return (job.*....*members);
+}
+
+// Makes the number of a key automatic: it takes "auto" as well, which leaves it absent.
+inline KeyRule or_auto(KeyRule rule) {
+  rule.type = KeyType::automatic;
+  rule.store = [store = rule.store](Job& job, const std::string& name, KeyValue value) {
+    if (std::holds_alternative<double>(value)) store(job, name, std::move(value));
+  };
+  rule.show = [show = rule.show](const Job& job) {
+    const std::string number = show(job);
+    return number.empty() ? toml_quoted("auto") : number;
+  };
+  return rule;
+}
+
+// Returns the element whose `key` has this name; adds one where there is none.
+template <class T>
+T& find_or_add(std::vector<T>& all, std::string T::*key, const std::string& name) {
+  for (T& one : all)
+    if (one.*key == name) return one;
+  all.emplace_back().*key = name;
+  return all.back();
 }
 
 inline KeyRule operator|(KeyRule rule, const ValueBounds& bounds) {
@@ -166,45 +208,9 @@ inline ValueBounds between(double lower, double upper) {
 
 // Keys of a column's source, in the table `section` of columns by canonical name.
 using SourceOf = data::ColumnSource& (*)(Job&, const std::string&);
-
-template <SourceOf source> KeyRule column_key(const std::string& section) {
-  KeyRule rule;
-  rule.path = section + ".*.column";
-  rule.type = KeyType::column;
-  rule.meaning = "the file's own name of the column, a list of names (the first one that is there "
-                 "counts), or the column's number from 1";
-  rule.absent = "the canonical name";
-  rule.example = "\"Normal stress\"";
-  rule.bounds = at_least(1);
-  rule.store = [](Job& job, const std::string& name, KeyValue value) {
-    if (const auto* number = std::get_if<std::uint64_t>(&value))
-      source(job, name).number = *number;
-    else
-      source(job, name).names = std::get<std::vector<std::string>>(std::move(value));
-  };
-  return rule;
-}
-
-template <SourceOf source> KeyRule unit_key(const std::string& section) {
-  return named<std::string>(
-      section + ".*.unit",
-      [](Job & job, const std::string& name) -> auto& { return source(job, name).unit; },
-      "the file's unit; values are converted",
-      "what a units row says, or the header after the name: \"F_N [kN]\"; else the canonical "
-      "unit",
-      "\"Pa\"");
-}
-
-template <SourceOf source> KeyRule formula_key(const std::string& section) {
-  return named<std::string>(
-      section + ".*.formula",
-      [](Job & job, const std::string& name) -> auto& { return source(job, name).formula; },
-      "computed from other columns, by their names (_ for signs other than letters and "
-      "digits): "
-      "quantities in their canonical units, others as the file gives them; pi is known, "
-      "`unit` is that of the result",
-      "a column of the file", "\"rpm*radius_mm*2*pi/60\"");
-}
+KeyRule column_key(const std::string& section, SourceOf source);
+KeyRule unit_key(const std::string& section, SourceOf source);
+KeyRule formula_key(const std::string& section, SourceOf source);
 
 // Names for Allowed and SectionRule.
 std::vector<std::string> quantity_names();

@@ -74,7 +74,7 @@ private:
     const std::string symbol = effects::symbol_of(name.name);
     const data::Quantity* quantity = data::find_quantity(symbol);
     const auto same = [&](const LawTableAxis& axis) { return axis.name == symbol; };
-    if (std::any_of(out_.table.axes.begin(), out_.table.axes.end(), same))
+    if (std::ranges::any_of(out_.table.axes, same))
       faults_.add(header(), fmt::format("there are two columns '{}'", name.name),
                   "leave one of them");
     else if (quantity && !quantity->state)

@@ -39,7 +39,7 @@ private:
     for (std::size_t a = 0; a < table_.axes.size(); ++a) {
       std::vector<double>& nodes = table_.axes[a].nodes;
       nodes = columns_.positions[a];
-      std::sort(nodes.begin(), nodes.end());
+      std::ranges::sort(nodes);
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
       check_distances(table_.axes[a]);
       count *= static_cast<double>(nodes.size());
@@ -49,8 +49,8 @@ private:
       faults_.add(
           header(),
           fmt::format("is not a full grid: {} rows for {} nodes", thousands(raw_.rows()), sizes()),
-          "a row for every combination of the axes' values; fit scattered points with a "
-          "law, or resample them");
+          "a row for every combination of the axes' values; fit scattered points with a law, or "
+          "resample them");
     else if (count > models::most_law_nodes)
       faults_.add(header(), fmt::format("has {} nodes", sizes()),
                   fmt::format("a law that is a table has at most {}: take fewer nodes",
@@ -107,7 +107,7 @@ private:
     std::size_t node = 0;
     for (std::size_t a = 0; a < table_.axes.size(); ++a) {
       const std::vector<double>& nodes = table_.axes[a].nodes;
-      const auto at = std::lower_bound(nodes.begin(), nodes.end(), columns_.positions[a][row]);
+      const auto at = std::ranges::lower_bound(nodes, columns_.positions[a][row]);
       node = node * nodes.size() + static_cast<std::size_t>(at - nodes.begin());
     }
     return node;
@@ -115,9 +115,9 @@ private:
 
   void report_missing(const std::vector<std::size_t>& row_of) {
     const auto is_missing = [&](std::size_t row) { return row == raw_.rows(); };
-    const auto missing = std::count_if(row_of.begin(), row_of.end(), is_missing);
+    const auto missing = std::ranges::count_if(row_of, is_missing);
     if (missing == 0) return;
-    const auto first = std::find_if(row_of.begin(), row_of.end(), is_missing) - row_of.begin();
+    const auto first = std::ranges::find_if(row_of, is_missing) - row_of.begin();
     faults_.add(
         header(),
         fmt::format("has no row for the node {}{}", state_text(static_cast<std::size_t>(first)),

@@ -67,8 +67,8 @@ bool OpenPoints::is_of_rows(const std::string& canonical) const {
 
 double OpenPoints::common_area() const {
   const double area = campaign_.files.front().area_mm2;
-  const bool same = std::all_of(campaign_.files.begin(), campaign_.files.end(),
-                                [&](const guess::File& file) { return file.area_mm2 == area; });
+  const bool same = std::ranges::all_of(
+      campaign_.files, [&](const guess::File& file) { return file.area_mm2 == area; });
   return same ? area : 0;
 }
 

@@ -26,7 +26,7 @@ void place_formulas(const JobReader& reader, models::LawText& text) {
 // Checks the name: it becomes part of file names, and shares lists with names of the registry.
 bool check_name(JobReader& reader, const models::LawText& text) {
   const std::string& name = text.name;
-  const bool plain = name.size() <= 60 && std::all_of(name.begin(), name.end(), [](char c) {
+  const bool plain = name.size() <= 60 && std::ranges::all_of(name, [](char c) {
                        return c == '_' || c == '-' || (c >= '0' && c <= '9') ||
                               (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
                      });
@@ -36,10 +36,9 @@ bool check_name(JobReader& reader, const models::LawText& text) {
                  "letters, digits, _ and -, at most 60");
   else if (name == "best" || name == "recommended" || name == "all" || read.base || read.traced ||
            read.quantile)
-    reader.fault(
-        text.place, fmt::format("a law cannot be called '{}': that is taken", name),
-        "names of `frictab list models`, best, recommended, all, and endings _traced and _q05 mean "
-        "something else");
+    reader.fault(text.place, fmt::format("a law cannot be called '{}': that is taken", name),
+                 "names of `frictab list models`, best, recommended, all, and endings _traced and "
+                 "_q05 mean something else");
   else
     return true;
   return false;
@@ -62,10 +61,10 @@ bool check_table_keys(JobReader& reader, const models::LawText& text) {
                      "table = \"mu_of_p_v.csv\", or leave it out");
   } else {
     if (has_formulas(text))
-      reader.fault(reader.place_of(path + ".table"),
-                   fmt::format("law {} has a table and a formula", text.name),
-                   "a table stands instead of formula, piece, combine, quantity, where and "
-                   "parameters");
+      reader.fault(
+          reader.place_of(path + ".table"),
+          fmt::format("law {} has a table and a formula", text.name),
+          "a table stands instead of formula, piece, combine, quantity, where and parameters");
     if (text.interpolation.empty())
       reader.fault(reader.place_of(path + ".table"),
                    fmt::format("law {} does not say how its table is interpolated", text.name),
@@ -105,7 +104,7 @@ void make_laws(JobReader& reader) {
   FaultList faults;
   for (models::LawText& text : models.texts) {
     const auto& names = reader.own_laws;
-    if (std::count(names.begin(), names.end(), text.name) > 1)
+    if (std::ranges::count(names, text.name) > 1)
       reader.fault(text.place, fmt::format("law '{}' stands in more than one place", text.name),
                    "in this job and a file of models.files, or in two of these");
     if (!reader.of_program && !(check_name(reader, text) && check_table_keys(reader, text)))

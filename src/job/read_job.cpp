@@ -22,21 +22,6 @@ std::string below(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
-// Keys and sections of fixed names in a section.
-std::vector<std::string> fixed_children(const std::string& rule_path) {
-  std::vector<std::string> names;
-  const auto add = [&](const std::string& path) {
-    const std::size_t dot = path.rfind('.');
-    const std::string parent = dot == path.npos ? "" : path.substr(0, dot);
-    if (parent == rule_path && last_part(path) != "*") names.push_back(last_part(path));
-  };
-  for (const SectionRule& section : section_rules())
-    add(section.path);
-  for (const KeyRule& key : key_rules())
-    add(key.path);
-  return names;
-}
-
 // Finds the section of a misplaced key: "table.tolerance_MPa" for tolerance_MPa in [data].
 std::string home_of(const std::string& key) {
   for (const KeyRule& rule : key_rules())
@@ -44,15 +29,10 @@ std::string home_of(const std::string& key) {
   return "";
 }
 
-std::string in_quotes(const std::string& text) {
-  const std::string safe = toml_quoted(text);
-  return "'" + safe.substr(1, safe.size() - 2) + "'";
-}
-
 void unknown_key(JobReader& reader, const std::string& rule_path, const std::string& path,
                  const TomlNode& entry) {
   const std::string where = path.empty() ? "at the top of the file" : "in [" + path + "]";
-  std::vector<std::string> known = fixed_children(rule_path);
+  std::vector<std::string> known = fixed_names(rule_path);
   if (const SectionRule* here = find_section(rule_path); here && here->children)
     for (const std::string& name : here->children())
       known.push_back(name);
@@ -68,7 +48,7 @@ void unknown_key(JobReader& reader, const std::string& rule_path, const std::str
 bool known_name(JobReader& reader, const SectionRule& section, const std::string& path,
                 const TomlNode& entry) {
   const auto names = section.children();
-  if (std::find(names.begin(), names.end(), entry.key) != names.end()) return true;
+  if (std::ranges::find(names, entry.key) != names.end()) return true;
   if (section.others && (section.any_name || expr::is_name(entry.key)) &&
       !data::is_measured(entry.key))
     return true;
@@ -76,12 +56,11 @@ bool known_name(JobReader& reader, const SectionRule& section, const std::string
     reader.fault(entry.key_place, fmt::format("{} cannot stand in [{}]", entry.key, path),
                  "possible: " + join(names, ", "));
   else if (section.others && names.empty() && !expr::is_name(entry.key))
-    reader.fault(
-        entry.key_place,
-        fmt::format("{} in [{}] cannot be the name of a {}", in_quotes(entry.key), path,
-                    section.child),
-        "names have letters from a to z, digits and _, and begin with a letter: they stand "
-        "in formulas, files and routines");
+    reader.fault(entry.key_place,
+                 fmt::format("{} in [{}] cannot be the name of a {}", in_quotes(entry.key), path,
+                             section.child),
+                 "names have letters from a to z, digits and _, and begin with a letter: they "
+                 "stand in formulas, files and routines");
   else
     reader.fault(entry.key_place,
                  fmt::format("unknown {} {} in [{}]", section.child, in_quotes(entry.key), path),
@@ -93,10 +72,10 @@ bool known_name(JobReader& reader, const SectionRule& section, const std::string
 // fixed names, such an entry is one of the known names, or a table where other names are allowed.
 bool is_by_name(const SectionRule* section, const std::string& rule_path, const TomlNode& entry) {
   if (!section || !section->children) return false;
-  const std::vector<std::string> fixed = fixed_children(rule_path), names = section->children();
-  if (fixed.empty() || std::find(names.begin(), names.end(), entry.key) != names.end()) return true;
+  const std::vector<std::string> fixed = fixed_names(rule_path), names = section->children();
+  if (fixed.empty() || std::ranges::find(names, entry.key) != names.end()) return true;
   return section->others && entry.type == TomlNode::Type::table &&
-         std::find(fixed.begin(), fixed.end(), entry.key) == fixed.end();
+         std::ranges::find(fixed, entry.key) == fixed.end();
 }
 
 void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path,
@@ -106,8 +85,7 @@ void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path
 void walk_list(JobReader& reader, const TomlNode& list, const std::string& rule_path,
                const std::string& path) {
   const auto is_table = [](const TomlNode& item) { return item.type == TomlNode::Type::table; };
-  if (list.type != TomlNode::Type::array ||
-      !std::all_of(list.items.begin(), list.items.end(), is_table)) {
+  if (list.type != TomlNode::Type::array || !std::ranges::all_of(list.items, is_table)) {
     reader.fault(list.place,
                  fmt::format("{} must be a list of tables, not {}", path, describe(list)),
                  fmt::format("write [[{}]]", path));
@@ -161,8 +139,8 @@ constexpr std::uint64_t largest_law_file = 1 << 20;
 
 // A law also has a formula or a table's name.
 bool holds_only_tables(const TomlNode& node) {
-  return std::all_of(node.items.begin(), node.items.end(),
-                     [](const TomlNode& item) { return item.type == TomlNode::Type::table; });
+  return std::ranges::all_of(
+      node.items, [](const TomlNode& item) { return item.type == TomlNode::Type::table; });
 }
 
 // Reads the files of models.files, each a table of laws.
@@ -208,14 +186,14 @@ void add_literature(JobReader& reader) {
         laws.add(*law);
         reader.job.sections["models"] += literature_text(name);
       }
-  const bool all = std::count(use.begin(), use.end(), "all") > 0;
+  const bool all = std::ranges::count(use, "all") > 0;
   if (all)
     std::erase_if(use, [](const std::string& name) { return !literature_text(name).empty(); });
   if (use == std::vector<std::string>{"all"}) use.clear();
 }
 
 void sort_by_place(std::vector<Fault>& faults) {
-  std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
+  std::ranges::stable_sort(faults, [](const Fault& a, const Fault& b) {
     const auto rank = [](const Fault& f) {
       const bool set = f.place.file.starts_with("--set"); // --set 9 before --set 10
       return std::tuple(set ? f.place.file.size() : 0, set ? f.place.file : "", f.place.line,

@@ -82,7 +82,7 @@ struct ValueReader {
                               [](char a, char b) { return std::tolower(a) == std::tolower(b); })
                  : name == node.text;
     };
-    const auto found = std::find_if(names.begin(), names.end(), same);
+    const auto found = std::ranges::find_if(names, same);
     if (found != names.end()) return *found;
     if (rule.allowed.traced && is_traced_law(node.text)) return node.text;
     if (rule.allowed.noun.empty()) {
@@ -94,11 +94,11 @@ struct ValueReader {
                    fmt::format("{} must be {}, not {}", path, expected(rule), describe(node)),
                    hint);
     } else {
-      reader.fault(node.place,
-                   fmt::format("unknown {} {} in {}", rule.allowed.noun, quoted(node.text), path),
-                   node.text.find(',') == node.text.npos
-                       ? suggest(node.text, names)
-                       : "several are a list: " + as_list(node.text));
+      reader.fault(
+          node.place,
+          fmt::format("unknown {} {} in {}", rule.allowed.noun, in_quotes(node.text), path),
+          node.text.find(',') == node.text.npos ? suggest(node.text, names)
+                                                : "several are a list: " + as_list(node.text));
     }
     return std::nullopt;
   }
@@ -116,14 +116,9 @@ struct ValueReader {
   bool is_traced_law(const std::string& text) const {
     const models::ModelName name = models::read_model_name(text, literature());
     if (!name.traced || name.quantile) return false;
-    return name.base ||
-           std::any_of(reader.own_laws.begin(), reader.own_laws.end(),
-                       [&](const std::string& law) { return text == models::traced_name(law); });
-  }
-
-  static std::string quoted(const std::string& text) {
-    const std::string safe = toml_quoted(text);
-    return "'" + safe.substr(1, safe.size() - 2) + "'";
+    return name.base || std::ranges::any_of(reader.own_laws, [&](const std::string& law) {
+             return text == models::traced_name(law);
+           });
   }
 
   std::optional<std::vector<std::string>> texts(const TomlNode& node) const {
@@ -152,7 +147,7 @@ struct ValueReader {
       if (!one) continue;
       out.push_back(*one);
       if (!seen.insert(*one).second && !may_repeat) {
-        reader.fault(item.place, fmt::format("{} is named twice in {}", quoted(*one), path),
+        reader.fault(item.place, fmt::format("{} is named twice in {}", in_quotes(*one), path),
                      "name it once");
         good = false;
       }
@@ -166,7 +161,7 @@ struct ValueReader {
     for (const TomlNode& item : list ? node.items : std::vector<TomlNode>{node}) {
       const auto value = number(item);
       if (!value || !inside(*value)) return refuse(item);
-      if (std::find(out.begin(), out.end(), *value) != out.end()) {
+      if (std::ranges::find(out, *value) != out.end()) {
         reader.fault(item.place, fmt::format("{} holds {} twice", path, *value), "name it once");
         return std::nullopt;
       }

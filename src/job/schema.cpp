@@ -29,7 +29,7 @@ Place* file_place(Job& job, const std::string& name) {
   return &schema::file_rule(job, name).place;
 }
 Place* file_column_place(Job& job, const std::string& name) {
-  return &schema::file_rule(job, name).columns[name.substr(name.rfind('.') + 1)].place;
+  return &schema::file_rule(job, name).columns[last_part(name)].place;
 }
 std::vector<std::string> no_names() {
   return {};
@@ -67,9 +67,7 @@ Place* tool_column_place(Job& job, const std::string& name) {
 }
 
 std::string either(const std::vector<std::string>& words) {
-  std::vector<std::string> quoted;
-  for (const std::string& word : words)
-    quoted.push_back(toml_quoted(word));
+  std::vector<std::string> quoted = toml_quoted(words);
   const std::string last = quoted.back();
   quoted.pop_back();
   return quoted.empty() ? last : join(quoted, ", ") + " or " + last;
@@ -122,8 +120,8 @@ const std::vector<SectionRule>& section_rules() {
        "v_rel_mm_s = { formula = \"rpm*radius_mm*2*pi/60\" }",
        schema::column_names, nullptr},
       {"data.columns.*",
-       "how one canonical column is taken from the file; a text or a number "
-       "instead of a table is its `column`",
+       "how one canonical column is taken from the file; a text or a number instead of a table is "
+       "its `column`",
        "", nullptr, column_place, "quantity", false, false, "column"},
       {"data.constants", "quantities, or inputs of a law, that are the same for every row",
        "sigma_f_MPa = 480.0", schema::constant_names, nullptr, "quantity", true},
@@ -139,8 +137,7 @@ const std::vector<SectionRule>& section_rules() {
        true},
       {"data.files",
        "what is special about some files: [[data.files]] stands once per rule, with any of the "
-       "keys "
-       "below; the first rule that matches a file counts",
+       "keys below; the first rule that matches a file counts",
        "match = \"pin_*.csv\"\nlabels = { material = \"316SS\" }\n"
        "from_name = '_(?<radius_mm>\\d+)mm'",
        nullptr, nullptr, "rule", false, true},
@@ -212,7 +209,7 @@ const std::vector<SectionRule>& section_rules() {
       {"process.tool_columns.*", "how one column is taken from the file", "", nullptr,
        tool_column_place, "quantity", false, false, "column"},
       {"process.constants", "states that the contact files lack", "T_contact_C = 60.0",
-       process::constant_states, nullptr},
+       schema::state_names, nullptr},
       {"process.rig", "what the rig can be set to, for the tests that are proposed",
        "sigma_n_MPa = [100, 2750]", process::rig_settings, nullptr},
       {"output", "where results go", "", nullptr, nullptr},
@@ -225,17 +222,27 @@ const KeyRule* find_key(const std::string& path, bool of_program) {
   const auto is_it = [&](const KeyRule& rule) { return rule.path == path; };
   for (const auto* rules : {&key_rules(), of_program ? &registry_keys : nullptr})
     if (rules)
-      if (const auto found = std::find_if(rules->begin(), rules->end(), is_it);
-          found != rules->end())
+      if (const auto found = std::ranges::find_if(*rules, is_it); found != rules->end())
         return &*found;
   return nullptr;
 }
 
 const SectionRule* find_section(const std::string& path) {
   const auto& rules = section_rules();
-  const auto found = std::find_if(rules.begin(), rules.end(),
-                                  [&](const SectionRule& rule) { return rule.path == path; });
+  const auto found = std::ranges::find(rules, path, &SectionRule::path);
   return found == rules.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> fixed_names(const std::string& section) {
+  std::vector<std::string> names;
+  const auto add = [&](const auto& rules) {
+    for (const auto& rule : rules)
+      if (parent_of(rule.path) == section && last_part(rule.path) != "*")
+        names.push_back(last_part(rule.path));
+  };
+  add(section_rules());
+  add(key_rules());
+  return names;
 }
 
 std::string expected(const KeyRule& rule) {

@@ -81,9 +81,13 @@ struct SectionRule {
   bool any_name = false; // others may have blanks and brackets, as columns of a file do
 };
 
-// Returns "unit" for "data.columns.*.unit".
+// Return "unit" and "data.columns.*" for "data.columns.*.unit"; without a dot the whole and "".
 inline std::string last_part(const std::string& path) {
   return path.substr(path.rfind('.') + 1);
+}
+inline std::string parent_of(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == path.npos ? "" : path.substr(0, dot);
 }
 
 const std::vector<KeyRule>& key_rules();
@@ -91,6 +95,8 @@ const std::vector<SectionRule>& section_rules();
 // `of_program`: or a key that texts of the program's own laws have as well.
 const KeyRule* find_key(const std::string& path, bool of_program = false);
 const SectionRule* find_section(const std::string& path);
+// Names that are fixed in a section ("" for the file): its sections, then its keys.
+std::vector<std::string> fixed_names(const std::string& section);
 
 // Describes the values of this key: "a whole number >= 0".
 std::string expected(const KeyRule& rule);

@@ -62,7 +62,7 @@ public:
   }
   void finish() {
     for (const TomlNode& node : root_.items)
-      if (std::find(known_.begin(), known_.end(), node.key) == known_.end()) unknown(node, known_);
+      if (std::ranges::find(known_, node.key) == known_.end()) unknown(node, known_);
     faults_.throw_if_any();
   }
 

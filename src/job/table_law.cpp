@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "core/names.h"
 #include "core/text.h"
 #include "data/raw.h"
 #include "io/hdf5.h"
@@ -44,8 +45,7 @@ std::optional<LawTable> of_frictab_table(const models::LawText& text, const std:
   else if (!text.log_axes.empty())
     faults.add(place,
                "models." + text.name +
-                   ".log_axes: the table says itself which axes are "
-                   "logarithmic",
+                   ".log_axes: the table says itself which axes are logarithmic",
                "leave log_axes out");
   else {
     const table::Table table = table::read_table(path);
@@ -79,14 +79,11 @@ std::optional<LawTable> of_rows(const models::LawText& text, const std::string& 
   std::optional<LawTable> table = full_grid(std::move(*columns), raw, faults);
   if (!table) return std::nullopt;
   for (const std::string& name : text.log_axes) {
-    const auto found = std::find_if(table->axes.begin(), table->axes.end(),
-                                    [&](const LawTableAxis& axis) { return axis.name == name; });
-    std::vector<std::string> names;
-    for (const LawTableAxis& axis : table->axes)
-      names.push_back(axis.name);
+    const auto found = std::ranges::find(table->axes, name, &LawTableAxis::name);
     if (found == table->axes.end())
       faults.add(place, fmt::format("{} has no axis '{}'", path, name),
-                 "log_axes names some of: " + join(names, ", "));
+                 "log_axes names some of: " +
+                     join(all_names(table->axes, &LawTableAxis::name), ", "));
     else if (found->nodes.front() <= 0)
       faults.add(place,
                  fmt::format("the axis {} cannot be logarithmic: it starts at {}", name,

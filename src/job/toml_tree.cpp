@@ -34,7 +34,7 @@ void add_entries(TomlNode& out, const toml::table& table, const std::string& fil
     entry.key_place = place_of(key.source(), file);
     out.items.push_back(std::move(entry));
   }
-  std::stable_sort(out.items.begin(), out.items.end(), [](const TomlNode& a, const TomlNode& b) {
+  std::ranges::stable_sort(out.items, [](const TomlNode& a, const TomlNode& b) {
     return std::pair(a.key_place.line, a.key_place.column) <
            std::pair(b.key_place.line, b.key_place.column);
   });
@@ -127,8 +127,7 @@ void merge(TomlNode& into, TomlNode&& from) {
 } // namespace
 
 TomlNode* TomlNode::find(std::string_view name) {
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [name](const TomlNode& item) { return item.key == name; });
+  const auto found = std::ranges::find(items, name, &TomlNode::key);
   return found == items.end() ? nullptr : &*found;
 }
 
@@ -146,8 +145,8 @@ void apply_override(TomlNode& root, const std::string& assignment, std::size_t n
   const Place place{fmt::format("--set {}", number), 0, 0};
   check_size(assignment, place.file);
   const std::size_t equals = assignment.find('=');
-  const bool control = std::any_of(assignment.begin(), assignment.end(),
-                                   [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+  const bool control =
+      std::ranges::any_of(assignment, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
   if (equals == std::string::npos || equals == 0 || control)
     throw InputError(place, fmt::format("{} is not key=value", toml_quoted(assignment)),
                      "write for example --set table.tolerance_MPa=0.1");
@@ -182,6 +181,23 @@ std::string toml_quoted(std::string_view text) {
   return out + '"';
 }
 
+std::vector<std::string> toml_quoted(const std::vector<std::string>& texts) {
+  std::vector<std::string> quoted;
+  for (const std::string& text : texts)
+    quoted.push_back(toml_quoted(text));
+  return quoted;
+}
+
+std::string toml_list(const std::vector<std::string>& texts, bool one_alone) {
+  const std::string list = join(toml_quoted(texts), ", ");
+  return one_alone && texts.size() == 1 ? list : "[" + list + "]";
+}
+
+std::string in_quotes(std::string_view text) {
+  const std::string quoted = toml_quoted(text);
+  return "'" + quoted.substr(1, quoted.size() - 2) + "'";
+}
+
 std::string canonical_text(const TomlNode& node) {
   using Type = TomlNode::Type;
   const bool is_table = node.type == Type::table;
@@ -189,7 +205,7 @@ std::string canonical_text(const TomlNode& node) {
     std::vector<std::string> items;
     for (const TomlNode& item : node.items)
       items.push_back((is_table ? toml_quoted(item.key) + "=" : "") + canonical_text(item));
-    if (is_table) std::sort(items.begin(), items.end());
+    if (is_table) std::ranges::sort(items);
     return (is_table ? "{" : "[") + join(items, ",") + (is_table ? "}" : "]");
   }
   switch (node.type) {

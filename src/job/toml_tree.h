@@ -42,5 +42,10 @@ std::string describe(const TomlNode& node);
 
 // Quotes any text so that TOML reads it back.
 std::string toml_quoted(std::string_view text);
+std::vector<std::string> toml_quoted(const std::vector<std::string>& texts);
+// Writes a list of texts; `one_alone`: a single one without brackets.
+std::string toml_list(const std::vector<std::string>& texts, bool one_alone = true);
+// Quotes a text for messages: 'a\nb' on one line.
+std::string in_quotes(std::string_view text);
 
 } // namespace frictab::job

@@ -40,10 +40,6 @@ std::string files_text(const std::vector<std::string>& files) {
   return files.size() == 1 ? files.front() : fmt::format("{} files", files.size());
 }
 
-Place place_of(const Dataset& data) {
-  return {data.sources.empty() ? "" : data.sources.front(), 0, 0};
-}
-
 Dataset read_states(const ProcessOptions& options) {
   data::ReadRequest request = request_of(options, options.columns, contact_quantities());
   data::ColumnSource facet;
@@ -70,9 +66,8 @@ std::vector<Rows> rows_of_facets(const Dataset& data) {
     const auto own_time =
         time.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e]);
     Rows& known = at[own];
-    const auto goes_on = std::find_if(known.begin(), known.end(), [&](std::size_t facet) {
-      return std::none_of(own_time.begin(), own_time.end(),
-                          [&](double t) { return times[facet].count(t) > 0; });
+    const auto goes_on = std::ranges::find_if(known, [&](std::size_t facet) {
+      return std::ranges::none_of(own_time, [&](double t) { return times[facet].count(t) > 0; });
     });
     const std::size_t facet = goes_on == known.end() ? facets.size() : *goes_on;
     if (goes_on == known.end()) {
@@ -93,9 +88,9 @@ void check_needed(const Dataset& data) {
     if (!data.has(name))
       faults.add(
           place_of(data), fmt::format("there is no column {}", name),
-          fmt::format("map it: [process.columns] {} = \"...\"; `frictab explain process` has "
-                      "all columns",
-                      name));
+          fmt::format(
+              "map it: [process.columns] {} = \"...\"; `frictab explain process` has all columns",
+              name));
   if (!data.has("v_rel_mm_s") && !data.has("slip_1_mm"))
     faults.add(place_of(data), "there is neither a column v_rel_mm_s nor slip_1_mm",
                "the slip speed, or the slip so far along the surface's tangents");
@@ -116,7 +111,7 @@ std::vector<Rows> touching(const Dataset& data, std::vector<Rows> facets,
       negative += pressure[row] < 0;
       return is_open;
     });
-    std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
+    std::ranges::sort(rows, [&](std::size_t a, std::size_t b) {
       return std::pair(time[a], a) < std::pair(time[b], b);
     });
     for (std::size_t i = 1; i < rows.size(); ++i)
@@ -142,7 +137,7 @@ std::vector<Rows> touching(const Dataset& data, std::vector<Rows> facets,
 // ---- the tool ----
 
 double interpolated(std::span<const double> x, std::span<const double> y, double at) {
-  const auto after = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin());
+  const auto after = static_cast<std::size_t>(std::ranges::upper_bound(x, at) - x.begin());
   if (after == 0) return y.front();
   if (after == x.size()) return y.back();
   const double share = (at - x[after - 1]) / (x[after] - x[after - 1]);
@@ -157,7 +152,7 @@ void check_tool(const Dataset& tool, const ContactHistory& h, const std::string&
                  fmt::format("map it: [process.tool_columns] {} = \"...\"", name));
   faults.throw_if_any();
   const auto time = tool.values("time_s");
-  if (!std::is_sorted(time.begin(), time.end(), std::less_equal<>()))
+  if (!std::ranges::is_sorted(time, std::less_equal<>()))
     throw InputError({named, 0, 0}, "time_s does not increase from row to row",
                      "one row per increment, one step after the other on one clock");
   const double slack = 1e-6 * (time.back() - time.front());
@@ -189,8 +184,8 @@ void read_tool(ContactHistory& h, const ProcessOptions& options) {
     tool.force_kN[i] = std::abs(tool.force_kN[i]);
     tool.speed_mm_s[i] = std::abs(tool.speed_mm_s[i]);
   }
-  if (std::all_of(tool.force_kN.begin(), tool.force_kN.end(), [](double f) { return f == 0; }) ||
-      std::all_of(tool.speed_mm_s.begin(), tool.speed_mm_s.end(), [](double v) { return v == 0; }))
+  if (std::ranges::all_of(tool.force_kN, [](double f) { return f == 0; }) ||
+      std::ranges::all_of(tool.speed_mm_s, [](double v) { return v == 0; }))
     throw InputError({named, 0, 0}, "the tool has no force or no speed at any increment",
                      "force and speed of the tool that the process is driven by");
   if (file.has("friction_J"))
@@ -263,12 +258,12 @@ private:
   void set_increments() {
     const auto time = h_.states.values("time_s");
     std::vector<double> sorted(time.begin(), time.end());
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     const double same = 1e-5 * (sorted.back() - std::min(sorted.front(), 0.0));
     for (const double t : sorted)
       if (h_.time_s.empty() || t > h_.time_s.back() + same) h_.time_s.push_back(t);
     for (const double t : time) {
-      const auto after = std::upper_bound(h_.time_s.begin(), h_.time_s.end(), t);
+      const auto after = std::ranges::upper_bound(h_.time_s, t);
       h_.increment.push_back(static_cast<std::size_t>(after - h_.time_s.begin()) - 1);
     }
     // Without a tool: as long before the first increment as that before the second, but not before
@@ -345,9 +340,9 @@ private:
       value = std::max(value, 1.0);
     }
     if (below > 0)
-      notes_.push_back(fmt::format("psi is below 1 in {} of {} rows (least {:.3g}): the laws take "
-                                   "it as 1",
-                                   thousands(below), thousands(psi.size()), least));
+      notes_.push_back(
+          fmt::format("psi is below 1 in {} of {} rows (least {:.3g}): the laws take it as 1",
+                      thousands(below), thousands(psi.size()), least));
     add("psi", std::move(psi));
   }
 
@@ -376,7 +371,7 @@ private:
         throw InputError({options_.flow_curve, 0, 0}, fmt::format("there is no column {}", name),
                          "a flow curve has the columns plastic_strain and sigma_f_MPa");
     const auto x = curve.values("plastic_strain"), y = curve.values("sigma_f_MPa");
-    if (!std::is_sorted(x.begin(), x.end(), std::less_equal<>()))
+    if (!std::ranges::is_sorted(x, std::less_equal<>()))
       throw InputError({options_.flow_curve, 0, 0}, "plastic_strain does not increase",
                        "one row per strain, in ascending order");
     std::size_t beyond = 0;
@@ -410,7 +405,7 @@ private:
     for (const char* name : {"r_mm", "x_mm", "y_mm", "z_mm"}) {
       if (!has(name)) continue;
       std::vector<double> place = taken(name);
-      const auto [low, high] = std::minmax_element(place.begin(), place.end());
+      const auto [low, high] = std::ranges::minmax_element(place);
       if (!(*high - *low > most)) continue;
       most = *high - *low;
       h_.place_name = std::string(1, *name);
@@ -431,10 +426,10 @@ private:
 // Quantiles of the finite values of a column of the tests.
 std::vector<double> quantiles_of(std::span<const double> column, std::vector<double> shares) {
   std::vector<double> values;
-  std::copy_if(column.begin(), column.end(), std::back_inserter(values),
-               [](double x) { return std::isfinite(x); });
+  std::ranges::copy_if(column, std::back_inserter(values),
+                       [](double x) { return std::isfinite(x); });
   if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   for (double& share : shares)
     share = values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
   return shares;
@@ -445,12 +440,16 @@ double usual_level(std::span<const double> column) {
   std::map<double, std::size_t> rows;
   for (const double level : column)
     ++rows[level];
-  return std::max_element(rows.begin(), rows.end(),
-                          [](const auto& a, const auto& b) { return a.second < b.second; })
+  return std::ranges::max_element(rows,
+                                  [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;
 }
 
 } // namespace
+
+Place place_of(const Dataset& data) {
+  return {data.sources.empty() ? "" : data.sources.front(), 0, 0};
+}
 
 double ContactHistory::step(std::size_t i) const {
   return time_s[i] - (i > 0 ? time_s[i - 1] : start_s);
@@ -484,8 +483,7 @@ std::vector<double> ContactHistory::power_W(std::span<const double> tau) const {
 std::vector<std::size_t> ContactHistory::late() const {
   constexpr double standing = 1e-6; // share of the highest speed
   const double half = 0.5 * (time_s.back() + start_s);
-  const double fastest =
-      tool ? *std::max_element(tool->speed_mm_s.begin(), tool->speed_mm_s.end()) : 0;
+  const double fastest = tool ? *std::ranges::max_element(tool->speed_mm_s) : 0;
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < time_s.size(); ++i)
     if (time_s[i] >= half && (!tool || tool->speed_mm_s[i] > standing * fastest))
@@ -508,7 +506,7 @@ void hold_missing(ContactHistory& history, std::span<const std::string> inputs,
     if (quantity) held.unit = quantity->unit;
     const Column* column = tests.find(name);
     if (!column)
-      throw InputError(place_of(history.states), "a law needs " + name + ", which is nowhere given",
+      throw InputError(history.place(), "a law needs " + name + ", which is nowhere given",
                        "map it in [process.columns], or leave the law out of models.use");
     const auto level = levels.find(name);
     if (level != levels.end()) {
@@ -521,7 +519,7 @@ void hold_missing(ContactHistory& history, std::span<const std::string> inputs,
     }
     const std::vector<double> of_tests = quantiles_of(column->values, {0.1, 0.5, 0.9});
     if (of_tests.empty())
-      throw InputError(place_of(history.states), name + " has no value in the tests either",
+      throw InputError(history.place(), name + " has no value in the tests either",
                        "give it in [process.constants]");
     held.low = of_tests[0];
     held.high = of_tests[2];

@@ -32,6 +32,9 @@ struct Held {
   double cost_percent = 0;  // largest change of a law's result between the two
 };
 
+// Returns the place of its first file, for faults.
+Place place_of(const data::Dataset& data);
+
 struct ContactHistory {
   // States per row, in canonical units. Each facet is an experiment, its rows in time order, so
   // that histories run along it.
@@ -49,6 +52,7 @@ struct ContactHistory {
   std::size_t facets = 0;
 
   std::size_t rows() const { return increment.size(); }
+  Place place() const { return place_of(states); }
   std::span<const double> speed() const { return states.values("v_rel_mm_s"); }
   double step(std::size_t increment) const; // its duration, s
   // The rows of an increment added up.

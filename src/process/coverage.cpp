@@ -93,8 +93,7 @@ StateCoverage state_coverage(const ContactHistory& h, const Weights& w, const st
 }
 
 bool is_held(const ContactHistory& h, const std::string& name) {
-  return std::any_of(h.held.begin(), h.held.end(),
-                     [&](const Held& held) { return held.state == name; });
+  return std::ranges::any_of(h.held, [&](const Held& held) { return held.state == name; });
 }
 
 PartCoverage part_coverage(std::string name, const Weights& w, const std::vector<char>& inside,
@@ -134,7 +133,7 @@ double weighted_quantile(std::span<const double> values, std::span<const double>
                          double share) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
     return std::pair(values[a], a) < std::pair(values[b], b);
   });
   const double wanted = share * std::accumulate(weights.begin(), weights.end(), 0.0);

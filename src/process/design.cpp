@@ -2,9 +2,9 @@
 #include "process/design.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include <Eigen/Cholesky>
@@ -30,21 +30,14 @@ namespace {
 constexpr std::size_t rows_of_a_course = 40;
 constexpr std::size_t target_states = 600; // of a process, drawn by friction work
 constexpr std::array<std::size_t, 4> level_counts = {15, 6, 5, 6};
-constexpr std::array<const char*, 4> setting_names = {"sigma_n_MPa", "psi", "v_rel_mm_s",
-                                                      "T_tool_C"};
 
-using Four = std::array<double, 4>;
 using Range = std::pair<double, double>;
-
-Setting setting_of(const Four& x) {
-  return {x[0], x[1], x[2], x[3]};
-}
 
 // ---- the tests of the campaign ----
 
 struct Campaign {
   const data::Dataset& data;
-  std::vector<Four> at; // settings of each test
+  std::vector<Setting> at; // settings of each test
   std::array<bool, 4> varies{};
   std::array<Range, 4> range;
 
@@ -53,7 +46,7 @@ struct Campaign {
       at.push_back({median("sigma_n_MPa", e), largest("psi", e), median("v_rel_mm_s", e), tool(e)});
     for (std::size_t s = 0; s < at.front().size(); ++s) {
       Range& r = range[s] = {HUGE_VAL, -HUGE_VAL};
-      for (const Four& one : at)
+      for (const Setting& one : at)
         if (std::isfinite(one[s])) r = {std::min(r.first, one[s]), std::max(r.second, one[s])};
       varies[s] = r.second > r.first * (1 + 1e-6) || r.second > r.first + 1e-6 * std::abs(r.second);
     }
@@ -70,7 +63,7 @@ private:
   }
   double largest(const char* name, std::size_t e) const {
     const auto values = of(name, e);
-    return values.empty() ? no_value : *std::max_element(values.begin(), values.end());
+    return values.empty() ? no_value : *std::ranges::max_element(values);
   }
   double tool(std::size_t e) const {
     for (const char* name : {"T_tool_C", "T_contact_C"})
@@ -129,11 +122,11 @@ std::vector<double> levels_of(std::size_t setting, const Range& reach, bool vari
   return {found.begin(), found.end()};
 }
 
-std::vector<Four> all_settings(const Campaign& campaign, const std::array<Range, 4>& reach) {
+std::vector<Setting> all_settings(const Campaign& campaign, const std::array<Range, 4>& reach) {
   std::array<std::vector<double>, 4> at;
   for (std::size_t s = 0; s < setting_names.size(); ++s)
     at[s] = levels_of(s, reach[s], campaign.varies[s]);
-  std::vector<Four> found;
+  std::vector<Setting> found;
   for (const double p : at[0])
     for (const double psi : at[1])
       for (const double v : at[2])
@@ -154,7 +147,7 @@ public:
   }
 
   // Between settings, each divided by the rig's reach.
-  double distance(const Four& a, const Four& b) const {
+  double distance(const Setting& a, const Setting& b) const {
     double square = 0;
     for (std::size_t s = 0; s < setting_names.size(); ++s) {
       if (!campaign_.varies[s] || !(span_[s] > 0)) continue;
@@ -171,7 +164,7 @@ public:
     return gathered(all);
   }
 
-  data::Dataset at(const std::vector<Four>& settings) const {
+  data::Dataset at(const std::vector<Setting>& settings) const {
     std::vector<std::size_t> bases(settings.size());
     parallel_for(settings.size(), [&](std::size_t i) { bases[i] = nearest(settings[i]); });
     data::Dataset tests = gathered(bases);
@@ -203,7 +196,7 @@ private:
     return out;
   }
 
-  double moved(const std::string& state, double x, const Four& from, const Four& to) const {
+  double moved(const std::string& state, double x, const Setting& from, const Setting& to) const {
     if (state == "sigma_n_MPa" && campaign_.varies[0]) return x * to[0] / from[0];
     if (state == "psi" && campaign_.varies[1])
       return from[1] > no_expansion ? 1 + (x - 1) * (to[1] - 1) / (from[1] - 1) : to[1];
@@ -213,11 +206,11 @@ private:
     return x;
   }
 
-  std::size_t nearest(const Four& setting) const {
+  std::size_t nearest(const Setting& setting) const {
     std::size_t best = 0;
     double least = HUGE_VAL;
     for (std::size_t e = 0; e < campaign_.at.size(); ++e) {
-      const Four& own = campaign_.at[e];
+      const Setting& own = campaign_.at[e];
       double far = distance(own, setting);
       // A course without expansion cannot be scaled to one with it.
       const bool scalable =
@@ -232,7 +225,7 @@ private:
   }
 
   const Campaign& campaign_;
-  Four span_{};
+  Setting span_{};
   std::vector<std::vector<std::size_t>> rows_; // of each test
 };
 
@@ -278,8 +271,7 @@ public:
         const MatrixXd m = V_ + g * S * g.transpose();
         gain[i] = m.llt().solve(g * smt * g.transpose()).trace();
       });
-      chosen.push_back(
-          static_cast<std::size_t>(std::max_element(gain.begin(), gain.end()) - gain.begin()));
+      chosen.push_back(static_cast<std::size_t>(std::ranges::max_element(gain) - gain.begin()));
       S = with_test(S, candidates[chosen.back()], V_);
     }
     return chosen;
@@ -295,33 +287,33 @@ private:
 
 // Settings whose course is in the middle of friction work: k-means of its states, clipped to the
 // rig.
-std::vector<Four> centres_of(const ContactHistory& history, std::span<const double> work_J,
-                             const Campaign& campaign, const std::array<Range, 4>& reach,
-                             double heating, std::size_t count) {
+std::vector<Setting> centres_of(const ContactHistory& history, std::span<const double> work_J,
+                                const Campaign& campaign, const std::array<Range, 4>& reach,
+                                double heating, std::size_t count) {
   const std::array<const char*, 4> state = {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C"};
   const std::vector<std::string> names(state.begin(), state.end());
   const States at = states_at(history.states, names, drawn_by_work(work_J, target_states));
   const std::size_t rows = at.front().size();
-  std::vector<Four> points(rows);
+  std::vector<Setting> points(rows);
   for (std::size_t i = 0; i < rows; ++i)
     for (std::size_t s = 0; s < state.size(); ++s) {
       const double span = coordinate(s, reach[s].second) - coordinate(s, reach[s].first);
       points[i][s] = span > 0 ? coordinate(s, at[s][i]) / span : 0;
     }
-  const auto distance = [](const Four& a, const Four& b) {
+  const auto distance = [](const Setting& a, const Setting& b) {
     double sum = 0;
     for (std::size_t s = 0; s < a.size(); ++s)
       sum += (a[s] - b[s]) * (a[s] - b[s]);
     return sum;
   };
   // Each further start is the point farthest from those before.
-  std::vector<Four> centres{points[rows / 2]};
+  std::vector<Setting> centres{points[rows / 2]};
   while (centres.size() < std::min(count, rows)) {
     std::size_t farthest = 0;
     double most = -1;
     for (std::size_t i = 0; i < rows; ++i) {
       double least = HUGE_VAL;
-      for (const Four& centre : centres)
+      for (const Setting& centre : centres)
         least = std::min(least, distance(points[i], centre));
       if (least > most) {
         most = least;
@@ -331,9 +323,9 @@ std::vector<Four> centres_of(const ContactHistory& history, std::span<const doub
     centres.push_back(points[farthest]);
   }
   for (int round = 0; round < 30; ++round) {
-    std::vector<Four> sums(centres.size(), Four{});
+    std::vector<Setting> sums(centres.size(), Setting{});
     std::vector<double> members(centres.size());
-    for (const Four& point : points) {
+    for (const Setting& point : points) {
       std::size_t best = 0;
       for (std::size_t c = 1; c < centres.size(); ++c)
         if (distance(point, centres[c]) < distance(point, centres[best])) best = c;
@@ -345,9 +337,9 @@ std::vector<Four> centres_of(const ContactHistory& history, std::span<const doub
       for (std::size_t s = 0; members[c] > 0 && s < sums[c].size(); ++s)
         centres[c][s] = sums[c][s] / members[c];
   }
-  std::vector<Four> settings;
-  for (const Four& centre : centres) {
-    Four setting;
+  std::vector<Setting> settings;
+  for (const Setting& centre : centres) {
+    Setting setting;
     for (std::size_t s = 0; s < setting.size(); ++s) {
       const double span = coordinate(s, reach[s].second) - coordinate(s, reach[s].first);
       const double u = centre[s] * span;
@@ -416,31 +408,39 @@ std::vector<std::size_t> evenly(std::size_t all, std::size_t count) {
   return at;
 }
 
-} // namespace
+// Returns an empty text where tests can be designed.
+std::string why_no_design(const Campaign& campaign) {
+  if (smooth_states(campaign.data).empty() || campaign.at.size() < 3)
+    return "fewer than three tests, or no state that varies in them";
+  if (std::ranges::find(campaign.varies, true) == campaign.varies.end())
+    return "the tests vary in no setting of a rig";
+  return "";
+}
 
-ProposedTests propose_tests(const Tests& tests, const ContactHistory& history,
-                            std::span<const double> work_J, const ProcessOptions& options) {
-  ProposedTests out;
-  const Campaign campaign(tests.all);
-  const std::vector<std::string> states = smooth_states(tests.all);
-  if (states.empty() || campaign.at.size() < 3) {
-    out.why_none = "fewer than three tests, or no state that varies in them";
-    return out;
+// The rig's reach, and the linear model of the campaign's tests and of the process.
+struct Basis {
+  const Campaign& campaign;
+  std::vector<std::string> states;
+  std::array<Range, 4> reach;
+  double heating;
+  Smooth smooth;
+  Courses courses;
+  std::vector<MatrixXd> known; // bins of the campaign's tests
+  std::optional<Design> design;
+
+  Basis(const Campaign& of, const Tests& tests, const ContactHistory& history,
+        std::span<const double> work_J, const ProcessOptions& options)
+      : campaign(of), states(smooth_states(of.data)), reach(reach_of(of, options)),
+        heating(heating_of(of)),
+        smooth(tests.calibration, of.data, states, wide_ranges(of, reach, states, heating)),
+        courses(of, reach) {
+    const States target = states_at(history.states, states, drawn_by_work(work_J, target_states));
+    smooth.add_bumps(target);
+    known = bins_of(courses.own());
+    design.emplace(smooth, known, smooth.design(target));
   }
-  const std::array<Range, 4> reach = reach_of(campaign, options);
-  for (std::size_t s = 0; s < setting_names.size(); ++s)
-    if (campaign.varies[s]) out.rig.emplace_back(setting_names[s], reach[s]);
-  if (out.rig.empty()) {
-    out.why_none = "the tests vary in no setting of a rig";
-    return out;
-  }
-  const double heating = heating_of(campaign);
-  Smooth smooth(tests.calibration, tests.all, states,
-                wide_ranges(campaign, reach, states, heating));
-  const States target = states_at(history.states, states, drawn_by_work(work_J, target_states));
-  smooth.add_bumps(target);
-  const Courses courses(campaign, reach);
-  const auto bins_of = [&](const data::Dataset& some) {
+
+  std::vector<MatrixXd> bins_of(const data::Dataset& some) const {
     std::vector<MatrixXd> bins;
     std::vector<std::size_t> rows(some.rows());
     std::iota(rows.begin(), rows.end(), 0);
@@ -450,34 +450,54 @@ ProposedTests propose_tests(const Tests& tests, const ContactHistory& history,
           terms.middleRows(static_cast<Index>(some.first_row[e]),
                            static_cast<Index>(some.first_row[e + 1] - some.first_row[e]))));
     return bins;
-  };
-  const std::vector<MatrixXd> known = bins_of(courses.own());
-  const Design design(smooth, known, smooth.design(target));
-  const std::vector<Four> settings = all_settings(campaign, reach);
-  const std::vector<MatrixXd> candidates = bins_of(courses.at(settings));
-  const auto without_others = [&](Four setting) {
+  }
+
+  // Without the settings in which the tests do not vary.
+  Setting shown(Setting setting) const {
     for (std::size_t s = 0; s < setting_names.size(); ++s)
       if (!campaign.varies[s]) setting[s] = no_value;
-    return setting_of(setting);
-  };
+    return setting;
+  }
+};
+
+} // namespace
+
+double open_ln_tau(const Tests& tests, const ContactHistory& history,
+                   std::span<const double> work_J, const ProcessOptions& options) {
+  const Campaign campaign(tests.all);
+  if (!why_no_design(campaign).empty()) return 0;
+  return Basis(campaign, tests, history, work_J, options).design->open();
+}
+
+ProposedTests propose_tests(const Tests& tests, const ContactHistory& history,
+                            std::span<const double> work_J, const ProcessOptions& options) {
+  ProposedTests out;
+  const Campaign campaign(tests.all);
+  out.why_none = why_no_design(campaign);
+  if (!out.why_none.empty()) return out;
+  const Basis basis(campaign, tests, history, work_J, options);
+  for (std::size_t s = 0; s < setting_names.size(); ++s)
+    if (campaign.varies[s]) out.rig.emplace_back(setting_names[s], basis.reach[s]);
+  const std::vector<Setting> settings = all_settings(campaign, basis.reach);
+  const std::vector<MatrixXd> candidates = basis.bins_of(basis.courses.at(settings));
   std::vector<MatrixXd> chosen, again;
-  for (const std::size_t i : design.greedy(candidates, options.tests)) {
-    out.tests.push_back(without_others(settings[i]));
+  for (const std::size_t i : basis.design->greedy(candidates, options.tests)) {
+    out.tests.push_back(basis.shown(settings[i]));
     chosen.push_back(candidates[i]);
   }
-  const std::vector<Four> centres =
-      centres_of(history, work_J, campaign, reach, heating, options.tests);
-  for (const Four& setting : centres)
-    out.centres.push_back(without_others(setting));
+  const std::vector<Setting> centres =
+      centres_of(history, work_J, campaign, basis.reach, basis.heating, options.tests);
+  for (const Setting& setting : centres)
+    out.centres.push_back(basis.shown(setting));
   for (const std::size_t e : evenly(campaign.at.size(), options.tests))
-    again.push_back(known[e]);
+    again.push_back(basis.known[e]);
   for (std::size_t i = 0; i < std::min(options.repeats, out.tests.size()); ++i)
     out.repeated.push_back(i);
-  out.open = design.open();
-  out.with_tests = design.open_with(chosen);
-  out.with_centres = design.open_with(bins_of(courses.at(centres)));
-  out.with_repeats = design.open_with(again);
-  out.out_of_reach = out_of_reach(history, work_J, campaign, reach);
+  out.open = basis.design->open();
+  out.with_tests = basis.design->open_with(chosen);
+  out.with_centres = basis.design->open_with(basis.bins_of(basis.courses.at(centres)));
+  out.with_repeats = basis.design->open_with(again);
+  out.out_of_reach = out_of_reach(history, work_J, campaign, basis.reach);
   return out;
 }
 
@@ -493,20 +513,20 @@ std::string plan_csv(const ProposedTests& proposed, const std::vector<std::strin
   random.shuffle(std::span<std::size_t>(order));
   // Names that differ from those of the campaign.
   std::string prefix = "P";
-  while (std::any_of(known.begin(), known.end(),
-                     [&](const std::string& name) { return name.starts_with(prefix); }))
+  while (
+      std::ranges::any_of(known, [&](const std::string& name) { return name.starts_with(prefix); }))
     prefix += "P";
   std::string text = "experiment,plan_order,plan_repeats,plan_sigma_n_MPa,plan_psi,plan_v_rel_mm_s,"
                      "plan_T_tool_C\n";
   const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x) : ""; };
   for (std::size_t place = 0; place < order.size(); ++place) {
     const std::size_t run = order[place], test = runs[run];
-    const Setting& at = proposed.tests[test];
     const bool repeats = run >= proposed.tests.size();
-    text += fmt::format("{}{:02},{},{},{},{},{},{}\n", prefix, run + 1, place + 1,
-                        repeats ? fmt::format("{}{:02}", prefix, test + 1) : "-",
-                        number(at.sigma_n_MPa), number(at.psi), number(at.v_rel_mm_s),
-                        number(at.T_tool_C));
+    text += fmt::format("{}{:02},{},{}", prefix, run + 1, place + 1,
+                        repeats ? fmt::format("{}{:02}", prefix, test + 1) : "-");
+    for (const double value : proposed.tests[test])
+      text += "," + number(value);
+    text += "\n";
   }
   for (const std::string& name : known)
     text += io::csv_cell(name) + ",,-,,,,\n";

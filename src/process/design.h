@@ -8,19 +8,19 @@
 // with the covariance S of the coefficients and the terms t of a state.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "process/contact.h"
 #include "process/options.h"
+#include "process/quantities.h"
 #include "process/resampled.h"
 
 namespace frictab::process {
 
-// Settings of a rig; NaN: not a setting of these tests.
-struct Setting {
-  double sigma_n_MPa, psi, v_rel_mm_s, T_tool_C;
-};
+// Settings of a rig, as setting_names has them; NaN: not a setting of these tests.
+using Setting = std::array<double, setting_names.size()>;
 
 // Friction work at states that no setting of the rig reaches.
 struct OutOfReach {
@@ -45,6 +45,10 @@ struct ProposedTests {
 
 ProposedTests propose_tests(const Tests& tests, const ContactHistory& history,
                             std::span<const double> work_J, const ProcessOptions& options);
+
+// As ProposedTests::open, without a search for tests; 0 where none can be proposed.
+double open_ln_tau(const Tests& tests, const ContactHistory& history,
+                   std::span<const double> work_J, const ProcessOptions& options);
 
 // The plan as a table of tests that data.tests reads, in random order: the proposed tests, and
 // without settings the tests of the campaign.

@@ -97,15 +97,11 @@ Driving driving_of(const ContactHistory& h, const ProcessOptions& options) {
   return {};
 }
 
-Place place_of(const ContactHistory& h) {
-  return {h.states.sources.empty() ? "" : h.states.sources.front(), 0, 0};
-}
-
 // Compares the friction work with that of the solver and of the tool.
 void check_work(Process& p, const ProcessOptions& options) {
   const double work = std::accumulate(p.work_J.begin(), p.work_J.end(), 0.0);
   if (!(work > 0))
-    throw InputError(place_of(p.history), "there is no friction work: nothing slides under stress",
+    throw InputError(p.history.place(), "there is no friction work: nothing slides under stress",
                      "are v_rel_mm_s and tau_R_MPa those of the contact?");
   if (!p.history.tool) return;
   const Tool& tool = *p.history.tool;
@@ -117,19 +113,16 @@ void check_work(Process& p, const ProcessOptions& options) {
         whole >= 2 && whole <= 16 && std::abs(std::max(times, 1 / times) / whole - 1) < 0.06;
     const double symmetry = options.symmetry * (times > 1 ? whole : 1 / whole);
     if (std::abs(*p.work_check_percent) > work_slack)
-      throw InputError(
-          place_of(p.history),
-          fmt::format(
-              "the friction work of these contacts is {:.4g} J, that of the solver {:.4g} J "
-              "({:+.1f} %)",
-              work, *tool.friction_J, *p.work_check_percent),
-          is_symmetry
-              ? fmt::format(
-                    "--symmetry {:g}? The areas are of another part of the process than the "
-                    "tool's file",
-                    symmetry)
-              : "a contact pair that is missing, areas of the undeformed mesh, other units, or too "
-                "few increments? The sum is tau v A dt");
+      throw InputError(p.history.place(),
+                       fmt::format("the friction work of these contacts is {:.4g} J, that of the "
+                                   "solver {:.4g} J ({:+.1f} %)",
+                                   work, *tool.friction_J, *p.work_check_percent),
+                       is_symmetry
+                           ? fmt::format("--symmetry {:g}? The areas are of another part of the "
+                                         "process than the tool's file",
+                                         symmetry)
+                           : "a contact pair that is missing, areas of the undeformed mesh, other "
+                             "units, or too few increments? The sum is tau v A dt");
   }
   double of_tool = 0;
   for (std::size_t i = 0; i < p.history.time_s.size(); ++i)
@@ -138,10 +131,9 @@ void check_work(Process& p, const ProcessOptions& options) {
   p.work_share_percent = 100 * work / of_tool;
   if (p.work_share_percent > 105)
     throw InputError(
-        place_of(p.history),
-        fmt::format("friction takes {:.3g} J, more than the {:.3g} J that the tool "
-                    "gives",
-                    work, of_tool),
+        p.history.place(),
+        fmt::format("friction takes {:.3g} J, more than the {:.3g} J that the tool gives", work,
+                    of_tool),
         "--symmetry, or units: sigma_n_MPa, area_mm2, v_rel_mm_s, force_kN, speed_mm_s");
 }
 
@@ -257,7 +249,7 @@ void find_leading(Assessment& v, const calibrate::Calibration& calibration, bool
   for (LawThere& law : v.laws)
     law.leads =
         law.candidate && is_near(law) && (chosen ? law.best_in >= best_share : law.may_be_best);
-  if (std::none_of(v.laws.begin(), v.laws.end(), [](const LawThere& law) { return law.leads; }))
+  if (std::ranges::none_of(v.laws, [](const LawThere& law) { return law.leads; }))
     for (LawThere& law : v.laws)
       law.leads = law.candidate && is_near(law) && (!has_near || law.near_error <= least);
 }
@@ -335,7 +327,7 @@ Assessment assessment_of(const Tests& tests, const Coverage& coverage, const Jud
   std::vector<std::vector<double>> tau;
   for (const ModelFit& fit : calibration.fits) {
     LawThere law = law_there(fit, j, tau.emplace_back());
-    law.may_be_best = std::find(possible.begin(), possible.end(), law.law) != possible.end() ||
+    law.may_be_best = std::ranges::find(possible, law.law) != possible.end() ||
                       (possible.empty() && law.candidate);
     law.best_in = share_of(calibration.choice.best_in, law.law);
     law.near_error = near_error(near, calibrate::predict(fit.delivered().model, tests.all),
@@ -388,10 +380,10 @@ void price_held(Process& p, const Tests& tests, const ProcessOptions& options) {
 
 void add_cautions(Process& p) {
   if (p.used.solver_over_law > 0 && p.used.solver_over_law < 0.5)
-    p.cautions.push_back(fmt::format("the solver's shear stress is {:.2f} of {}'s in the middle of "
-                                     "the friction work: much of the contact sticks, or it had "
-                                     "another law",
-                                     p.used.solver_over_law, p.used.name));
+    p.cautions.push_back(
+        fmt::format("the solver's shear stress is {:.2f} of {}'s in the middle of the friction "
+                    "work: much of the contact sticks, or it had another law",
+                    p.used.solver_over_law, p.used.name));
   if (!p.work_check_percent)
     p.cautions.emplace_back("the friction work could not be compared with the solver's own: "
                             "friction_J in the tool's file shows a wrong symmetry or unit");
@@ -400,8 +392,7 @@ void add_cautions(Process& p) {
 } // namespace
 
 const LawThere& Assessment::law_to_take() const {
-  return *std::find_if(laws.begin(), laws.end(),
-                       [&](const LawThere& law) { return law.law == take; });
+  return *std::ranges::find(laws, take, &LawThere::law);
 }
 
 Process judge_process(const Tests& tests, const Tests* added, const ProcessOptions& options,
@@ -424,8 +415,7 @@ Process judge_process(const Tests& tests, const Tests* added, const ProcessOptio
   p.assessment.open = p.proposed.open;
   if (added) {
     p.with_added = assessment_of(*added, coverage_of(p.history, p.work_J, added->all), judging);
-    const ProposedTests next = propose_tests(*added, p.history, p.work_J, options);
-    p.with_added->open = next.open;
+    p.with_added->open = open_ln_tau(*added, p.history, p.work_J, options);
   }
   p.synthetic = calibrate::is_synthetic(tests.training);
   add_cautions(p);

@@ -53,13 +53,8 @@ Json json_of(const PartCoverage& part) {
 
 Json json_of(const Setting& at) {
   Json j = Json::object();
-  const auto add = [&](const char* name, double value) {
-    if (std::isfinite(value)) j[name] = value;
-  };
-  add("sigma_n_MPa", at.sigma_n_MPa);
-  add("psi", at.psi);
-  add("v_rel_mm_s", at.v_rel_mm_s);
-  add("T_tool_C", at.T_tool_C);
+  for (std::size_t s = 0; s < at.size(); ++s)
+    if (std::isfinite(at[s])) j[setting_names[s]] = at[s];
   return j;
 }
 

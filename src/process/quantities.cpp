@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "core/names.h"
+
 namespace frictab::process {
 
 namespace {
@@ -17,13 +19,6 @@ Quantity as_simulated(const char* name, double lowest) {
   Quantity quantity = *data::find_quantity(name);
   quantity.lowest = lowest;
   return quantity;
-}
-
-std::vector<std::string> names_of(std::span<const Quantity> quantities) {
-  std::vector<std::string> names;
-  for (const Quantity& quantity : quantities)
-    names.push_back(quantity.name);
-  return names;
 }
 
 } // namespace
@@ -117,24 +112,17 @@ std::span<const Quantity> curve_quantities() {
 }
 
 std::vector<std::string> contact_columns() {
-  std::vector<std::string> names = names_of(contact_quantities());
+  std::vector<std::string> names = all_names(contact_quantities(), &Quantity::name);
   names.insert(names.begin(), facet_column);
   return names;
 }
 
 std::vector<std::string> tool_columns() {
-  return names_of(tool_quantities());
+  return all_names(tool_quantities(), &Quantity::name);
 }
 
 std::vector<std::string> rig_settings() {
-  return {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_tool_C"};
-}
-
-std::vector<std::string> constant_states() {
-  std::vector<std::string> names;
-  for (const Quantity& quantity : data::quantities())
-    if (quantity.state) names.push_back(quantity.name);
-  return names;
+  return {setting_names.begin(), setting_names.end()};
 }
 
 } // namespace frictab::process

@@ -2,6 +2,7 @@
 // increment; and the tool, one row per increment.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,10 +21,9 @@ std::span<const data::Quantity> curve_quantities();
 
 std::vector<std::string> contact_columns(); // with the facet's name
 std::vector<std::string> tool_columns();
-// Settings of a rig: sigma_n_MPa, psi, v_rel_mm_s, T_tool_C.
+// Settings of a rig.
+inline constexpr std::array setting_names{"sigma_n_MPa", "psi", "v_rel_mm_s", "T_tool_C"};
 std::vector<std::string> rig_settings();
-// States that a constant may give to a simulation.
-std::vector<std::string> constant_states();
 
 // Name of the column with the names of facets.
 inline constexpr const char* facet_column = "facet";

@@ -13,6 +13,7 @@
 #include "calibrate/fit_weights.h"
 #include "calibrate/input_columns.h"
 #include "calibrate/recommended.h"
+#include "core/columns.h"
 #include "core/parallel.h"
 #include "data/recordings.h"
 #include "expr/program.h"
@@ -89,10 +90,7 @@ public:
       for (const std::size_t row : rows)
         column.push_back(inputs[c][row]);
     }
-    std::vector<const double*> pointers;
-    for (const std::vector<double>& column : columns_)
-      pointers.push_back(column.data());
-    bound_.emplace(program, rows.size(), pointers);
+    bound_.emplace(program, rows.size(), pointers(columns_));
   }
 
   const expr::BoundProgram& bound() const { return *bound_; }
@@ -388,7 +386,7 @@ private:
   std::size_t chosen(const std::vector<calibrate::LawErrors>& errors) const {
     std::vector<std::size_t> order(errors.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
       return error_of(errors[a]) < error_of(errors[b]);
     });
     std::vector<calibrate::LawErrors> ranked;

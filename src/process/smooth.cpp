@@ -53,8 +53,7 @@ PolynomialState scaled_state(const std::string& name, const std::pair<double, do
 // A twentieth of the positive values lie below it.
 double small_value(std::span<const double> values) {
   std::vector<double> positive;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(positive),
-               [](double x) { return x > 0; });
+  std::ranges::copy_if(values, std::back_inserter(positive), [](double x) { return x > 0; });
   if (positive.empty()) return 1;
   const auto at = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 20);
   std::nth_element(positive.begin(), at, positive.end());

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/names.h"
 #include "core/text.h"
 #include "process/coverage.h"
 
@@ -17,10 +18,7 @@ namespace {
 constexpr double least_law_MPa = 1e-9;
 
 std::vector<std::string> known_laws(const calibrate::Calibration& calibration) {
-  std::vector<std::string> names;
-  for (const calibrate::ModelFit& fit : calibration.fits)
-    names.push_back(fit.model.law->name);
-  return names;
+  return all_names(calibration.fits, [](const auto& fit) { return fit.model.law->name; });
 }
 
 // "coulomb:0.08", "shear:0.12"; a model without a law for other texts.
@@ -66,12 +64,11 @@ void check_not_above(const ContactHistory& h, const UsedLaw& used, std::span<con
   for (std::size_t row = 0; row < work.size(); ++row)
     above += h.tau_MPa[row] > slack * law[row] ? work[row] : 0;
   const double all = std::accumulate(work.begin(), work.end(), 0.0);
-  throw InputError(
-      {h.states.sources.empty() ? "" : h.states.sources.front(), 0, 0},
-      fmt::format("the solver's shear stress is {:.3g} times that of {} in the middle, "
-                  "and above it in {:.0f} % of the friction work",
-                  used.solver_over_law, used.name, 100 * above / all),
-      "was it this law (--used)? are pressure and shear stress in MPa?");
+  throw InputError(h.place(),
+                   fmt::format("the solver's shear stress is {:.3g} times that of {} in the "
+                               "middle, and above it in {:.0f} % of the friction work",
+                               used.solver_over_law, used.name, 100 * above / all),
+                   "was it this law (--used)? are pressure and shear stress in MPa?");
 }
 
 } // namespace

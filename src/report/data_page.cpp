@@ -97,20 +97,11 @@ private:
 };
 
 svg::Axis axis_over(const DataPage& page, const std::string& name) {
-  double low = 0, high = 0;
-  const auto cover = [&](const Dataset* data) {
-    for (const double value :
-         data && data->has(name) ? data->values(name) : std::span<const double>())
-      if (std::isfinite(value)) {
-        low = std::min(low, value);
-        high = std::max(high, value);
-      }
-  };
-  for (const Dataset* data : {&page.training, &page.validation}) {
-    cover(data);
-    cover(data->aside.get());
-  }
-  return svg::nice_axis(low, high, 2, axis_name(name));
+  svg::Range range{0, 0};
+  for (const Dataset* part : {&page.training, &page.validation})
+    for (const Dataset* data : {part, part->aside.get()})
+      if (data && data->has(name)) range.hold(data->values(name));
+  return svg::nice_axis(range.low, range.high, 2, axis_name(name));
 }
 
 svg::Axis row_axis(const DataPage& page) {
@@ -130,7 +121,7 @@ words::Section strokes_of(const DataPage& page) {
   const data::Quantity* over = abscissa(page.training);
   const svg::Axis x = over ? axis_over(page, over->name) : row_axis(page);
   const svg::Axis y = axis_over(page, "tau_R_MPa");
-  words::Pictures pictures{"strokes", {}};
+  words::Pictures pictures{"strokes"};
   const auto add = [&](const Dataset& data, const char* use, const char* colour) {
     const RowsAside aside(data);
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {

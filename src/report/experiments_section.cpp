@@ -36,9 +36,8 @@ std::vector<std::size_t> worst_of(const std::vector<ExperimentError>& tests) {
   std::vector<std::size_t> order;
   for (std::size_t e = 0; e < tests.size(); ++e)
     if (std::isfinite(tests[e].mae_MPa)) order.push_back(e);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return tests[a].mae_MPa > tests[b].mae_MPa;
-  });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return tests[a].mae_MPa > tests[b].mae_MPa; });
   order.resize(std::min(order.size(), named_tests));
   return order;
 }

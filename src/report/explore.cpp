@@ -97,10 +97,10 @@ Json state_json(const std::string& name, const std::vector<Part>& parts, const R
   std::vector<double> values;
   for (const Part& part : parts)
     if (const auto at = part.columns.find(name); at != part.columns.end())
-      std::copy_if(at->second.begin(), at->second.end(), std::back_inserter(values),
-                   [](double v) { return std::isfinite(v); });
+      std::ranges::copy_if(at->second, std::back_inserter(values),
+                           [](double v) { return std::isfinite(v); });
   if (values.empty()) return nullptr;
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const data::Quantity* quantity = data::find_quantity(name);
   Json j = {{"name", name},
             {"label", axis_name(words::column_name(name, input.traces))},
@@ -160,7 +160,7 @@ std::string explore_html(const ReportInput& input) {
     for (Part& part : parts)
       add_inputs(part, law);
     for (const std::string& name : law.inputs)
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     functions += fmt::format("laws.push({});\n", codegen::javascript_function(law));
     laws.push_back(law_json(judged, law, decimals));
   }

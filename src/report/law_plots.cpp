@@ -23,9 +23,8 @@ const std::string line_colour = "#c2410c";
 
 std::vector<double> finite_sorted(std::span<const double> values) {
   std::vector<double> kept;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(kept),
-               [](double v) { return std::isfinite(v); });
-  std::sort(kept.begin(), kept.end());
+  std::ranges::copy_if(values, std::back_inserter(kept), [](double v) { return std::isfinite(v); });
+  std::ranges::sort(kept);
   return kept;
 }
 
@@ -116,7 +115,7 @@ void add_group(RunningBand& band, std::span<const double> x, std::span<const dou
     xs.push_back(x[row]);
     ys.push_back(y[row]);
   }
-  std::sort(ys.begin(), ys.end());
+  std::ranges::sort(ys);
   band.x.push_back(quantile(xs, 0.5));
   band.low.push_back(quantile(ys, 0.1));
   band.median.push_back(quantile(ys, 0.5));
@@ -129,8 +128,7 @@ RunningBand running_band(std::span<const double> x, std::span<const double> y) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
     if (std::isfinite(x[i]) && std::isfinite(y[i])) order.push_back(i);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return x[a] < x[b]; });
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return x[a] < x[b]; });
   RunningBand band;
   if (order.size() < 3 * band_rows) return band;
   const double width = (x[order.back()] - x[order.front()]) / 30;
@@ -152,9 +150,9 @@ PlotFrame plot_frame(const ReportInput& input) {
   Extent tau, residual;
   tau.hold(measured, 0);
   const Extent own = tau;
-  const bool only_literature = std::all_of(
-      input.calibration.fits.begin(), input.calibration.fits.end(),
-      [](const auto& fit) { return words::kind_of(*fit.model.law) == words::LawKind::literature; });
+  const bool only_literature = std::ranges::all_of(input.calibration.fits, [](const auto& fit) {
+    return words::kind_of(*fit.model.law) == words::LawKind::literature;
+  });
   for (std::size_t law = 0; law < input.predicted.size(); ++law) {
     const bool literature =
         words::kind_of(*input.calibration.fits[law].model.law) == words::LawKind::literature;
@@ -176,7 +174,7 @@ PlotFrame plot_frame(const ReportInput& input) {
   for (std::size_t law = 0; law < input.predicted.size(); ++law) {
     const svg::Density residual_counts = residual_cells(input, law, frame);
     for (const svg::Density& cells : {predicted_cells(input, law, frame), residual_counts})
-      largest = std::max(largest, *std::max_element(cells.counts.begin(), cells.counts.end()));
+      largest = std::max(largest, *std::ranges::max_element(cells.counts));
     for (const double density : residual_density(residual_counts, frame.residual))
       frame.densest_per_MPa = std::max(frame.densest_per_MPa, density);
   }
@@ -243,15 +241,15 @@ std::string plot_legend(const PlotFrame& frame) {
       label += "+";
     else if (frame.classes[c + 1] > from + 1)
       label += "\u2013" + thousands(frame.classes[c + 1] - 1);
-    text += fmt::format("<rect x=\"{}\" y=\"2\" width=\"62\" height=\"14\" fill=\"{}\"/>"
-                        "<text x=\"{}\" y=\"32\" text-anchor=\"middle\">{}</text>",
+    text += fmt::format("<rect x=\"{}\" y=\"2\" width=\"62\" height=\"14\" fill=\"{}\"/><text "
+                        "x=\"{}\" y=\"32\" text-anchor=\"middle\">{}</text>",
                         x, svg::class_colour(c, n), x + 31, label);
   }
   text += "</svg>\n" + begin(240, "lines of the plots");
   const auto sample = [&](int y, const std::string& colour, const char* extra, const char* what) {
-    text += fmt::format("<path fill=\"none\" stroke=\"{}\" {} d=\"M0 {}h34\"/>"
-                        "<text x=\"42\" y=\"{}\">{}</text>",
-                        colour, extra, y, y + 4, what);
+    text += fmt::format(
+        "<path fill=\"none\" stroke=\"{}\" {} d=\"M0 {}h34\"/><text x=\"42\" y=\"{}\">{}</text>",
+        colour, extra, y, y + 4, what);
   };
   sample(8, "#111", "stroke-width=\"1.3\"", "measured = predicted; zero");
   sample(23, line_colour, "stroke-width=\"2.2\"", "running median of the residual");

@@ -34,7 +34,7 @@ struct DrawnLaw {
 
 std::optional<DrawnLaw> drawn_law(const ReportInput& input, const calibrate::ModelFit& fit) {
   models::AssembledLaw law(fit.model);
-  const auto at = std::find(law.inputs.begin(), law.inputs.end(), abscissa_name);
+  const auto at = std::ranges::find(law.inputs, abscissa_name);
   if (!calibrate::missing_inputs(law.inputs, input.validation).empty()) return std::nullopt;
   const auto sigma = static_cast<std::size_t>(at - law.inputs.begin());
   const calibrate::InputColumns columns =
@@ -43,7 +43,7 @@ std::optional<DrawnLaw> drawn_law(const ReportInput& input, const calibrate::Mod
   for (std::vector<double>& values : sorted) {
     std::erase_if(values, [](double v) { return !std::isfinite(v); });
     if (values.empty()) return std::nullopt;
-    std::sort(values.begin(), values.end());
+    std::ranges::sort(values);
   }
   expr::Program program(law.in_numbers(law.tau_R), law.inputs, {});
   return DrawnLaw{std::move(law), std::move(program), std::move(sorted), sigma};
@@ -66,7 +66,7 @@ std::vector<double> tau_over(const DrawnLaw& drawn, const std::vector<double>& x
 void draw_rows(svg::Plot& plot, const ReportInput& input, const svg::Axis& x, const svg::Axis& y) {
   const svg::Density cells = svg::bin(input.validation.values(abscissa_name),
                                       input.validation.values("tau_R_MPa"), x, y, 68, 40);
-  const std::uint32_t most = *std::max_element(cells.counts.begin(), cells.counts.end());
+  const std::uint32_t most = *std::ranges::max_element(cells.counts);
   plot.density(cells, svg::count_classes(std::max<std::uint32_t>(most, 1), 4));
 }
 
@@ -273,11 +273,11 @@ words::Section best_law_with_data(const ReportInput& input) {
   section.say(words::symbol("tau_R") + " over " + words::symbol("sigma_N") +
               ", one plot for each other input of the law. Lines: the law with that input low "
               "(dashed), at its median (solid) and high (dotted), the remaining inputs at their "
-              "medians; lines that coincide are drawn once. Thin dotted lines: the band "
-              "in which 90 % of new experiments are expected, around the median. Shades: all rows "
-              "the law was judged by, at all values of their inputs.");
+              "medians; lines that coincide are drawn once. Thin dotted lines: the band in which "
+              "90 % of new experiments are expected, around the median. Shades: all rows the law "
+              "was judged by, at all values of their inputs.");
   const svg::Axis x = rows->x(5), y = rows->y(5);
-  words::Pictures panels{"panels", {}};
+  words::Pictures panels{"panels"};
   for (std::size_t i = 0; i < drawn->sorted.size(); ++i)
     if (i != drawn->sigma && drawn->sorted[i].front() < drawn->sorted[i].back())
       panels.pictures.push_back(panel(input, *drawn, i, x, y));

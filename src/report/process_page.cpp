@@ -31,25 +31,16 @@ constexpr const char* aside = "#9aa3ad";
 constexpr std::size_t points_of_a_line = 121;
 
 // Laws that lead in colours of their own, the others thin and grey.
-class Strokes {
-public:
-  explicit Strokes(const process::Assessment& a) : laws_(a.laws) {}
-  svg::Stroke of(const LawThere& law) const {
-    constexpr const char* colours[] = {"#c2410c", "#1d5491", "#0f766e", "#7e22ce", "#a16207"};
-    constexpr const char* dashes[] = {"", "7 3", "2 3"};
-    if (!law.leads) return {aside, 1.1, law.candidate ? "2 3" : "6 3", true};
-    std::size_t place = 0;
-    for (const LawThere& other : laws_) {
-      if (&other == &law) break;
-      place += other.leads;
-    }
-    return {colours[place % std::size(colours)], 2,
-            dashes[place / std::size(colours) % std::size(dashes)], true};
-  }
-
-private:
-  const std::vector<LawThere>& laws_;
-};
+svg::Stroke law_stroke(const LawThere& law, const process::Assessment& a) {
+  constexpr const char* colours[] = {"#c2410c", "#1d5491", "#0f766e", "#7e22ce", "#a16207"};
+  constexpr const char* dashes[] = {"", "7 3", "2 3"};
+  if (!law.leads) return {aside, 1.1, law.candidate ? "2 3" : "6 3", true};
+  std::size_t place = 0;
+  for (const LawThere* other = a.laws.data(); other != &law; ++other)
+    place += other->leads;
+  return {colours[place % std::size(colours)], 2,
+          dashes[place / std::size(colours) % std::size(dashes)], true};
+}
 
 // ---- the laws over the contact normal stress ----
 
@@ -82,7 +73,7 @@ void draw_histogram(svg::Plot& plot, std::span<const double> values,
     const double at = (values[i] - axis.low) / (axis.high - axis.low) * bins;
     if (at >= 0 && at < bins) sums[static_cast<std::size_t>(at)] += weights[i];
   }
-  const double most = *std::max_element(sums.begin(), sums.end());
+  const double most = *std::ranges::max_element(sums);
   if (!(most > 0)) return;
   std::vector<double> x, y;
   for (std::size_t b = 0; b < bins; ++b)
@@ -111,8 +102,7 @@ words::Picture laws_picture(const Process& p, const Dataset& tests,
   for (const LawThere& law : a.laws) {
     lines.push_back(
         calibrate::predict(calibrate::find_fit(calibration, law.law)->delivered().model, rows));
-    if (law.leads)
-      most = std::max(most, *std::max_element(lines.back().begin(), lines.back().end()));
+    if (law.leads) most = std::max(most, *std::ranges::max_element(lines.back()));
   }
   const svg::Axis x_axis = svg::nice_axis(low, high, 6, axis_name("sigma_n_MPa")),
                   y_axis = svg::nice_axis(0, 1.15 * most, 6, axis_name("tau_R_MPa"));
@@ -121,13 +111,12 @@ words::Picture laws_picture(const Process& p, const Dataset& tests,
   const auto of_rows = tests.values("sigma_n_MPa");
   draw_histogram(plot, of_rows, std::vector<double>(of_rows.size(), 1.0), x_axis, 0.3 * y_axis.high,
                  {of_tests, 1.4, "1 2", true});
-  const Strokes strokes(a);
   std::vector<svg::EndLabel> names;
   for (std::size_t l = a.laws.size(); l-- > 0;) {
-    plot.line(x, lines[l], strokes.of(a.laws[l]));
+    plot.line(x, lines[l], law_stroke(a.laws[l], a));
     if (a.laws[l].leads)
       names.push_back({std::clamp(lines[l].back(), y_axis.low, y_axis.high), a.laws[l].law,
-                       strokes.of(a.laws[l]).colour});
+                       law_stroke(a.laws[l], a).colour});
   }
   plot.labels_beside(x.back(), names);
   return {plot.text("laws over contact normal stress at the middle of the process",
@@ -205,7 +194,7 @@ words::Section where(const Process& p, const Dataset& tests) {
   words::Section section = words::process_coverage(p);
   const auto& states = p.coverage.states;
   if (states.size() < 2) return section;
-  words::Pictures maps{"panels", {}};
+  words::Pictures maps{"panels"};
   for (std::size_t s = 1; s < states.size(); ++s)
     maps.pictures.push_back(map_picture(p, tests, states[0], states[s]));
   section.say("Shades: friction work of the process; rings: a few rows of each test, named under "
@@ -220,22 +209,20 @@ words::Picture force_picture(const Process& p) {
   const process::Tool& tool = *p.history.tool;
   const bool by_stroke = !tool.stroke_mm.empty();
   const std::vector<double>& x = by_stroke ? tool.stroke_mm : p.history.time_s;
-  double most = *std::max_element(tool.force_kN.begin(), tool.force_kN.end());
+  double most = *std::ranges::max_element(tool.force_kN);
   const process::Assessment& a = p.latest();
   for (const LawThere& law : a.laws)
-    if (law.leads)
-      most = std::max(most, *std::max_element(law.force_kN.begin(), law.force_kN.end()));
-  const svg::Axis x_axis = svg::nice_axis(0, *std::max_element(x.begin(), x.end()), 6,
-                                          by_stroke ? "stroke / mm" : "t / s");
+    if (law.leads) most = std::max(most, *std::ranges::max_element(law.force_kN));
+  const svg::Axis x_axis =
+      svg::nice_axis(0, *std::ranges::max_element(x), 6, by_stroke ? "stroke / mm" : "t / s");
   const svg::Axis y_axis = svg::nice_axis(0, most, 5, "force / kN");
   svg::Plot plot(340, 220, x_axis, y_axis);
-  const Strokes strokes(a);
   std::vector<svg::EndLabel> names;
   for (const LawThere& law : a.laws) {
-    plot.line(x, law.force_kN, strokes.of(law));
+    plot.line(x, law.force_kN, law_stroke(law, a));
     if (law.leads)
       names.push_back({std::clamp(law.force_kN.back(), y_axis.low, y_axis.high), law.law,
-                       strokes.of(law).colour});
+                       law_stroke(law, a).colour});
   }
   plot.line(x, tool.force_kN, {"#111", 2.2, "", true});
   names.push_back({std::clamp(tool.force_kN.back(), y_axis.low, y_axis.high), "yours", "#111"});

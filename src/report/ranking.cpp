@@ -105,10 +105,8 @@ words::Section ranking_with_bars(const ReportInput& input) {
   return section;
 }
 
-namespace {
-
-words::Section law_against_measurement(const ReportInput& input, std::size_t i,
-                                       const PlotFrame& frame) {
+static words::Section law_against_measurement(const ReportInput& input, std::size_t i,
+                                              const PlotFrame& frame) {
   const calibrate::ModelFit& fit = input.calibration.fits[i];
   const models::Law& law = *fit.model.law;
   const LawPlots plots = law_plots(input, i, frame);
@@ -129,8 +127,6 @@ words::Section law_against_measurement(const ReportInput& input, std::size_t i,
   return section;
 }
 
-} // namespace
-
 words::Section each_law(const ReportInput& input) {
   words::Section section{"plots", "Plots", "Each law against the measurement"};
   if (!has_plots(input)) {
@@ -139,19 +135,13 @@ words::Section each_law(const ReportInput& input) {
   }
   const PlotFrame frame = plot_frame(input);
   section.say(words::judged_words(input.calibration.judged_by).plotted +
-              ". The same axes and colours for all laws. Left: a good law "
-              "follows the line. Right, "
-              "and below over each input (not for constants of the "
-              "literature): a good law leaves a "
-              "narrow band around zero, without trend. At the right edge: the "
-              "probability density of the "
-              "residual, on one scale for all laws. Residuals stand over the "
-              "prediction and the "
-              "states, not over the measurement: its noise alone would tilt "
-              "every law. The residual "
-              "axis holds 99 % of the rows of each calibrated law. Rows are "
-              "counted in cells; each "
-              "point of the running lines stands for at least 20 rows.");
+              ". The same axes and colours for all laws. Left: a good law follows the line. Right, "
+              "and below over each input (not for constants of the literature): a good law leaves "
+              "a narrow band around zero, without trend. At the right edge: the probability "
+              "density of the residual, on one scale for all laws. Residuals stand over the "
+              "prediction and the states, not over the measurement: its noise alone would tilt "
+              "every law. The residual axis holds 99 % of the rows of each calibrated law. Rows "
+              "are counted in cells; each point of the running lines stands for at least 20 rows.");
   section.add(words::Pictures{"legends", {{plot_legend(frame)}}});
   for (std::size_t i = 0; i < input.calibration.fits.size(); ++i)
     section.add(law_against_measurement(input, i, frame));

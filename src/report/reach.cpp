@@ -21,7 +21,7 @@ std::vector<double> values_of(const ReportInput& input, const std::string& name)
     if (data->has(name))
       for (const double value : data->values(name))
         if (std::isfinite(value)) all.push_back(value);
-  std::sort(all.begin(), all.end());
+  std::ranges::sort(all);
   return all;
 }
 

@@ -113,17 +113,14 @@ std::string report_html(const ReportInput& input) {
   return html_of(page);
 }
 
-namespace {
-
-Section markdown_page(const std::string& title, bool synthetic, std::vector<Section> sections) {
+static Section markdown_page(const std::string& title, bool synthetic,
+                             std::vector<Section> sections) {
   Section page{"", "", title};
   if (synthetic) page.say(words::strong("Synthetic data: nothing here was measured."));
   for (Section& section : sections)
     if (!section.blocks.empty()) page.add(std::move(section));
   return page;
 }
-
-} // namespace
 
 std::string report_md(const ReportInput& input) {
   std::vector<Section> sections = {

@@ -59,7 +59,7 @@ std::vector<DrawnLine> drawn_lines(const table::Slice& slice, const svg::Plot& p
 
 std::string slice_svg(const table::Slice& slice) {
   const std::vector<double>& x = slice.values[0];
-  const auto [low, high] = std::minmax_element(slice.tau_MPa.begin(), slice.tau_MPa.end());
+  const auto [low, high] = std::ranges::minmax_element(slice.tau_MPa);
   svg::Plot plot(560, 360, svg::nice_axis(x.front(), x.back(), 6, axis_name(slice.along[0])),
                  svg::nice_axis(std::min(0.0, *low), *high, 6, axis_name("tau_R_MPa")));
   const bool two = slice.along.size() == 2;

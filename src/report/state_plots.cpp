@@ -2,8 +2,6 @@
 #include "report/state_plots.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -64,7 +62,7 @@ std::string residuals_over_other_inputs(const ReportInput& input, const calibrat
   std::string text;
   for (std::size_t i = 0; i < law.inputs.size(); ++i) {
     const std::string& name = law.inputs[i];
-    if (std::find(others.begin(), others.end(), name) == others.end()) continue;
+    if (std::ranges::find(others, name) == others.end()) continue;
     const auto levels = fit.model.law->levels.find(name);
     const std::string own_name = words::column_name(name, input.traces);
     const auto axis = levels != fit.model.law->levels.end()
@@ -92,14 +90,10 @@ std::string axis_name(const std::string& column) {
 }
 
 std::optional<std::pair<double, double>> span_of(std::span<const double> values) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const double value : values)
-    if (std::isfinite(value)) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  if (!(low < high)) return std::nullopt;
-  return std::pair(low, high);
+  svg::Range range;
+  range.hold(values);
+  if (!(range.low < range.high)) return std::nullopt;
+  return std::pair(range.low, range.high);
 }
 
 std::string residuals_over_states(const ReportInput& input, std::size_t law,

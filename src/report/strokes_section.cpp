@@ -76,7 +76,7 @@ words::Picture stroke_of(const data::Dataset& data, std::span<const double> pred
 
 words::Pictures strokes_of(const data::Dataset& data, std::span<const double> predicted) {
   const StrokeAxes axes = stroke_axes(data);
-  words::Pictures out{"strokes", {}};
+  words::Pictures out{"strokes"};
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
     out.pictures.push_back(stroke_of(data, predicted, e, axes));
   return out;

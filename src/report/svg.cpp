@@ -28,10 +28,9 @@ constexpr std::array<std::array<int, 3>, 5> ramp = {
 
 std::string begin_svg(double width, double height, std::string_view css, std::string_view title,
                       std::string_view description) {
-  std::string text =
-      fmt::format("<svg class=\"{}\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">"
-                  "<title>{}</title>",
-                  css, pixel(width), pixel(height), escape(title), escape(title));
+  std::string text = fmt::format(
+      "<svg class=\"{}\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\"><title>{}</title>",
+      css, pixel(width), pixel(height), escape(title), escape(title));
   if (!description.empty()) text += fmt::format("<desc>{}</desc>", escape(description));
   return text;
 }
@@ -104,9 +103,9 @@ std::string slanted_label(double x, double y, const std::string& name) {
   const std::string shown = characters(name) > longest_name
                                 ? std::string(utf8_start(name, longest_name)) + "\u2026"
                                 : name;
-  return fmt::format("<text text-anchor=\"end\" transform=\"translate({} {}) "
-                     "rotate(-40)\">{}</text>",
-                     pixel(x + 4), pixel(y), escape(shown));
+  return fmt::format(
+      "<text text-anchor=\"end\" transform=\"translate({} {}) rotate(-40)\">{}</text>",
+      pixel(x + 4), pixel(y), escape(shown));
 }
 
 // Returns one path per class: runs of neighbouring cells of a row are one rectangle.
@@ -137,10 +136,8 @@ std::string pixel(double value) {
   return text == "-0" ? "0" : text;
 }
 
-namespace {
-
 // low < high. A step is 1, 2 or 5 times a power of ten.
-Axis axis_with_ticks(double low, double high, int wanted) {
+static Axis axis_with_ticks(double low, double high, int wanted) {
   Axis axis;
   const double rough = (high - low) / std::max(wanted, 1);
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -167,8 +164,6 @@ Axis axis_with_ticks(double low, double high, int wanted) {
   axis.decimals = std::clamp(-static_cast<int>(std::floor(std::log10(step) + 1e-9)), 0, 12);
   return axis;
 }
-
-} // namespace
 
 Axis nice_axis(double low, double high, int wanted, std::string label) {
   if (!std::isfinite(low)) low = 0;
@@ -371,8 +366,7 @@ bool Plot::one_line(std::span<const double> a, std::span<const double> b) const 
 
 void Plot::labels_beside(double x, std::vector<EndLabel> labels) {
   constexpr double line = 13, gap = 10;
-  std::stable_sort(labels.begin(), labels.end(),
-                   [](const EndLabel& a, const EndLabel& b) { return a.y > b.y; });
+  std::ranges::stable_sort(labels, std::ranges::greater{}, &EndLabel::y);
   // Moves labels down from the top, then up again from the bottom.
   std::vector<double> at;
   for (const EndLabel& label : labels)
@@ -410,8 +404,8 @@ std::string Plot::axes() const {
   const double middle = top + height_ / 2;
   return fmt::format("<path class=\"grid\" d=\"{}\"/>\n{}\n"
                      "<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>"
-                     "<text class=\"label\" text-anchor=\"middle\" "
-                     "transform=\"translate(14 {}) rotate(-90)\">{}</text>\n",
+                     "<text class=\"label\" text-anchor=\"middle\" transform=\"translate(14 {}) "
+                     "rotate(-90)\">{}</text>\n",
                      grid, labels, pixel(left_ + width_ / 2),
                      pixel(top + height_ + room_below(x_) - 10), axis_label(x_.label),
                      pixel(middle), axis_label(y_.label));
@@ -429,9 +423,9 @@ std::string Plot::text(std::string_view title, std::string_view description) con
 
 std::string Plot::file(std::string_view title, std::string_view caption) const {
   constexpr std::string_view style =
-      "text{font:11px sans-serif;fill:#2b333d}.label{font-size:12px;fill:#111}.sub{font-size:9px}"
-      ".grid{stroke:#dfe4e9;stroke-width:1;fill:none}"
-      ".frame{stroke:#6b7580;stroke-width:1;fill:none}";
+      "text{font:11px "
+      "sans-serif;fill:#2b333d}.label{font-size:12px;fill:#111}.sub{font-size:9px}.grid{stroke:#"
+      "dfe4e9;stroke-width:1;fill:none}.frame{stroke:#6b7580;stroke-width:1;fill:none}";
   constexpr double line = 15;
   const double width = left_ + width_ + right_, height = top + height_ + bottom;
   std::istringstream lines(
@@ -459,8 +453,8 @@ std::string bar(const Bar& b, const Axis& axis, double width, double height) {
                         pixel(middle - 5), pixel(end), pixel(10), b.colour);
     if (cut)
       text +=
-          fmt::format("<path fill=\"none\" stroke=\"#fff\" stroke-width=\"2.5\" "
-                      "d=\"M{} {}l4 4l-4 4l4 4M{} {}l4 4l-4 4l4 4\"/>",
+          fmt::format("<path fill=\"none\" stroke=\"#fff\" stroke-width=\"2.5\" d=\"M{} {}l4 4l-4 "
+                      "4l4 4M{} {}l4 4l-4 4l4 4\"/>",
                       pixel(width - 16), pixel(middle - 6), pixel(width - 10), pixel(middle - 6));
   }
   if (std::isfinite(b.reference))
@@ -469,11 +463,10 @@ std::string bar(const Bar& b, const Axis& axis, double width, double height) {
   if (std::isfinite(b.low) && std::isfinite(b.high) && b.low < axis.high) {
     // An interval whose end is beyond the axis continues there, so it has no cap.
     const bool whole = b.high <= axis.high;
-    text += fmt::format("<path fill=\"none\" stroke=\"#111\" stroke-width=\"1.3\" "
-                        "d=\"M{} {}v8M{} {}H{}{}\"/>",
-                        pixel(along_bar(b.low)), pixel(middle - 4), pixel(along_bar(b.low)),
-                        pixel(middle), pixel(std::min(along_bar(b.high), width)),
-                        whole ? "m0 -4v8" : "");
+    text += fmt::format(
+        "<path fill=\"none\" stroke=\"#111\" stroke-width=\"1.3\" d=\"M{} {}v8M{} {}H{}{}\"/>",
+        pixel(along_bar(b.low)), pixel(middle - 4), pixel(along_bar(b.low)), pixel(middle),
+        pixel(std::min(along_bar(b.high), width)), whole ? "m0 -4v8" : "");
   }
   return text + "</svg>";
 }

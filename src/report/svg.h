@@ -2,6 +2,8 @@
 // the same input gives the same bytes. Looks (fonts, grid) come from the page's CSS classes.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -29,6 +31,18 @@ struct Axis {
   // Letters after "_" are a subscript to a Greek letter, "\u03C4_R / MPa", and
   // to one letter where a unit follows, "v_rel / (mm/s)".
   std::string label;
+};
+
+// A range that grows to hold the finite ones of the values given.
+struct Range {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  void hold(double value) {
+    if (std::isfinite(value)) *this = {std::min(low, value), std::max(high, value)};
+  }
+  void hold(std::span<const double> values) {
+    for (const double value : values)
+      hold(value);
+  }
 };
 
 // Moves low and high outwards to ticks, about `wanted` of them; an end that a tick would move by

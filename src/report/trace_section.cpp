@@ -96,13 +96,11 @@ TestPoints test_points(const data::Dataset& data, Values x, Values residual) {
 }
 
 svg::Axis axis_of(const TestPoints& points) {
-  double low = 0, high = 0;
+  svg::Range range{0, 0};
   for (std::size_t i = 0; i < points.residual.size(); ++i)
-    if (std::isfinite(points.residual[i])) {
-      low = std::min(low, points.residual[i] - points.error[i]);
-      high = std::max(high, points.residual[i] + points.error[i]);
-    }
-  return svg::nice_axis(low, high, 5, "mean residual / MPa");
+    for (const double error : {-points.error[i], points.error[i]})
+      range.hold(points.residual[i] + error);
+  return svg::nice_axis(range.low, range.high, 5, "mean residual / MPa");
 }
 
 std::string tests_plot(const TestPoints& points, const svg::Axis& x_axis, const svg::Axis& y_axis,
@@ -112,32 +110,29 @@ std::string tests_plot(const TestPoints& points, const svg::Axis& x_axis, const 
   plot.line(ends, zero, {"#222", 1, "", false});
   plot.error_bars(points.x, points.residual, points.error, "#6595c4");
   plot.dots(points.x, points.residual, points.text, points.x.size() > 60 ? 2.5 : 3.5, "#1d5491");
-  return plot.text(title, "one dot per test, named under the pointer, with the standard error of "
-                          "its mean");
+  return plot.text(
+      title, "one dot per test, named under the pointer, with the standard error of its mean");
 }
 
 std::string curve_plot(const trace::TracedEffect& effect, const svg::Axis& x_axis) {
   const trace::EffectCurve& c = effect.curve;
-  double low = 1, high = 1;
-  for (const auto* values : {&c.low, &c.high})
-    for (const double v : *values)
-      if (std::isfinite(v)) {
-        low = std::min(low, v);
-        high = std::max(high, v);
-      }
-  const double margin = 0.6 * (high - low);
+  svg::Range range{1, 1};
+  range.hold(c.low);
+  range.hold(c.high);
+  const double margin = 0.6 * (range.high - range.low);
   const effects::PlacedEffect& placed = effect.placed;
   const std::string what = placed.acts_on == effects::ActsOn::tau
                                ? fmt::format("1 + addition / {:.4g} MPa", placed.tau_scale_MPa)
                                : std::string("factor ") + words::site_text(placed.acts_on);
-  const svg::Axis y_axis = svg::nice_axis(low - margin, high + margin, 5, what);
+  const svg::Axis y_axis = svg::nice_axis(range.low - margin, range.high + margin, 5, what);
   svg::Plot plot(plot_width, plot_height, x_axis, y_axis);
   if (!c.point_x.empty()) draw_cloud(plot, c.point_x, c.point_factor, x_axis, y_axis);
   plot.line(c.x, c.low, {"#1d4ed8", 1, "4 3", true});
   plot.line(c.x, c.high, {"#1d4ed8", 1, "4 3", true});
   plot.line(c.x, c.factor, {"#1d4ed8", 2.5, "", true});
-  return plot.text("the effect", "its factor with a 95 % band, over partial residuals of the "
-                                 "training experiments");
+  return plot.text(
+      "the effect",
+      "its factor with a 95 % band, over partial residuals of the training experiments");
 }
 
 // Residual of a law at the tests that judge.
@@ -158,11 +153,11 @@ std::string effect_plots(const ReportInput& input, const trace::Trace& trace,
       calibrate::input_columns(law, law.inputs, input.validation);
   const effects::EffectInput& input_of_effect = effect.placed.inputs[0];
   const auto column = static_cast<std::size_t>(
-      std::find(law.inputs.begin(), law.inputs.end(), effects::symbol_of(input_of_effect.column)) -
+      std::ranges::find(law.inputs, effects::symbol_of(input_of_effect.column)) -
       law.inputs.begin());
   const Values x = columns[column];
   const std::vector<double> r0 = residuals_of(input, *own), r1 = residuals_of(input, *extended);
-  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  const auto [low, high] = std::ranges::minmax_element(x);
   const std::string label = axis_name(input_of_effect.column);
   const svg::Axis x_axis = effect.placed.form->categorical
                                ? svg::named_axis(input_of_effect.levels, label)
@@ -177,7 +172,7 @@ std::string effect_plots(const ReportInput& input, const trace::Trace& trace,
            tests_plot(test_points(input.validation, x, r1), x_axis, means, after_title);
   }
   std::vector<double> sorted = r0;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   const svg::Axis y_axis =
       svg::nice_axis(quantile(sorted, 0.005), quantile(sorted, 0.995), 5, "residual / MPa");
   return residual_plot({x, r0}, x_axis, y_axis, before_title) + curve_plot(effect, x_axis) +

@@ -60,8 +60,8 @@ std::vector<std::string> Checkpoint::calibration_files() const {
   std::vector<std::string> written = stage_named("calibrate").writes();
   written.insert(written.end(), of_trace.begin(), of_trace.end());
   for (const std::string& path : files_.all_files())
-    if (std::any_of(written.begin(), written.end(),
-                    [&](const std::string& start) { return path.starts_with(start); }))
+    if (std::ranges::any_of(written,
+                            [&](const std::string& start) { return path.starts_with(start); }))
       files.push_back(path);
   return files;
 }

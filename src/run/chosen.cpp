@@ -6,6 +6,7 @@
 #include "calibrate/band.h"
 #include "calibrate/recommended.h"
 #include "core/error.h"
+#include "core/names.h"
 #include "core/text.h"
 
 namespace frictab::run {
@@ -17,7 +18,7 @@ namespace {
 using Fits = std::vector<const ModelFit*>;
 
 void add_once(Fits& fits, const ModelFit& fit) {
-  if (std::find(fits.begin(), fits.end(), &fit) == fits.end()) fits.push_back(&fit);
+  if (std::ranges::find(fits, &fit) == fits.end()) fits.push_back(&fit);
 }
 
 // True for constants of the literature and means: references to compare with, which tracing does
@@ -78,9 +79,8 @@ const ModelFit& fit_named(const calibrate::Calibration& calibration, const std::
   if (name == "recommended") return calibrate::recommended_fit(calibration);
   const Fits fits = fits_named(calibration, name);
   if (!fits.empty()) return *fits.front();
-  std::vector<std::string> known;
-  for (const ModelFit& fit : calibration.fits)
-    known.push_back(fit.model.law->name);
+  const auto known =
+      all_names(calibration.fits, [](const ModelFit& fit) { return fit.model.law->name; });
   throw InputError({}, "law '" + name + "' was not calibrated", suggest(name, known));
 }
 

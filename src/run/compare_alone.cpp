@@ -113,8 +113,7 @@ std::vector<Finding> compare_alone(const std::string& table_file, const std::str
       findings.push_back(std::move(finding));
     }
   }
-  const bool fine = std::none_of(findings.begin(), findings.end(),
-                                 [](const Finding& finding) { return finding.failed; });
+  const bool fine = std::ranges::none_of(findings, &Finding::failed);
   for (const auto& [file, folder] : {std::pair{table_file, "tables"}, {model_file, "models"}})
     if (fine && !is_as_recorded(file, folder).value_or(true))
       findings.push_back({"", file, "", "was changed since it was written, says stages.json", ""});

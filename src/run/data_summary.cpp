@@ -28,7 +28,7 @@ const char* const uses[] = {"train", "validate"};
 std::vector<std::string> notes_of(const JobData& data) {
   std::vector<std::string> notes = data.training.notes;
   for (const std::string& note : data.validation.notes)
-    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+    if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
   return notes;
 }
 

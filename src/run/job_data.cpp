@@ -66,7 +66,7 @@ void check_export_inputs(const codegen::ExportOptions& exports, const data::Data
   for (const auto& [key, place] : exports.input_places) {
     const std::size_t dot = key.rfind('.');
     const std::string name = key.substr(dot + 1);
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (std::ranges::find(known, name) == known.end())
       faults.add(
           place,
           fmt::format("'{}' in [{}] is not a state, history or column", name, key.substr(0, dot)),
@@ -79,7 +79,7 @@ void check_export_inputs(const codegen::ExportOptions& exports, const data::Data
 std::vector<std::string> unused_by_both(const data::Dataset& a, const data::Dataset& b) {
   std::vector<std::string> both;
   for (const std::string& name : a.unused)
-    if (std::find(b.unused.begin(), b.unused.end(), name) != b.unused.end()) both.push_back(name);
+    if (std::ranges::find(b.unused, name) != b.unused.end()) both.push_back(name);
   return both;
 }
 
@@ -174,7 +174,7 @@ std::set<std::string> columns_of_laws(const calibrate::ModelOptions& options) {
   std::set<std::string> names;
   const auto& use = options.use;
   for (const auto& law : options.laws.own())
-    if (law->build && (use.empty() || std::count(use.begin(), use.end(), law->name) > 0))
+    if (law->build && (use.empty() || std::ranges::count(use, law->name) > 0))
       for (const std::string& name : models::inputs(*law, {.shear_limit = false}))
         if (!data::find_quantity(name) && !data::find_derived(name)) names.insert(name);
   return names;
@@ -185,7 +185,7 @@ void check_files(const data::DataOptions& options) {
   const auto training = data::find_files(options.training, options.base, options.place);
   std::vector<std::string> all = data::find_files(options.validation, options.base, options.place);
   for (const std::string& file : training)
-    if (std::find(all.begin(), all.end(), file) != all.end())
+    if (std::ranges::find(all, file) != all.end())
       throw InputError(options.place,
                        fmt::format("'{}' is in data.training and in data.validation", file),
                        "a test that validates is none of those to calibrate on");

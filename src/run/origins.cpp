@@ -76,9 +76,8 @@ void check_all_there(const Run& run) {
     if (const std::string file = run.path(model_path(fit)); !fs::exists(file))
       faults.add({file, 0, 0}, "no such file", mend);
   for (const models::Model& model : models_to_tabulate(*run.calibration, run.job.table)) {
-    const bool is_there =
-        std::any_of(run.tables.begin(), run.tables.end(),
-                    [&](const Table& table) { return table.model == model.name(); });
+    const bool is_there = std::ranges::any_of(
+        run.tables, [&](const Table& table) { return table.model == model.name(); });
     if (!is_there)
       faults.add({run.path("tables/" + model.name() + ".h5"), 0, 0}, "no such file", mend);
   }
@@ -122,7 +121,7 @@ verify::DriftRecord drift_to_tolerance(const Run& run, const models::AssembledLa
 }
 
 bool any_drift_figure(const std::vector<Finding>& findings) {
-  return std::any_of(findings.begin(), findings.end(), verify::is_drift_figure);
+  return std::ranges::any_of(findings, verify::is_drift_figure);
 }
 
 } // namespace
@@ -144,14 +143,12 @@ std::vector<Finding> compare_table(const Run& run, const models::AssembledLaw& l
   const double claimed = table.record.proven_drift_MPa.value_or(HUGE_VAL);
   if (as_written && drift.worst_case_MPa <= claimed)
     std::erase_if(findings, verify::is_drift_figure);
-  const bool right = std::none_of(findings.begin(), findings.end(),
-                                  [](const Finding& finding) { return finding.failed; });
+  const bool right = std::ranges::none_of(findings, &Finding::failed);
   if (right && !as_written) {
     append(findings, found_on(nullptr, drift));
     if (findings.empty() && recorded)
       findings.push_back({"", file, "",
-                          "is not stored as it was written; its values and attributes "
-                          "are right",
+                          "is not stored as it was written; its values and attributes are right",
                           "", false});
   }
   return completed(run, table.model, std::move(findings));

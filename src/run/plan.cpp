@@ -79,13 +79,12 @@ private:
   PlannedStage stage_before(const std::string& stage, const std::string& command) const {
     const bool is_there = stage_named(stage).is_there(earlier_, stages_);
     if (!is_there && !stage_named(command).makes_missing)
-      return {
-          stage,
-          Action::refuse,
-          fmt::format("missing, and `{}` makes nothing: `frictab {} {}` makes it, `frictab run` "
-                      "all",
-                      command, stage, job_.arguments()),
-          {}};
+      return {stage,
+              Action::refuse,
+              fmt::format(
+                  "missing, and `{}` makes nothing: `frictab {} {}` makes it, `frictab run` all",
+                  command, stage, job_.arguments()),
+              {}};
     if (!is_there) return {stage, Action::run, "there is none: it is made first", writes(stage)};
     const std::string why = stages_.stale(stage, key_);
     if (why.empty()) return {stage, Action::keep, "", {}};
@@ -151,8 +150,8 @@ private:
 } // namespace
 
 bool Plan::refused() const {
-  return std::any_of(stages.begin(), stages.end(),
-                     [](const PlannedStage& one) { return one.action == Action::refuse; });
+  return std::ranges::any_of(stages,
+                             [](const PlannedStage& one) { return one.action == Action::refuse; });
 }
 
 Plan plan_of(const job::Job& job, const std::string& command) {
@@ -167,10 +166,9 @@ std::string plan_text(const Plan& plan) {
     for (const std::string& file : stage.writes)
       text += fmt::format("          {}\n", file);
   }
-  return text + (plan.refused() ? "stops before anything is written\n"
-                                : "into " + plan.directory +
-                                      ", with stages.json; nothing was "
-                                      "written now\n");
+  return text + (plan.refused()
+                     ? "stops before anything is written\n"
+                     : "into " + plan.directory + ", with stages.json; nothing was written now\n");
 }
 
 std::string plan_json(const Plan& plan) {

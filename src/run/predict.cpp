@@ -41,7 +41,7 @@ constexpr double band_low = 0.05, band_high = 0.95;
 // True if an input is a recorded column that a traced effect added; otherwise recorded columns need
 // not be kept in memory.
 bool takes_recorded_columns(const std::vector<std::string>& inputs) {
-  return std::any_of(inputs.begin(), inputs.end(), [](const std::string& name) {
+  return std::ranges::any_of(inputs, [](const std::string& name) {
     return !data::find_quantity(name) && !data::find_derived(name);
   });
 }
@@ -60,7 +60,7 @@ data::Dataset load_rows(data::ReadRequest mapping, const std::vector<std::string
   mapping.bystanders.reset(); // the job's list is for its own files
   if (!takes_recorded_columns(inputs)) mapping.bystanders.emplace();
   data::Dataset rows = data::load_dataset({file}, mapping);
-  if (std::count(inputs.begin(), inputs.end(), data::direction_column) > 0)
+  if (std::ranges::count(inputs, data::direction_column) > 0)
     data::add_direction(std::array{&rows});
   return rows;
 }
@@ -112,17 +112,18 @@ void add_outside(Prediction& p) {
         any[row] = 1;
       }
   }
-  p.rows_outside = static_cast<std::size_t>(std::count(any.begin(), any.end(), 1));
+  p.rows_outside = static_cast<std::size_t>(std::ranges::count(any, 1));
 }
 
 void check_data_range(const calibrate::ModelFit& fit, const std::vector<std::string>& inputs) {
   for (const std::string& name : inputs)
     if (!fit.data_range.count(name))
-      throw InputError({},
-                       fmt::format("the file of {} does not say what the data of its calibration "
-                                   "reached along {}",
-                                   fit.model.law->name, name),
-                       "calibrate again with this version");
+      throw InputError(
+          {},
+          fmt::format(
+              "the file of {} does not say what the data of its calibration reached along {}",
+              fit.model.law->name, name),
+          "calibrate again with this version");
 }
 
 // Checks the calibration as later stages do, except for its data, which prediction does not need.

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 void add_once(std::vector<std::string>& names, const std::string& name) {
-  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  if (std::ranges::find(names, name) == names.end()) names.push_back(name);
 }
 
 // Adds the stems of files named like a model: no registry has the names of laws with traced effects
@@ -49,7 +49,7 @@ std::vector<std::string> ResultDirectory::all_files() const {
   for (const auto& entry : fs::recursive_directory_iterator(directory_))
     if (entry.is_regular_file())
       files.push_back(entry.path().lexically_relative(directory_).string());
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 
@@ -85,17 +85,13 @@ std::vector<fs::path> ResultDirectory::all_tables() const {
   return files;
 }
 
-namespace {
-
 // Checks that the file has the name of its table's model, because all stages find tables by file
 // name.
-void check_model(const table::Table& table, const fs::path& file) {
+static void check_model(const table::Table& table, const fs::path& file) {
   if (table.model == file.stem()) return;
   throw InputError({file.string(), 0, 0}, "holds a table of '" + table.model + "'",
                    "tabulate again; a table from elsewhere is for `frictab export --table`");
 }
-
-} // namespace
 
 std::vector<table::Table> ResultDirectory::tables() const {
   std::vector<table::Table> tables;

@@ -87,14 +87,13 @@ const std::vector<Stage>& all_stages() {
 }
 
 const Stage& stage_named(std::string_view name) {
-  return *std::find_if(all_stages().begin(), all_stages().end(),
-                       [&](const Stage& stage) { return stage.name == name; });
+  return *std::ranges::find(all_stages(), name, &Stage::name);
 }
 
 Run::Run(job::Job of_job) : job(std::move(of_job)), workspace(job) {
   if (!workspace.is_exclusive())
-    notes.push_back(job.directory + " is on a file system without locks: run one frictab at a "
-                                    "time there");
+    notes.push_back(job.directory +
+                    " is on a file system without locks: run one frictab at a time there");
 }
 
 std::string Run::path(const std::string& result) const {
@@ -109,6 +108,14 @@ void Run::finish(const std::string& stage) {
   workspace.record(stage, data_fingerprint());
   present.insert(stage);
   made.insert(stage);
+}
+
+bool Run::is_current(const std::string& stage, std::string_view wanted_by) {
+  workspace.check_as_written(stage, stage + ".json");
+  const std::string why = workspace.record().stale(stage, data_fingerprint());
+  if (!why.empty())
+    notes.push_back(fmt::format("{}.json is not in the {}: {}", stage, wanted_by, why));
+  return why.empty();
 }
 
 namespace {

@@ -60,6 +60,9 @@ struct Run {
   std::string data_fingerprint() const;              // empty if no data were read
   // Records a finished stage for stages.json and adds it to `present`.
   void finish(const std::string& stage);
+  // Returns true if STAGE.json of an earlier run can be taken; else a note gives the reason. Throws
+  // InputError if the file was changed.
+  bool is_current(const std::string& stage, std::string_view wanted_by);
 };
 
 // Runs one stage. First puts the values of the stages it needs into the run: loads current results

@@ -37,7 +37,7 @@ void write_sources(Run& run, const codegen::Exporter& exporter,
                    const codegen::ExportRequest& request, const std::string& directory) {
   codegen::SourceBundle& bundle = run.sources[directory] = exporter.generate(request);
   const std::string caution = exporter.caution(request);
-  if (!caution.empty() && std::find(run.notes.begin(), run.notes.end(), caution) == run.notes.end())
+  if (!caution.empty() && std::ranges::find(run.notes, caution) == run.notes.end())
     run.notes.push_back(caution);
   for (const auto& [path, text] : bundle)
     run.workspace.write(directory + "/" + path, text);
@@ -69,10 +69,9 @@ codegen::ExportRequest export_request(const job::Job& job, const std::string& ta
 void export_sources(Run& run) {
   const auto targets = codegen::exporters_named(run.job.exports.targets);
   for (const auto& [target, inputs] : run.job.exports.inputs_of_target)
-    if (std::find(targets.begin(), targets.end(), codegen::find_exporter(target)) == targets.end())
-      run.notes.push_back(fmt::format("[export.{0}.inputs] is not used: {0} is not among "
-                                      "export.targets",
-                                      target));
+    if (std::ranges::find(targets, codegen::find_exporter(target)) == targets.end())
+      run.notes.push_back(
+          fmt::format("[export.{0}.inputs] is not used: {0} is not among export.targets", target));
   run.workspace.remove_earlier(run.workspace.earlier().source_files(), "export/");
   FaultList faults; // of all targets: one may accept what another refuses
   std::set<const codegen::Exporter*> refused;

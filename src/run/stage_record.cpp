@@ -34,7 +34,7 @@ std::optional<bool> is_as_recorded(const std::filesystem::path& file,
 
 // True if later stages read this file of the stage; "models/" is a whole folder.
 bool is_result(const Stage& stage, std::string_view path) {
-  return std::any_of(stage.results.begin(), stage.results.end(), [&](const std::string& result) {
+  return std::ranges::any_of(stage.results, [&](const std::string& result) {
     return result.ends_with("/") ? path.starts_with(result) : path == result;
   });
 }

@@ -26,27 +26,28 @@ std::string campaign_name(const std::string& job_file) {
   return file.filename() == "job.toml" && !folder.empty() ? folder : file.filename().string();
 }
 
+// The file that this run has made, otherwise that in the directory.
+fs::path newest(const Run& run, const std::string& path) {
+  const std::vector<std::string> made = run.workspace.files();
+  return std::ranges::find(made, path) != made.end() ? run.workspace.staged(path)
+                                                     : fs::path(run.path(path));
+}
+
 // Recipes of the sources made in this run, otherwise of those in the directory.
 std::vector<words::Recipe> recipes_of(const Run& run) {
-  const std::vector<std::string> staged = run.workspace.files();
   std::vector<words::Recipe> found;
   for (const codegen::Exporter* exporter : codegen::exporters_named(run.job.exports.targets))
     for (const Table& table : run.tables) {
       const std::string path = export_directory(run, exporter->name, table) + "/recipe.json";
-      const fs::path file = std::find(staged.begin(), staged.end(), path) != staged.end()
-                                ? run.workspace.staged(path)
-                                : fs::path(run.job.directory) / path;
-      if (fs::exists(file)) found.push_back({path, io::read_file(file)});
+      if (const fs::path file = newest(run, path); fs::exists(file))
+        found.push_back({path, io::read_file(file)});
     }
   return found;
 }
 
 // States of the process judged in this command, or else earlier; empty without one.
 std::map<std::string, std::vector<double>> states_of_process(const Run& run) {
-  const std::vector<std::string> staged = run.workspace.files();
-  const bool is_new = std::find(staged.begin(), staged.end(), "process.json") != staged.end();
-  const fs::path file =
-      is_new ? run.workspace.staged("process.json") : fs::path(run.job.directory) / "process.json";
+  const fs::path file = newest(run, "process.json");
   if (!fs::exists(file)) return {};
   return io::parse_json(io::read_file(file), file.string())
       .value("states", std::map<std::string, std::vector<double>>());

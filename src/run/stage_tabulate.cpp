@@ -40,8 +40,7 @@ void measure_drift(Run& run, const models::AssembledLaw& law, Table& table) {
   if (!drift.passed && to_tolerance)
     run.missed.push_back(
         fmt::format("the table of {} drifts by up to {:.3g} MPa, more than the {:.3g} MPa "
-                    "allowed{}: more nodes "
-                    "in [table.axes], or a larger table.tolerance_MPa",
+                    "allowed{}: more nodes in [table.axes], or a larger table.tolerance_MPa",
                     table.model, verify::largest_drift_MPa(drift), drift.allowed_MPa,
                     drift.allowed_from.empty() ? "" : " (" + drift.allowed_from + ")"));
   verify::set_drift(table.record, drift);
@@ -77,8 +76,8 @@ void keep_named(std::vector<Table>& tables, const table::TableOptions& options,
     const models::ModelName name = models::read_model_name(table.model, laws);
     std::string law = table.model; // name without the quantile
     if (name.base) law = name.base->name + (name.traced ? "_traced" : "");
-    return std::find(names.begin(), names.end(), law) != names.end() ||
-           std::find(names.begin(), names.end(), table.model) != names.end();
+    return std::ranges::find(names, law) != names.end() ||
+           std::ranges::find(names, table.model) != names.end();
   };
   std::erase_if(tables, [&](const Table& table) { return !is_named(table); });
   if (tables.empty())
@@ -93,11 +92,12 @@ void check_origin(Run& run, Table& table, bool to_verify) {
   const std::string wanted = run.calibration->data_hash;
   const std::string hash = table.record.data_hash.value_or(wanted);
   if (hash != wanted)
-    throw InputError({file, 0, 0},
-                     fmt::format("was made from other data: their fingerprint is {}, that of "
-                                 "calibration.json is {}",
-                                 hash, wanted),
-                     "`frictab tabulate " + run.job.arguments() + "` rebuilds it");
+    throw InputError(
+        {file, 0, 0},
+        fmt::format(
+            "was made from other data: their fingerprint is {}, that of calibration.json is {}",
+            hash, wanted),
+        "`frictab tabulate " + run.job.arguments() + "` rebuilds it");
   const std::optional<bool> as_written = run.workspace.record().is_as_written(path_of(table.model));
   table.drift_is_claimed = !as_written.value_or(false);
   if (as_written.value_or(true)) return;
@@ -136,8 +136,7 @@ void tabulate_laws(Run& run) {
     progress.tick();
   }
   // Sorts by name, the order in which later stages load them.
-  std::sort(run.tables.begin(), run.tables.end(),
-            [](const Table& a, const Table& b) { return a.model < b.model; });
+  std::ranges::sort(run.tables, {}, &Table::model);
   run.finish("tabulate");
 }
 

@@ -36,17 +36,17 @@ in_order_of(const std::vector<std::string>& names,
 // are more. Returns true if it moved the law.
 bool put_before_its_law(std::vector<ModelFit>& fits, const trace::Trace& trace) {
   const auto with_name = [&](const std::string& name) {
-    return std::find_if(fits.begin(), fits.end(),
-                        [&](const ModelFit& fit) { return fit.model.name() == name; });
+    return std::ranges::find_if(fits,
+                                [&](const ModelFit& fit) { return fit.model.name() == name; });
   };
   const auto traced = with_name(trace.extended_model), own = with_name(trace.model);
   if (trace.unseen == "validation" || trace.effects.empty() || traced == fits.end() || traced < own)
     return false;
-  traced->remarks.push_back(fmt::format(
-      "stands before {} by the {} left-out tests of its trace, {:.4g} MPa there against {:.4g}: "
-      "the validation tests are {}",
-      trace.model, trace.after.validation.n_experiments, trace.after.validation.mae_MPa,
-      trace.before.validation.mae_MPa, traced->validation.n_experiments));
+  traced->remarks.push_back(
+      fmt::format("stands before {} by the {} left-out tests of its trace, {:.4g} MPa there "
+                  "against {:.4g}: the validation tests are {}",
+                  trace.model, trace.after.validation.n_experiments, trace.after.validation.mae_MPa,
+                  trace.before.validation.mae_MPa, traced->validation.n_experiments));
   std::rotate(own, traced, traced + 1);
   return true;
 }
@@ -84,10 +84,9 @@ void add_traced_laws(Calibration& calibration, std::vector<trace::Trace>& traces
     fit.over_all = in_order_of(calibration.all_experiments, fit.over_all);
     calibration.fits.push_back(std::move(fit));
   }
-  std::stable_sort(calibration.fits.begin(), calibration.fits.end(),
-                   [](const ModelFit& a, const ModelFit& b) {
-                     return a.validation.mae_MPa < b.validation.mae_MPa;
-                   });
+  std::ranges::stable_sort(calibration.fits, [](const ModelFit& a, const ModelFit& b) {
+    return a.validation.mae_MPa < b.validation.mae_MPa;
+  });
   calibrate::add_comparisons(calibration, input);
   // Laws without an effect that is proven, or ranked after their extension by the left-out tests.
   std::vector<std::string> overruled;
@@ -120,12 +119,7 @@ void trace_laws(Run& run) {
 }
 
 void load_traces(Run& run, std::string_view wanted_by) {
-  run.workspace.check_as_written("trace", "trace.json");
-  const std::string why = run.workspace.record().stale("trace", run.data_fingerprint());
-  if (why.empty())
-    run.traces = run.workspace.earlier().traces();
-  else
-    run.notes.push_back(fmt::format("trace.json is not in the {}: {}", wanted_by, why));
+  if (run.is_current("trace", wanted_by)) run.traces = run.workspace.earlier().traces();
 }
 
 } // namespace frictab::run

@@ -53,7 +53,7 @@ void compare_with_origins(Run& run, const Table& table, const models::AssembledL
   std::vector<verify::Finding>& findings = run.verification->findings;
   const auto add = [&](const std::vector<verify::Finding>& more) {
     findings.insert(findings.end(), more.begin(), more.end());
-    return std::any_of(more.begin(), more.end(), [](const auto& one) { return one.failed; });
+    return std::ranges::any_of(more, &verify::Finding::failed);
   };
   const bool differs =
       run.made.count("tabulate") == 0 && add(compare_table(run, law, table, drift));
@@ -85,8 +85,8 @@ void verify_tables(Run& run) {
   Progress progress("verifying", run.tables.size());
   for (const Table& table : run.tables) {
     std::vector<verify::DriftRecord> records;
-    std::copy_if(kept.begin(), kept.end(), std::back_inserter(records),
-                 [&](const verify::DriftRecord& r) { return r.model == table.model; });
+    std::ranges::copy_if(kept, std::back_inserter(records),
+                         [&](const verify::DriftRecord& r) { return r.model == table.model; });
     const bool is_kept = !records.empty();
     const models::AssembledLaw law = law_of(run, table);
     if (!is_kept) records = records_of(run, table, law);
@@ -104,12 +104,8 @@ void verify_tables(Run& run) {
 }
 
 void load_verification(Run& run, std::string_view wanted_by) {
-  run.workspace.check_as_written("verify", "verify.json");
-  const std::string why = run.workspace.record().stale("verify", run.data_fingerprint());
-  if (why.empty())
+  if (run.is_current("verify", wanted_by))
     run.verification = run.workspace.earlier().verification();
-  else
-    run.notes.push_back(fmt::format("verify.json is not in the {}: {}", wanted_by, why));
   if (!run.verification) run.verification.emplace();
 }
 

@@ -2,7 +2,6 @@
 #include "run/summary.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -44,14 +43,11 @@ std::string file_list(const std::vector<std::string>& files) {
 std::string next_step(const Run& run) {
   const std::vector<std::string> files = run.workspace.files();
   const auto wrote = [&](std::string_view start) {
-    return std::any_of(files.begin(), files.end(),
-                       [&](const std::string& file) { return file.starts_with(start); });
+    return std::ranges::any_of(files,
+                               [&](const std::string& file) { return file.starts_with(start); });
   };
-  const std::string page = (std::filesystem::path(run.job.directory) / "report.html").string();
-  if (wrote("report.html")) return "open " + shell_word(page);
-  if (wrote("process.html"))
-    return "open " +
-           shell_word((std::filesystem::path(run.job.directory) / "process.html").string());
+  for (const char* page : {"report.html", "process.html"})
+    if (wrote(page)) return "open " + shell_word(run.path(page));
   const std::string job = " " + run.job.arguments();
   if (wrote("verify.json"))
     return run.verification->passed() && run.missed.empty()

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/names.h"
 #include "core/text.h"
 #include "io/csv.h"
 #include "io/text_file.h"
@@ -25,13 +26,6 @@ io::CsvTable parse(std::string_view text, const std::string& file,
   io::CsvTable table = io::parse_csv(text, file, format, faults);
   faults.throw_if_any();
   return table;
-}
-
-std::vector<std::string> names_of(const io::CsvTable& table) {
-  std::vector<std::string> names;
-  for (const io::CsvColumn& column : table.columns)
-    names.push_back(column.name);
-  return names;
 }
 
 Column cells_of(const io::CsvColumn& column, std::size_t rows) {
@@ -56,12 +50,12 @@ std::vector<std::string> parts_of(const std::string& cell) {
 
 void check_names(const std::vector<std::string>& names, const Place& place, FaultList& faults) {
   for (const char* needed : {"name", "files"})
-    if (std::find(names.begin(), names.end(), needed) == names.end())
+    if (std::ranges::find(names, needed) == names.end())
       faults.add(place, fmt::format("there is no column {}", needed),
                  "the list has the columns name and files, and one per factor");
   std::vector<std::string> sorted = names;
-  std::sort(sorted.begin(), sorted.end());
-  if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
+  std::ranges::sort(sorted);
+  if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
     faults.add(place, fmt::format("column {} stands twice", *twice));
 }
 
@@ -72,7 +66,8 @@ std::vector<WrittenCampaign> read_campaign_list(const std::string& file) {
 }
 
 std::vector<WrittenCampaign> parse_campaign_list(std::string_view text, const std::string& file) {
-  const std::vector<std::string> names = names_of(parse(text, file, {}));
+  const std::vector<std::string> names =
+      all_names(parse(text, file, {}).columns, &io::CsvColumn::name);
   const io::CsvTable table = parse(text, file, names);
   FaultList faults;
   check_names(names, {file, table.header_line, 0}, faults);

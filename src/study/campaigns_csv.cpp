@@ -63,8 +63,8 @@ const char* may_be_best(const LawResult& law) {
 } // namespace
 
 bool is_campaigns_column(std::string_view name) {
-  return std::find(front.begin(), front.end(), name) != front.end() ||
-         std::find(back.begin(), back.end(), name) != back.end();
+  return std::ranges::find(front, name) != front.end() ||
+         std::ranges::find(back, name) != back.end();
 }
 
 void write_header(std::ostream& out, const Study& study) {

@@ -62,12 +62,11 @@ words::Section first_campaigns(const Plan& plan, const Tally& tally) {
           ? fmt::format("The first {} of {}, of each its first {} laws.",
                         thousands(tally.shown.size()), thousands(tally.counts.done), most_laws)
           : fmt::format("Of each its first {} laws.", most_laws);
-  section.say(
-      "Mean absolute error of each law with its 95 % interval, all on the same axis in MPa. "
-      "A disc: the best law, or one as good; a ring: another law is better. " +
-      first);
+  section.say("Mean absolute error of each law with its 95 % interval, all on the same axis in "
+              "MPa. A disc: the best law, or one as good; a ring: another law is better. " +
+              first);
   const svg::Axis axis = shared_axis(tally);
-  words::Pictures pictures{"strokes", {}};
+  words::Pictures pictures{"strokes"};
   for (const Shown& one : tally.shown) {
     const Campaign& campaign = plan.study.campaigns[one.campaign];
     pictures.pictures.push_back(

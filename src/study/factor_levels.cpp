@@ -10,9 +10,7 @@
 
 namespace frictab::study {
 
-namespace {
-
-FactorLevels levels_of(const Study& study, std::size_t factor) {
+static FactorLevels levels_of(const Study& study, std::size_t factor) {
   FactorLevels out{study.factors[factor], {}, {}};
   std::set<std::string> levels;
   for (const Campaign& campaign : study.campaigns)
@@ -20,14 +18,12 @@ FactorLevels levels_of(const Study& study, std::size_t factor) {
   out.levels.assign(levels.begin(), levels.end());
   for (const Campaign& campaign : study.campaigns) {
     const std::string& level = campaign.factors[factor];
-    const auto at = std::lower_bound(out.levels.begin(), out.levels.end(), level);
+    const auto at = std::ranges::lower_bound(out.levels, level);
     out.level_of.push_back(level.empty() ? out.levels.size()
                                          : static_cast<std::size_t>(at - out.levels.begin()));
   }
   return out;
 }
-
-} // namespace
 
 std::vector<FactorLevels> factors_of(const Study& study, std::vector<std::string>& notes) {
   std::vector<FactorLevels> factors;
@@ -36,9 +32,9 @@ std::vector<FactorLevels> factors_of(const Study& study, std::vector<std::string
     if (one.levels.size() < 2)
       notes.push_back(fmt::format("Factor {}: every campaign has the same level.", one.name));
     else if (one.levels.size() > most_levels)
-      notes.push_back(fmt::format("Factor {}: {} levels are more than a page shows; campaigns.csv "
-                                  "has them.",
-                                  one.name, thousands(one.levels.size())));
+      notes.push_back(
+          fmt::format("Factor {}: {} levels are more than a page shows; campaigns.csv has them.",
+                      one.name, thousands(one.levels.size())));
     else
       factors.push_back(std::move(one));
   }

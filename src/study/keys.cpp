@@ -26,7 +26,7 @@ std::uint64_t hash_of_data(const std::string& base, const std::string& file, Wat
 
 // Whether rules match a file's folders; then these are part of the key.
 bool looks_at_folders(const data::DataOptions& options) {
-  return std::any_of(options.files.begin(), options.files.end(), [](const data::FileRule& rule) {
+  return std::ranges::any_of(options.files, [](const data::FileRule& rule) {
     return (rule.match + rule.from_name).find('/') != std::string::npos;
   });
 }

@@ -7,7 +7,6 @@
 #include "core/no_value.h"
 #include "core/text.h"
 #include "report/svg.h"
-#include "study/law_order.h"
 #include "study/page_sections.h"
 #include "study/row_plot.h"
 #include "words/numbers.h"
@@ -106,24 +105,19 @@ std::string level_sentence(const Level& all, const std::vector<FactorLevels>& fa
 
 std::string parameter_plot(const std::string& name, const std::vector<Level>& levels) {
   std::vector<PlotRow> rows;
-  double low = INFINITY, high = -INFINITY;
-  const auto cover = [&](double value) {
-    if (!std::isfinite(value)) return;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  };
+  svg::Range range;
   for (const Level& level : levels) {
     PlotRow row{level.name, level.summary.mean, level.summary.predicted.low,
                 level.summary.predicted.high};
     for (const stats::Estimate& one : level.estimates)
       if (row.dots.size() < most_dots) row.dots.push_back(one.value);
-    for (const double value : row.dots)
-      cover(value);
+    range.hold(row.dots);
     for (const double value : {row.value, row.low, row.high})
-      cover(value);
+      range.hold(value);
     rows.push_back(std::move(row));
   }
-  return row_plot(rows, svg::nice_axis(low, high, 4, name), 380, name + " over campaigns",
+  return row_plot(rows, svg::nice_axis(range.low, range.high, 4, name), 380,
+                  name + " over campaigns",
                   "disc: mean; line: where a new campaign lies with 95 % probability; rings: "
                   "single campaigns, the first 200");
 }
@@ -140,8 +134,7 @@ words::Table levels_table(const std::string& name, const std::vector<Level>& lev
                       {"mean", true},
                       {"95 % of the mean", true},
                       {"SD between", true},
-                      {"new campaign, 95 %", true}},
-                     {}};
+                      {"new campaign, 95 %", true}}};
   for (const Level& level : levels) {
     const stats::RandomEffects& s = level.summary;
     table.rows.push_back(
@@ -171,7 +164,7 @@ struct ShownParameters {
 ShownParameters shown_parameters(const Tally& tally) {
   ShownParameters shown;
   std::size_t laws = 0;
-  for (const auto& [name, law] : laws_by_success(tally)) {
+  for (const auto& [name, law] : tally.laws_by_success()) {
     if (law->parameters.empty()) continue;
     const bool is_shown = ++laws <= most_laws_with_parameters;
     for (std::size_t i = 0; i < law->parameters.size(); ++i)
@@ -189,13 +182,12 @@ words::Section parameters_over_campaigns(const Tally& tally,
                                          const std::vector<FactorLevels>& factors,
                                          const std::vector<std::string>& notes) {
   words::Section section{"parameters", "Parameters", "Parameters: how far do they carry over?"};
-  section.say(
-      "A random-effects summary: campaigns differ by more than their standard errors, with a "
-      "standard deviation between them (REML). \"New campaign\" is where the true value of "
-      "another campaign like these lies with 95 % probability; \"mean\" has a 95 % interval "
-      "by Hartung and Knapp. Share: how much of the variance between campaigns the levels "
-      "of a factor explain. In the plots a disc is the mean, the line a new campaign, rings "
-      "are single campaigns (the first 200).");
+  section.say("A random-effects summary: campaigns differ by more than their standard errors, with "
+              "a standard deviation between them (REML). \"New campaign\" is where the true value "
+              "of another campaign like these lies with 95 % probability; \"mean\" has a 95 % "
+              "interval by Hartung and Knapp. Share: how much of the variance between campaigns "
+              "the levels of a factor explain. In the plots a disc is the mean, the line a new "
+              "campaign, rings are single campaigns (the first 200).");
   const ShownParameters shown = shown_parameters(tally);
   if (shown.all.empty()) section.say("No law with parameters of its own was fitted.");
   for (std::size_t i = 0; i < shown.all.size(); ++i) {
@@ -215,13 +207,11 @@ words::Section parameters_over_campaigns(const Tally& tally,
 
 words::Section outlying_campaigns(const Plan& plan, const Tally& tally) {
   words::Section section{"outliers", "Outliers", "Campaigns that do not belong to the others"};
-  section.say(
-      "By deleted residuals of each parameter: the campaign against the mean and the scatter "
-      "of all others; p-values are multiplied with the number of campaigns.");
+  section.say("By deleted residuals of each parameter: the campaign against the mean and the "
+              "scatter of all others; p-values are multiplied with the number of campaigns.");
   words::Table table{
       "Campaigns apart from the others",
-      {{"campaign"}, {"parameter"}, {"value", true}, {"mean of the others", true}, {"p", true}},
-      {}};
+      {{"campaign"}, {"parameter"}, {"value", true}, {"mean of the others", true}, {"p", true}}};
   for (const auto& [name, parameter] : shown_parameters(tally).all)
     for (const stats::Outlier& one : stats::outliers(parameter->estimates)) {
       const words::ValueText value = words::with_error(one.estimate.value, one.estimate.std_error);

@@ -24,28 +24,23 @@ namespace frictab::study {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-namespace {
-
 // Lists groups of identical campaigns, in the order of the campaigns.
-std::vector<std::string> same_campaigns(const Plan& plan) {
+static std::vector<std::string> same_campaigns(const Plan& plan) {
   std::vector<std::size_t> order(plan.keys.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return plan.keys[a] < plan.keys[b]; });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return plan.keys[a] < plan.keys[b]; });
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t i = 1; i < order.size(); ++i)
     if (plan.keys[order[i]] == plan.keys[order[i - 1]]) pairs.emplace_back(order[i], order[i - 1]);
-  std::sort(pairs.begin(), pairs.end());
+  std::ranges::sort(pairs);
   std::vector<std::string> notes;
   for (const auto& [later, earlier] : pairs)
-    notes.push_back(fmt::format("campaigns '{}' and '{}' have the same job and the same data: one "
-                                "result is for both",
-                                plan.study.campaigns[earlier].name,
-                                plan.study.campaigns[later].name));
+    notes.push_back(fmt::format(
+        "campaigns '{}' and '{}' have the same job and the same data: one result is for both",
+        plan.study.campaigns[earlier].name, plan.study.campaigns[later].name));
   return notes;
 }
-
-} // namespace
 
 Plan plan_of(Study study) {
   Plan plan{std::move(study), {}, {}};
@@ -77,11 +72,9 @@ const char* state_name(State state) {
   return names[static_cast<std::size_t>(state)];
 }
 
-namespace {
-
 // The first difference of each result from what was written; empty: none.
-std::vector<std::string> first_differences(const std::string& directory,
-                                           const std::vector<std::uint64_t>& keys) {
+static std::vector<std::string> first_differences(const std::string& directory,
+                                                  const std::vector<std::uint64_t>& keys) {
   std::vector<std::string> found(keys.size());
   parallel_for(keys.size(), [&](std::size_t i) {
     const auto all = differences_of_result(directory, keys[i]);
@@ -89,8 +82,6 @@ std::vector<std::string> first_differences(const std::string& directory,
   });
   return found;
 }
-
-} // namespace
 
 Found::Found(const std::string& directory) {
   std::vector<std::uint64_t> results, failures;
@@ -206,25 +197,27 @@ std::string plan_json(const Plan& plan, const Found& found) {
 
 namespace {
 
-// Returns the first failures.
-std::vector<Failure> failures_of(const Plan& plan, const Found& found) {
-  std::vector<Failure> failures;
-  for (std::size_t i = 0; i < plan.keys.size() && failures.size() < most_listed; ++i)
-    if (found.state(plan.keys[i]) == State::failed) {
-      failures.push_back(read_failure(plan.study.directory, plan.keys[i]));
-      failures.back().campaign = plan.study.campaigns[i].name;
+// Returns the first campaigns in this state, failed or damaged, with what is wrong.
+std::vector<Failure> first_in(State state, const Plan& plan, const Found& found) {
+  std::vector<Failure> first;
+  for (std::size_t i = 0; i < plan.keys.size() && first.size() < most_listed; ++i)
+    if (const std::uint64_t key = plan.keys[i]; found.state(key) == state) {
+      first.push_back(state == State::failed ? read_failure(plan.study.directory, key)
+                                             : Failure{"", found.damaged.at(key)});
+      first.back().campaign = plan.study.campaigns[i].name;
     }
-  return failures;
+  return first;
 }
 
-// Returns the first damaged results.
-std::vector<Failure> damages_of(const Plan& plan, const Found& found) {
-  std::vector<Failure> damages;
-  for (std::size_t i = 0; i < plan.keys.size() && damages.size() < most_listed; ++i)
-    if (const auto at = found.damaged.find(plan.keys[i]);
-        found.state(plan.keys[i]) == State::damaged)
-      damages.push_back({plan.study.campaigns[i].name, at->second});
-  return damages;
+// A damaged record of a failure is one line, without a folder.
+std::vector<std::string> damages_of(const std::string& directory, std::uint64_t key,
+                                    const std::string& damage) {
+  if (!fs::exists(result_directory(directory, key)))
+    return {fmt::format("{}/{}.json: {}", failures_folder, key_text(key), damage)};
+  std::vector<std::string> lines = differences_of_result(directory, key);
+  for (std::string& line : lines)
+    line = fmt::format("{}/{}/{}", results_folder, key_text(key), line);
+  return lines;
 }
 
 } // namespace
@@ -234,9 +227,9 @@ std::string status_text(const Plan& plan, const Found& found) {
   if (found.unfinished > 0)
     text += fmt::format("{} working directories: runs that go on, or were killed\n",
                         thousands(found.unfinished));
-  for (const Failure& failure : failures_of(plan, found))
+  for (const Failure& failure : first_in(State::failed, plan, found))
     text += fmt::format("failed: {}: {}\n", failure.campaign, failure.message);
-  for (const Failure& damage : damages_of(plan, found))
+  for (const Failure& damage : first_in(State::damaged, plan, found))
     text += fmt::format("damaged: {}: {}\n", damage.campaign, damage.message);
   return text + next_text(plan, found);
 }
@@ -246,14 +239,23 @@ std::string status_json(const Plan& plan, const Found& found) {
   json["schema"] = "frictab/study-status/1";
   json["working_directories"] = found.unfinished;
   json["first_failures"] = Json::array();
-  for (const Failure& failure : failures_of(plan, found))
+  for (const Failure& failure : first_in(State::failed, plan, found))
     json["first_failures"].push_back({{"campaign", failure.campaign},
                                       {"by_input", failure.by_input},
                                       {"message", failure.message}});
   json["first_damaged"] = Json::array();
-  for (const Failure& damage : damages_of(plan, found))
+  for (const Failure& damage : first_in(State::damaged, plan, found))
     json["first_damaged"].push_back({{"campaign", damage.campaign}, {"message", damage.message}});
   return io::json_text(json);
+}
+
+std::vector<std::string> differences_of(const Plan& plan, const Found& found) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < plan.keys.size(); ++i)
+    if (const std::uint64_t key = plan.keys[i]; found.state(key) == State::damaged)
+      for (const std::string& line : damages_of(plan.study.directory, key, found.damaged.at(key)))
+        lines.push_back(fmt::format("campaign {}: {}", plan.study.campaigns[i].name, line));
+  return lines;
 }
 
 } // namespace frictab::study

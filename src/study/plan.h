@@ -54,4 +54,8 @@ std::string plan_json(const Plan& plan, const Found& found);
 std::string status_text(const Plan& plan, const Found& found);
 std::string status_json(const Plan& plan, const Found& found);
 
+// Returns a line for each file of a result that is not as it was written, "campaign b:
+// results/KEY/trace.json was changed".
+std::vector<std::string> differences_of(const Plan& plan, const Found& found);
+
 } // namespace frictab::study

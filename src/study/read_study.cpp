@@ -131,7 +131,7 @@ private:
   }
 
   std::size_t factor_number(const std::string& name, const Place& place) {
-    const auto at = std::find(study_.factors.begin(), study_.factors.end(), name);
+    const auto at = std::ranges::find(study_.factors, name);
     if (at != study_.factors.end()) return static_cast<std::size_t>(at - study_.factors.begin());
     if (is_campaigns_column(name))
       faults_.add(place, fmt::format("a factor cannot be called '{}'", name),

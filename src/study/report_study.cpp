@@ -15,7 +15,6 @@
 #include "io/file_streams.h"
 #include "io/json.h"
 #include "study/campaigns_csv.h"
-#include "study/law_order.h"
 #include "study/page_sections.h"
 #include "study/result_store.h"
 #include "words/render.h"
@@ -40,7 +39,7 @@ public:
     if (state == State::damaged) return take_damaged(i, found_.damaged.at(key));
     try {
       if (state == State::done) return take_result(i);
-      take_failure(i, read_failure(directory_, key).message);
+      take_failure(i, state, read_failure(directory_, key).message);
     } catch (const InputError& error) { // a damaged file does not affect the other campaigns
       --(state == State::done ? tally_.counts.done : tally_.counts.failed);
       ++tally_.counts.damaged;
@@ -52,14 +51,13 @@ public:
 
 private:
   void take_damaged(std::size_t i, const std::string& damage) {
-    const std::string message =
-        fmt::format("its result is damaged: {}; `frictab study run` makes it again", damage);
-    write_row_without(table_, plan_.study.campaigns[i], plan_.keys[i], State::damaged, message);
-    tally_.failed.push_back({i, message});
+    take_failure(
+        i, State::damaged,
+        fmt::format("its result is damaged: {}; `frictab study run` makes it again", damage));
   }
 
-  void take_failure(std::size_t i, const std::string& message) {
-    write_row_without(table_, plan_.study.campaigns[i], plan_.keys[i], State::failed, message);
+  void take_failure(std::size_t i, State state, const std::string& message) {
+    write_row_without(table_, plan_.study.campaigns[i], plan_.keys[i], state, message);
     tally_.failed.push_back({i, message});
   }
 
@@ -100,8 +98,8 @@ Tally report_study(const Plan& plan) {
   if (counts.done + counts.failed == 0)
     throw InputError(
         {}, "there is no result in " + plan.study.directory,
-        "`frictab study run` computes them; where it has, give the -o, --stage and "
-        "--set it had. A study that cannot be written to is reported from a copy of it");
+        "`frictab study run` computes them; where it has, give the -o, --stage and --set it had. A "
+        "study that cannot be written to is reported from a copy of it");
   io::OutputFiles files(plan.study.directory);
   Tally tally = read_results(plan, found, counts, files.stage("campaigns.csv"));
   files.write("report.html", study_html(plan, tally));
@@ -133,7 +131,7 @@ std::string report_json(const Plan& plan, const Tally& tally) {
                                  {"synthetic", tally.synthetic},
                                  {"laws", nlohmann::ordered_json::array()},
                                  {"effects", nlohmann::ordered_json::array()}};
-  for (const auto& [name, law] : laws_by_success(tally))
+  for (const auto& [name, law] : tally.laws_by_success())
     json["laws"].push_back({{"law", name},
                             {"campaigns", law->campaigns},
                             {"best", law->best},

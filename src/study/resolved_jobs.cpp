@@ -25,7 +25,7 @@ constexpr const char* some_data = "data.training=\"-\"";
 void erase_keys(TomlNode* table, const std::vector<std::string>& names) {
   if (!table) return;
   std::erase_if(table->items, [&](const TomlNode& item) {
-    return std::find(names.begin(), names.end(), item.key) != names.end();
+    return std::ranges::find(names, item.key) != names.end();
   });
 }
 

@@ -22,7 +22,7 @@ namespace {
 constexpr const char* schema = "frictab/study-result/2";
 
 double best_p_value(const calibrate::Comparisons& comparisons, const std::string& law) {
-  const auto at = std::find(comparisons.laws.begin(), comparisons.laws.end(), law);
+  const auto at = std::ranges::find(comparisons.laws, law);
   const auto i = static_cast<std::size_t>(at - comparisons.laws.begin());
   return i < comparisons.best_p_values.size() ? comparisons.best_p_values[i] : no_value;
 }

@@ -3,19 +3,18 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/hash.h"
-#include "core/version.h"
+#include "core/os/files.h"
 #include "io/atomic_file.h"
 #include "io/directory_lock.h"
 #include "io/file_streams.h"
 #include "io/json.h"
+#include "io/json_fields.h"
 #include "run/stage_record.h"
 #include "study/keys.h"
 
@@ -23,11 +22,13 @@ namespace frictab::study {
 
 namespace fs = std::filesystem;
 
-namespace {
-
 constexpr const char* failure_schema = "frictab/study-failure/1";
 
-} // namespace
+static void describe(io::Fields& f, Failure& failure) {
+  f("campaign", failure.campaign);
+  f("by_input", failure.by_input);
+  f("message", failure.message);
+}
 
 fs::path result_directory(const std::string& directory, std::uint64_t key) {
   return fs::path(directory) / results_folder / key_text(key);
@@ -61,49 +62,36 @@ fs::path failure_path(const std::string& directory, std::uint64_t key) {
 void write_failure(const std::string& directory, std::uint64_t key, const Failure& failure) {
   const fs::path file = failure_path(directory, key);
   io::OutputFiles output(file.parent_path(), io::OutputFiles::Claim::one_file);
-  output.write(file.filename().string(), io::sealed(io::json_text({{"schema", failure_schema},
-                                                                   {"tool_version", tool_version()},
-                                                                   {"key", key_text(key)},
-                                                                   {"campaign", failure.campaign},
-                                                                   {"by_input", failure.by_input},
-                                                                   {"message", failure.message}})));
+  output.write(file.filename().string(),
+               io::sealed(io::record_text(failure_schema, [&](io::Fields& f) {
+                 f.only_written("key", key_text(key));
+                 describe(f, io::to_write(failure));
+               })));
   output.commit();
 }
 
-Failure parse_failure(std::string_view text, const std::string& file) {
+Failure read_failure(const std::string& directory, std::uint64_t key) {
+  const std::string file = failure_path(directory, key).string(), text = io::read_file(file);
   const std::string mends = "remove it: `frictab study run` tries the campaign again";
   if (io::seal_of(text) == io::Seal::broken)
     throw InputError({file, 0, 0}, "its hash does not fit", mends);
-  const nlohmann::ordered_json json = io::parse_json(text, file);
-  io::check_schema(json, failure_schema, file, mends);
   Failure failure;
-  io::read_json(file, mends, [&] {
-    failure = {json.at("campaign"), json.at("message"), json.at("by_input")};
-  });
+  io::read_record(text, file, failure_schema, mends, [&](io::Fields& f) { describe(f, failure); });
   return failure;
 }
 
-Failure read_failure(const std::string& directory, std::uint64_t key) {
-  const fs::path file = failure_path(directory, key);
-  return parse_failure(io::read_file(file), file.string());
-}
-
-namespace {
-
-bool is_damaged(const std::string& directory, std::uint64_t key) {
+static bool is_damaged(const std::string& directory, std::uint64_t key) {
   return fs::exists(result_directory(directory, key)) &&
          !differences_of_result(directory, key).empty();
 }
-
-} // namespace
 
 WorkDirectory::WorkDirectory(const std::string& directory, std::uint64_t key)
     : directory_(directory), key_(key), final_(result_directory(directory, key)) {
   std::error_code error;
   fs::create_directories(final_.parent_path(), error);
-  std::string pattern = (final_.parent_path() / fmt::format(".{}.XXXXXX", key_text(key))).string();
-  if (!::mkdtemp(pattern.data())) io::cannot_write_here(final_.parent_path(), std::strerror(errno));
-  path_ = pattern;
+  error.clear();
+  path_ = os::make_unique_directory(final_.parent_path() / ("." + key_text(key) + "."), error);
+  if (error) io::cannot_write_here(final_.parent_path(), error.message());
   fs::permissions(path_, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
                              fs::perms::others_read | fs::perms::others_exec);
   when_interrupted_.emplace([path = path_] {

@@ -32,7 +32,6 @@ struct Failure {
 };
 void write_failure(const std::string& directory, std::uint64_t key, const Failure& failure);
 Failure read_failure(const std::string& directory, std::uint64_t key);
-Failure parse_failure(std::string_view text, const std::string& file);
 
 // A directory of this process, results/.KEY.XXXXXX, until it is published or removed with its
 // contents.

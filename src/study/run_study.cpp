@@ -78,7 +78,7 @@ std::vector<std::size_t> campaigns_of(const Shard& shard, const std::vector<std:
   std::uint64_t place = 0;
   for (const auto& [key, campaign] : first)
     if (shard.has(place++)) out.push_back(campaign);
-  std::sort(out.begin(), out.end());
+  std::ranges::sort(out);
   return out;
 }
 

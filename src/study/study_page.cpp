@@ -10,7 +10,6 @@
 #include "report/page.h"
 #include "report/svg.h"
 #include "stats/resampling.h"
-#include "study/law_order.h"
 #include "study/page_sections.h"
 #include "study/report_study.h"
 #include "words/numbers.h"
@@ -34,13 +33,12 @@ double quantile_of(std::vector<double> values, double p) {
 
 words::Text verdict_text(const Plan& plan, const Tally& tally) {
   if (tally.laws.empty()) return "No campaign has a result yet.";
-  const auto [name, law] = laws_by_success(tally).front();
+  const auto [name, law] = tally.laws_by_success().front();
   const std::string judged = of_campaigns(law->may_be_best, tally.compared);
   words::Text text =
-      words::strong(name) +
-      fmt::format(" is best or statistically tied in {} campaigns that compare laws; "
-                  "it is best in {} of {}.",
-                  judged, thousands(law->best), thousands(law->campaigns));
+      words::strong(name) + fmt::format(" is best or statistically tied in {} campaigns that "
+                                        "compare laws; it is best in {} of {}.",
+                                        judged, thousands(law->best), thousands(law->campaigns));
   if (tally.counts.missing > 0)
     text += fmt::format(" {} of {} campaigns are missing here.", thousands(tally.counts.missing),
                         thousands(plan.keys.size()));
@@ -123,20 +121,19 @@ words::Section effects_over_campaigns(const Tally& tally,
   std::vector<Entry> order;
   for (const auto& [column, effect] : tally.effects)
     order.emplace_back(column, &effect);
-  std::stable_sort(order.begin(), order.end(), [](const Entry& a, const Entry& b) {
+  std::ranges::stable_sort(order, [](const Entry& a, const Entry& b) {
     return a.second->campaigns.size() > b.second->campaigns.size();
   });
-  section.say(fmt::format("{} campaigns were traced. Gain: of the mean absolute error on unseen "
-                          "tests.",
-                          thousands(traced)));
+  section.say(
+      fmt::format("{} campaigns were traced. Gain: of the mean absolute error on unseen tests.",
+                  thousands(traced)));
   words::Table table{"Effects",
                      {{"column"},
                       {"found in", true},
                       {"share, 95 %", true},
                       {"median gain, MPa", true},
                       {"forms"},
-                      {"by factor"}},
-                     {}};
+                      {"by factor"}}};
   for (const auto& [column, effect] : order)
     table.rows.push_back(effect_row(column, *effect, tally, factors));
   section.add(std::move(table));
@@ -146,7 +143,7 @@ words::Section effects_over_campaigns(const Tally& tally,
 words::Section failures(const Plan& plan, const Tally& tally) {
   constexpr std::size_t most = 100;
   words::Section section{"failures", "Failures", "Failures and targets missed"};
-  words::Table table{"Failures", {{"campaign"}, {"what"}, {"message"}}, {}};
+  words::Table table{"Failures", {{"campaign"}, {"what"}, {"message"}}};
   const auto add = [&](std::size_t campaign, const char* what, const std::string& message) {
     if (table.rows.size() < most)
       table.rows.push_back({{plan.study.campaigns[campaign].name, what, message}});
@@ -183,7 +180,7 @@ words::Section laws_with_bars(const Tally& tally) {
   bars.picture = svg::bar_scale(axis, bar_width, bar_height);
   table.columns.insert(table.columns.begin() + bar_column, std::move(bars));
   std::size_t row = 0;
-  for (const auto& [name, law] : laws_by_success(tally)) {
+  for (const auto& [name, law] : tally.laws_by_success()) {
     words::Cell bar;
     bar.picture = share_bar(name, *law, axis);
     std::vector<words::Cell>& cells = table.rows[row++].cells;
@@ -196,20 +193,19 @@ words::Section laws_with_bars(const Tally& tally) {
 
 words::Section laws_over_campaigns(const Tally& tally) {
   words::Section section{"laws", "Laws", "Which law, how often"};
-  section.say("Best: the smallest mean absolute error on tests not trained on. Indistinguishable "
-              "from it: the p-value of \"no law has a smaller error\" is at least 0.05 in that "
-              "campaign. Bars: share of campaigns where the law is best or as good, with "
-              "its 95 % interval (Wilson).",
-              "", words::Shown::on_pages);
+  section.say(
+      "Best: the smallest mean absolute error on tests not trained on. Indistinguishable from it: "
+      "the p-value of \"no law has a smaller error\" is at least 0.05 in that campaign. Bars: "
+      "share of campaigns where the law is best or as good, with its 95 % interval (Wilson).",
+      "", words::Shown::on_pages);
   words::Table table{"Which law, how often",
                      {{"law"},
                       {"campaigns", true},
                       {"best in", true},
                       {"best, or as good", true},
                       {"median MAE, MPa", true},
-                      {"5 % to 95 % of campaigns", true}},
-                     {}};
-  for (const auto& [name, law] : laws_by_success(tally))
+                      {"5 % to 95 % of campaigns", true}}};
+  for (const auto& [name, law] : tally.laws_by_success())
     table.rows.push_back(
         {{name, thousands(law->campaigns), thousands(law->best), thousands(law->may_be_best),
           words::figures(quantile_of(law->mae_MPa, 0.5)),
@@ -233,12 +229,10 @@ std::string study_html(const Plan& plan, const Tally& tally) {
                      effects_over_campaigns(tally, factors), outlying_campaigns(plan, tally),
                      failures(plan, tally), first_campaigns(plan, tally), files_of_study()}};
   if (tally.synthetic > 0)
-    page.warnings.push_back(
-        words::strong("Synthetic data.") +
-        fmt::format(
-            " {} campaigns with results were not measured: their rows come from a simulated "
-            "tribometer.",
-            of_campaigns(tally.synthetic, tally.counts.done)));
+    page.warnings.push_back(words::strong("Synthetic data.") +
+                            fmt::format(" {} campaigns with results were not measured: their rows "
+                                        "come from a simulated tribometer.",
+                                        of_campaigns(tally.synthetic, tally.counts.done)));
   return report::html_of(page);
 }
 

@@ -6,16 +6,12 @@
 
 namespace frictab::study {
 
-namespace {
-
-LawTally::Parameter& parameter_of(LawTally& law, const FittedParameter& p) {
+static LawTally::Parameter& parameter_of(LawTally& law, const FittedParameter& p) {
   for (LawTally::Parameter& known : law.parameters)
     if (known.name == p.name && known.unit == p.unit) return known;
   law.parameters.push_back({p.name, p.unit, {}, 0});
   return law.parameters.back();
 }
-
-} // namespace
 
 void Tally::add_law(std::size_t campaign, const LawResult& law, bool first) {
   LawTally& tally = laws[law.law];
@@ -31,6 +27,17 @@ void Tally::add_law(std::size_t campaign, const LawResult& law, bool first) {
     else
       ++all.without_error;
   }
+}
+
+std::vector<std::pair<std::string, const LawTally*>> Tally::laws_by_success() const {
+  std::vector<std::pair<std::string, const LawTally*>> all;
+  for (const auto& [name, law] : laws)
+    all.emplace_back(name, &law);
+  std::ranges::stable_sort(all, [](const auto& a, const auto& b) {
+    return std::pair(a.second->may_be_best, a.second->best) >
+           std::pair(b.second->may_be_best, b.second->best);
+  });
+  return all;
 }
 
 void Tally::add_effects(std::size_t campaign, const CampaignResult& result) {
@@ -51,7 +58,7 @@ void Tally::add(std::size_t campaign, CampaignResult&& result) {
   rows += result.rows;
   // Constants of the literature may precede the best law; they do not compete.
   const auto competes = [](const LawResult& law) { return !std::isnan(law.best_p_value); };
-  const auto best = std::find_if(result.laws.begin(), result.laws.end(), competes);
+  const auto best = std::ranges::find_if(result.laws, competes);
   const bool any = best != result.laws.end();
   compared += any;
   const auto first = any ? static_cast<std::size_t>(best - result.laws.begin()) : 0;

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "stats/random_effects.h"
@@ -55,6 +56,8 @@ struct Tally {
   std::vector<std::pair<std::size_t, std::string>> missed; // campaigns with a target missed
 
   void add(std::size_t campaign, CampaignResult&& result);
+  // First come the laws that are most often the best or indistinguishable from it; ties by name.
+  std::vector<std::pair<std::string, const LawTally*>> laws_by_success() const;
 
 private:
   void add_law(std::size_t campaign, const LawResult& law, bool first);

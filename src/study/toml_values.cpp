@@ -2,9 +2,11 @@
 #include "study/toml_values.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include <fmt/format.h>
 
+#include "core/names.h"
 #include "core/text.h"
 
 namespace frictab::study {
@@ -16,27 +18,6 @@ namespace {
 
 void wrong(const TomlNode& node, const std::string& path, const char* wanted, FaultList& faults) {
   faults.add(node.place, fmt::format("{} must be {}, not {}", path, wanted, job::describe(node)));
-}
-
-} // namespace
-
-std::string text_of(const TomlNode& node, const std::string& path, FaultList& faults) {
-  if (node.type == Type::text && !node.text.empty()) return node.text;
-  wrong(node, path, "a text", faults);
-  return "";
-}
-
-std::vector<std::string> texts_of(const TomlNode& node, const std::string& path,
-                                  FaultList& faults) {
-  if (node.type == Type::text) return {text_of(node, path, faults)};
-  const auto is_text = [](const TomlNode& item) { return item.type == Type::text; };
-  std::vector<std::string> texts;
-  if (node.type == Type::array && std::all_of(node.items.begin(), node.items.end(), is_text))
-    for (const TomlNode& item : node.items)
-      texts.push_back(text_of(item, path, faults));
-  else
-    wrong(node, path, "a text or a list of texts", faults);
-  return texts;
 }
 
 double number_of(const TomlNode& node, const std::string& path, FaultList& faults) {
@@ -52,17 +33,54 @@ bool flag_of(const TomlNode& node, const std::string& path, FaultList& faults) {
   return false;
 }
 
-void read_keys(const TomlNode& table, const std::string& where, const Keys& keys,
-               FaultList& faults) {
-  std::vector<std::string> known;
-  for (const auto& [name, take] : keys)
-    known.push_back(name);
+} // namespace
+
+std::string text_of(const TomlNode& node, const std::string& path, FaultList& faults) {
+  if (node.type == Type::text && !node.text.empty()) return node.text;
+  wrong(node, path, "a text", faults);
+  return "";
+}
+
+std::vector<std::string> texts_of(const TomlNode& node, const std::string& path,
+                                  FaultList& faults) {
+  if (node.type == Type::text) return {text_of(node, path, faults)};
+  const auto is_text = [](const TomlNode& item) { return item.type == Type::text; };
+  std::vector<std::string> texts;
+  if (node.type == Type::array && std::ranges::all_of(node.items, is_text))
+    for (const TomlNode& item : node.items)
+      texts.push_back(text_of(item, path, faults));
+  else
+    wrong(node, path, "a text or a list of texts", faults);
+  return texts;
+}
+
+template <class T> void Keys::store(const std::string& key, T& value, ValueOf<T>* value_of) {
+  take(key, [this, path = table_.empty() ? key : table_ + "." + key, &value,
+             value_of](const TomlNode& node) { value = value_of(node, path, faults_); });
+}
+
+void Keys::text(const std::string& key, std::string& value) {
+  store(key, value, text_of);
+}
+void Keys::texts(const std::string& key, std::vector<std::string>& value) {
+  store(key, value, texts_of);
+}
+void Keys::number(const std::string& key, double& value) {
+  store(key, value, number_of);
+}
+void Keys::flag(const std::string& key, bool& value) {
+  store(key, value, flag_of);
+}
+
+void Keys::read(const TomlNode& table) const {
+  const auto known = all_names(std::views::keys(takes_));
+  const std::string where = table_.empty() ? "at the top of the file" : "in [[" + table_ + "]]";
   for (const TomlNode& entry : table.items)
-    if (const auto key = keys.find(entry.key); key != keys.end())
+    if (const auto key = takes_.find(entry.key); key != takes_.end())
       key->second(entry);
     else
-      faults.add(entry.key_place, fmt::format("unknown key '{}' {}", entry.key, where),
-                 suggest(entry.key, known));
+      faults_.add(entry.key_place, fmt::format("unknown key '{}' {}", entry.key, where),
+                  suggest(entry.key, known));
 }
 
 std::vector<const TomlNode*> tables_of(const TomlNode& node, const std::string& name,
@@ -72,7 +90,7 @@ std::vector<const TomlNode*> tables_of(const TomlNode& node, const std::string& 
   if (is_table(node))
     tables.push_back(&node);
   else if (node.type == Type::array && !node.items.empty() &&
-           std::all_of(node.items.begin(), node.items.end(), is_table))
+           std::ranges::all_of(node.items, is_table))
     for (const TomlNode& item : node.items)
       tables.push_back(&item);
   else

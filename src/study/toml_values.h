@@ -16,16 +16,32 @@ std::string text_of(const job::TomlNode& node, const std::string& path, FaultLis
 // A text or a list of texts.
 std::vector<std::string> texts_of(const job::TomlNode& node, const std::string& path,
                                   FaultList& faults);
-double number_of(const job::TomlNode& node, const std::string& path, FaultList& faults);
-bool flag_of(const job::TomlNode& node, const std::string& path, FaultList& faults);
 
-// The function that takes the value of each key of a table.
-using Keys = std::map<std::string, std::function<void(const job::TomlNode&)>>;
+// The keys of a table [[name]], or with an empty name of the file, and what takes their values.
+class Keys {
+public:
+  using Take = std::function<void(const job::TomlNode&)>;
+  Keys(std::string table, FaultList& faults) : table_(std::move(table)), faults_(faults) {}
 
-// Passes each entry of the table to its key's function; an unknown name is a fault with the nearest
-// known one. `where`: "at the top of the file", "in [[campaign]]".
-void read_keys(const job::TomlNode& table, const std::string& where, const Keys& keys,
-               FaultList& faults);
+  void take(const std::string& key, Take value) { takes_[key] = std::move(value); }
+  // These store the value.
+  void text(const std::string& key, std::string& value);
+  void texts(const std::string& key, std::vector<std::string>& value);
+  void number(const std::string& key, double& value);
+  void flag(const std::string& key, bool& value);
+
+  // Passes each entry of the table to its key; an unknown name is a fault with the nearest known
+  // one.
+  void read(const job::TomlNode& table) const;
+
+private:
+  template <class T> using ValueOf = T(const job::TomlNode&, const std::string&, FaultList&);
+  template <class T> void store(const std::string& key, T& value, ValueOf<T>* value_of);
+
+  std::string table_;
+  FaultList& faults_;
+  std::map<std::string, Take> takes_;
+};
 
 // Returns the tables of [[name]], or the one table; anything else is a fault.
 std::vector<const job::TomlNode*> tables_of(const job::TomlNode& node, const std::string& name,

@@ -87,31 +87,20 @@ Seeds seeds_of(const TomlNode& node, FaultList& faults) {
 }
 
 void add_twin_keys(Keys& keys, twin::TwinOptions& options, FaultList& faults) {
-  const auto text = [&](const char* name, std::string& value) {
-    keys[name] = [name, &value, &faults](const TomlNode& node) {
-      value = text_of(node, std::string("twin.") + name, faults);
-    };
-  };
-  text("set_name", options.set);
-  text("law", options.law);
-  text("profile", options.profile);
-  text("noise", options.noise);
-  keys["noise_scale"] = [&](const TomlNode& node) {
-    options.noise_scale = number_of(node, "twin.noise_scale", faults);
-  };
-  keys["hide"] = [&](const TomlNode& node) { options.hide = texts_of(node, "twin.hide", faults); };
-  keys["bystanders"] = [&](const TomlNode& node) {
-    options.bystanders = flag_of(node, "twin.bystanders", faults);
-  };
-  keys["more_bystanders"] = [&](const TomlNode& node) {
-    options.more_bystanders = flag_of(node, "twin.more_bystanders", faults);
-  };
-  keys["scatter"] = [&](const TomlNode& node) {
+  keys.text("set_name", options.set);
+  keys.text("law", options.law);
+  keys.text("profile", options.profile);
+  keys.text("noise", options.noise);
+  keys.number("noise_scale", options.noise_scale);
+  keys.texts("hide", options.hide);
+  keys.flag("bystanders", options.bystanders);
+  keys.flag("more_bystanders", options.more_bystanders);
+  keys.take("scatter", [&](const TomlNode& node) {
     read_text(node, faults,
               [&](const std::string& value) { options.scatter = twin::parse_scatter(value); });
-  };
-  keys["effect"] = [&](const TomlNode& node) { read_effects(node, options, faults); };
-  keys["design"] = [](const TomlNode&) {}; // done by read_design
+  });
+  keys.take("effect", [&](const TomlNode& node) { read_effects(node, options, faults); });
+  keys.take("design", [](const TomlNode&) {}); // done by read_design
 }
 
 void finish_twin(const TomlNode& block, twin::TwinOptions& options, FaultList& faults) {

@@ -11,20 +11,15 @@
 
 namespace frictab::study {
 
-namespace {
-
-[[noreturn]] void fail(const std::vector<std::string>& changed) {
+[[noreturn]] static void fail(const std::vector<std::string>& changed) {
   throw std::runtime_error(fmt::format("{} changed while the study ran, and a result would be of "
                                        "other data than its key says: run the study again",
                                        join(changed, ", ")));
 }
 
-} // namespace
-
 std::uint64_t WatchedFiles::add(const std::filesystem::path& path, const std::string& named) {
-  // The state first: what is written from here on is noticed.
-  const os::FileState state = io::InputFile(path, named).state();
-  all_.push_back({path, named, io::hash_of_file(path, named), state});
+  io::InputFile file(path, named); // takes the state first: what is written from here on is noticed
+  all_.push_back({path, named, io::hash_of_file(file), file.state()});
   return all_.back().hash;
 }
 

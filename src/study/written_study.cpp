@@ -17,32 +17,25 @@ class WrittenReader {
 public:
   WrittenReader(const std::string& file, FaultList& faults) : file_(file), faults_(faults) {}
 
-  void read(const TomlNode& root) {
-    const Keys keys = {
-        {"job",
-         [&](const TomlNode& node) {
-           written_.job = text_of(node, "job", faults_);
-           written_.job_place = node.place;
-         }},
-        {"directory",
-         [&](const TomlNode& node) { written_.directory = text_of(node, "directory", faults_); }},
-        {"stage", [&](const TomlNode& node) { read_stage(node); }},
-        {"campaigns",
-         [&](const TomlNode& node) {
-           written_.list = text_of(node, "campaigns", faults_);
-           written_.list_place = node.place;
-         }},
-        {"campaign",
-         [&](const TomlNode& node) {
-           for (const TomlNode* table : tables_of(node, "campaign", faults_))
-             read_campaign(*table);
-         }},
-        {"twin", [&](const TomlNode& node) {
-           for (const TomlNode* table : tables_of(node, "twin", faults_))
-             read_twin(*table);
-         }}};
-    read_keys(root, "at the top of the file", keys, faults_);
-    if (!root_has(root, "job"))
+  void read(TomlNode root) {
+    Keys keys("", faults_);
+    keys.text("job", written_.job);
+    keys.text("directory", written_.directory);
+    keys.take("stage", [&](const TomlNode& node) { read_stage(node); });
+    keys.take("campaigns", [&](const TomlNode& node) {
+      written_.list = text_of(node, "campaigns", faults_);
+      written_.list_place = node.place;
+    });
+    keys.take("campaign", [&](const TomlNode& node) {
+      for (const TomlNode* table : tables_of(node, "campaign", faults_))
+        read_campaign(*table);
+    });
+    keys.take("twin", [&](const TomlNode& node) {
+      for (const TomlNode* table : tables_of(node, "twin", faults_))
+        read_twin(*table);
+    });
+    keys.read(root);
+    if (!root.find("job"))
       faults_.add({file_, 0, 0}, "there is no job",
                   "write job = \"job.toml\": what all campaigns share");
   }
@@ -50,11 +43,6 @@ public:
   WrittenStudy take() { return std::move(written_); }
 
 private:
-  static bool root_has(const TomlNode& root, std::string_view key) {
-    return std::any_of(root.items.begin(), root.items.end(),
-                       [&](const TomlNode& item) { return item.key == key; });
-  }
-
   void read_stage(const TomlNode& node) {
     const std::string name = text_of(node, "stage", faults_);
     if (const auto stage = stage_named(name))
@@ -64,29 +52,20 @@ private:
                   std::string("known: ") + stage_words);
   }
 
-  void add_shared_keys(Keys& keys, WrittenCampaign& one, std::string& name,
-                       const std::string& table) {
-    keys["name"] = [&, table](const TomlNode& node) {
-      name = text_of(node, table + ".name", faults_);
-    };
-    keys["set"] = [&, table](const TomlNode& node) {
-      one.set = texts_of(node, table + ".set", faults_);
-    };
-    keys["factors"] = [&](const TomlNode& node) { read_factors(node, one); };
+  void add_shared_keys(Keys& keys, WrittenCampaign& one, std::string& name) {
+    keys.text("name", name);
+    keys.texts("set", one.set);
+    keys.take("factors", [&](const TomlNode& node) { read_factors(node, one); });
   }
 
   void read_campaign(const TomlNode& table) {
     WrittenCampaign one;
     one.place = table.place;
-    Keys keys;
-    add_shared_keys(keys, one, one.name, "campaign");
-    keys["files"] = [&](const TomlNode& node) {
-      one.files = texts_of(node, "campaign.files", faults_);
-    };
-    keys["validation"] = [&](const TomlNode& node) {
-      one.validation = texts_of(node, "campaign.validation", faults_);
-    };
-    read_keys(table, "in [[campaign]]", keys, faults_);
+    Keys keys("campaign", faults_);
+    add_shared_keys(keys, one, one.name);
+    keys.texts("files", one.files);
+    keys.texts("validation", one.validation);
+    keys.read(table);
     written_.campaigns.push_back(std::move(one));
   }
 
@@ -110,14 +89,14 @@ private:
     WrittenTwin twin;
     twin.shared.place = table.place;
     bool has_seed = false;
-    Keys keys;
-    add_shared_keys(keys, twin.shared, twin.name, "twin");
-    keys["seed"] = [&](const TomlNode& node) {
+    Keys keys("twin", faults_);
+    add_shared_keys(keys, twin.shared, twin.name);
+    keys.take("seed", [&](const TomlNode& node) {
       twin.seeds = seeds_of(node, faults_);
       has_seed = true;
-    };
+    });
     add_twin_keys(keys, twin.options, faults_);
-    read_keys(table, "in [[twin]]", keys, faults_);
+    keys.read(table);
     finish_twin(table, twin.options, faults_);
     if (!has_seed) faults_.add(table.place, "[[twin]] has no seed", "write seed = \"1..1000\"");
     TomlNode words = table;

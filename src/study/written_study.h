@@ -25,7 +25,7 @@ struct WrittenStudy {
   LastStage stage = LastStage::trace;
   std::vector<WrittenCampaign> campaigns;
   std::vector<WrittenTwin> twins;
-  Place job_place, list_place;
+  Place list_place;
 };
 
 // Reads key by key. Faults are added; throws InputError where the text is not TOML.

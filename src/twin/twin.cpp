@@ -28,7 +28,7 @@ void hide_columns(const TwinOptions& options, data::Dataset& data) {
     if (column.name != "tau_R_MPa" && column.name != data::origin_column)
       known.push_back(column.name);
   for (const std::string& name : hidden) {
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (std::ranges::find(known, name) == known.end())
       faults.add({"--hide"}, "no column '" + name + "' to hide", suggest(name, known));
     std::erase_if(data.columns, [&](const data::Column& column) { return column.name == name; });
   }
@@ -37,7 +37,7 @@ void hide_columns(const TwinOptions& options, data::Dataset& data) {
 
 // Fits the law to the physics of the training part, and replaces that physics by it as the truth.
 void take_law(const std::string& name, TwinDraft& training, TwinDraft& validation) {
-  find_column(training.data, "tau_R_MPa")->values = base_tau(training);
+  measured_of(training.data) = base_tau(training);
   const auto law = std::make_shared<const LawTruth>(*job::literature().find(name), training.data);
   for (TwinDraft* draft : {&training, &validation}) {
     draft->law = law;
@@ -66,7 +66,7 @@ TwinPart finish(const TwinOptions& options, TwinDraft draft, std::size_t tests,
   part.base_MPa = truth_with(options, draft, tests, {}, tau_scale);
   part.oracle_MPa =
       effects.empty() ? part.base_MPa : truth_with(options, draft, tests, effects, tau_scale);
-  std::vector<double>& tau = find_column(draft.data, "tau_R_MPa")->values;
+  std::vector<double>& tau = measured_of(draft.data);
   for (std::size_t i = 0; i < tau.size(); ++i)
     tau[i] = round_to(part.oracle_MPa[i] * draft.noise[i], 3);
   part.data = std::move(draft.data);

@@ -75,7 +75,7 @@ double second_film(double film, Random& random) {
 
 void fill_more(std::uint64_t seed, std::size_t tests, TwinDraft& draft, std::size_t points) {
   const std::size_t rows = draft.plan.size() * points;
-  const std::vector<double> film = find_column(draft.data, "film_um")->values;
+  const std::vector<double> film = draft.data.find("film_um")->values;
   const std::size_t first = draft.data.columns.size();
   for (const char* name : {"film2_um", "lab_T_C", "dwell_s", "direction", "batch", "vib"})
     add_column(draft.data, name, rows);

@@ -47,7 +47,7 @@ void check_design(const TwinDesign& design, FaultList& faults) {
 }
 
 std::pair<double, double> range(const std::vector<double>& levels) {
-  const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
+  const auto [low, high] = std::ranges::minmax_element(levels);
   return {*low, *high};
 }
 

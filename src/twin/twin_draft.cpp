@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/random.h"
@@ -16,21 +17,25 @@ namespace {
 constexpr unsigned noise_stream = 1; // stream 0 draws the test itself
 
 void fill_states(const TwinParameters& set, TwinDraft& draft, std::size_t points) {
-  static constexpr double TwinRow::*members[] = {
-      &TwinRow::time_s,      &TwinRow::sigma_n_MPa, &TwinRow::psi,  &TwinRow::v_rel_mm_s,
-      &TwinRow::T_contact_C, &TwinRow::T_tool_C,    &TwinRow::s_mm, &TwinRow::sigma_f_MPa};
-  static constexpr const char* names[] = {"time_s",      "sigma_n_MPa", "psi",  "v_rel_mm_s",
-                                          "T_contact_C", "T_tool_C",    "s_mm", "sigma_f_MPa"};
+  static constexpr std::pair<const char*, double TwinRow::*> states[] = {
+      {"time_s", &TwinRow::time_s},
+      {"sigma_n_MPa", &TwinRow::sigma_n_MPa},
+      {"psi", &TwinRow::psi},
+      {"v_rel_mm_s", &TwinRow::v_rel_mm_s},
+      {"T_contact_C", &TwinRow::T_contact_C},
+      {"T_tool_C", &TwinRow::T_tool_C},
+      {"s_mm", &TwinRow::s_mm},
+      {"sigma_f_MPa", &TwinRow::sigma_f_MPa}};
   const std::size_t rows = draft.plan.size() * points;
-  for (const char* name : names)
+  for (const auto& [name, member] : states)
     add_column(draft.data, name, rows);
   draft.base = {std::vector<double>(rows), std::vector<double>(rows), std::vector<double>(rows)};
   parallel_for(draft.plan.size(), [&](std::size_t e) {
     for (std::size_t i = 0; i < points; ++i) {
       const TwinRow row = twin_row(set, draft.plan[e].test, i, points);
       const std::size_t at = e * points + i;
-      for (std::size_t c = 0; c < std::size(members); ++c)
-        draft.data.columns[c].values[at] = row.*members[c];
+      for (std::size_t c = 0; c < std::size(states); ++c)
+        draft.data.columns[c].values[at] = row.*states[c].second;
       draft.base.tau0[at] = row.tau0_MPa;
       draft.base.limit[at] = row.limit_MPa;
     }
@@ -108,14 +113,8 @@ data::Column& add_column(data::Dataset& data, const char* name, std::size_t rows
   return data.columns.back();
 }
 
-const data::Column* find_column(const data::Dataset& data, std::string_view name) {
-  const auto at = std::find_if(data.columns.begin(), data.columns.end(),
-                               [&](const data::Column& column) { return column.name == name; });
-  return at == data.columns.end() ? nullptr : &*at;
-}
-
-data::Column* find_column(data::Dataset& data, std::string_view name) {
-  return const_cast<data::Column*>(find_column(static_cast<const data::Dataset&>(data), name));
+std::vector<double>& measured_of(data::Dataset& data) {
+  return std::ranges::find(data.columns, "tau_R_MPa", &data::Column::name)->values;
 }
 
 } // namespace frictab::twin

@@ -30,8 +30,7 @@ std::vector<double> base_tau(const TwinDraft& draft); // without effects
 // Appends a column of zeros.
 data::Column& add_column(data::Dataset& data, const char* name, std::size_t rows);
 
-// Returns the column of this name, or nullptr.
-const data::Column* find_column(const data::Dataset& data, std::string_view name);
-data::Column* find_column(data::Dataset& data, std::string_view name);
+// Returns the values of tau_R_MPa.
+std::vector<double>& measured_of(data::Dataset& data);
 
 } // namespace frictab::twin

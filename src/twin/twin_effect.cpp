@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "core/columns.h"
 #include "core/error.h"
+#include "core/names.h"
 #include "core/text.h"
 #include "expr/program.h"
 #include "twin/twin_quantity.h"
@@ -55,19 +57,14 @@ std::vector<double> factors(const PlantedEffect& effect, const Inputs& rows,
     for (double& value : placed.parameters)
       value *= parameters[0];
   }
-  std::vector<std::string> names;
-  for (const models::Parameter& parameter : effects::parameters_of(placed))
-    names.push_back(parameter.name);
-  std::vector<const double*> columns;
-  for (const auto& column : rows)
-    columns.push_back(column.data());
+  const auto names = all_names(effects::parameters_of(placed), &models::Parameter::name);
   expr::Program(effects::formula_of(placed), effects::input_symbols(*placed.form), names)
-      .evaluate(factor.size(), columns, placed.parameters, factor.data());
+      .evaluate(factor.size(), pointers(rows), placed.parameters, factor.data());
   return factor;
 }
 
 std::size_t level_count(const PlantedEffect& effect, const TwinDraft& draft) {
-  const data::Column* column = find_column(draft.data, effect.spec.column);
+  const data::Column* column = draft.data.find(effect.spec.column);
   return column == nullptr ? 2 : column->levels.size();
 }
 
@@ -133,13 +130,12 @@ public:
     parameters[0] = amplitude;
     const auto factor = factors(effect_, rows_, parameters, levels_);
     const auto below = [](double least) { return [least](double f) { return !(f >= least); }; };
-    if (effect_.spec.on != effects::ActsOn::tau &&
-        std::any_of(factor.begin(), factor.end(), below(least_factor)))
+    if (effect_.spec.on != effects::ActsOn::tau && std::ranges::any_of(factor, below(least_factor)))
       return {};
     NoiseFree truth{draft_.base, {}};
     apply(effect_, factor, scale_, truth.pieces);
     truth.tau = tau_of(draft_, truth.pieces);
-    if (std::any_of(truth.tau.begin(), truth.tau.end(), below(least_tau_MPa))) return {};
+    if (std::ranges::any_of(truth.tau, below(least_tau_MPa))) return {};
     return truth;
   }
 
@@ -235,7 +231,7 @@ void set_shapes(const EffectSpec& spec, const Inputs& rows, PlantedEffect& effec
 void bind_columns(const TwinDraft& draft, const Inputs& rows, PlantedEffect& effect) {
   effect.placed.form = effect.form;
   for (const std::string& name : columns_of(effect.spec)) {
-    const data::Column* column = find_column(draft.data, name);
+    const data::Column* column = draft.data.find(name);
     effect.placed.inputs.push_back({name, column ? column->levels : std::vector<std::string>{}});
   }
   effects::set_knots(effect.placed, {rows.begin(), rows.end()});
@@ -297,7 +293,7 @@ std::vector<double> truth_with(const TwinOptions& options, const TwinDraft& draf
     apply(effects[i], factor, tau_scale, pieces);
   }
   const auto tau = tau_of(draft, pieces);
-  if (std::all_of(tau.begin(), tau.end(), [](double value) { return value > 0; })) return tau;
+  if (std::ranges::all_of(tau, [](double value) { return value > 0; })) return tau;
   if (effects.empty())
     throw InputError({"--law"}, "law '" + options.law + "' gives no friction in some rows",
                      "use narrower levels in --design, or another law");

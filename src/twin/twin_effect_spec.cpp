@@ -24,7 +24,7 @@ std::vector<std::string> known_keys(const effects::EffectForm* form) {
 
 void check_choice(const KeyValue& item, const std::vector<std::string>& choices,
                   FaultList& faults) {
-  if (std::find(choices.begin(), choices.end(), item.value) == choices.end())
+  if (std::ranges::find(choices, item.value) == choices.end())
     faults.add({option}, "unknown " + item.key + " '" + item.value + "'",
                "known: " + join(choices, ", "));
 }

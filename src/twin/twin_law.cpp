@@ -106,9 +106,8 @@ std::vector<std::string> truth_names() {
   for (const std::string& name : job::literature().names()) {
     const models::Law& law = *job::literature().find(name);
     const std::vector<std::string> inputs = models::inputs(law, {});
-    const bool of_states = std::all_of(inputs.begin(), inputs.end(), [](const std::string& input) {
-      return data::find_quantity(input);
-    });
+    const bool of_states = std::ranges::all_of(
+        inputs, [](const std::string& input) { return data::find_quantity(input); });
     if (law.calibrated == models::Calibrated::fit && of_states) names.push_back(name);
   }
   return names;

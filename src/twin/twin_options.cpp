@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/names.h"
 #include "core/text.h"
 #include "twin/twin.h"
 #include "twin/twin_text.h"
@@ -14,37 +15,37 @@ namespace {
 
 void check_choice(const std::string& key, const std::string& value,
                   const std::vector<std::string>& known, FaultList& faults) {
-  if (std::find(known.begin(), known.end(), value) == known.end())
+  if (std::ranges::find(known, value) == known.end())
     faults.add({key}, "unknown " + key.substr(2) + " '" + value + "'", suggest(value, known));
 }
 
-void check_scatter(const char* key, std::optional<double> value, double most, FaultList& faults) {
-  if (value && !(*value >= 0 && *value <= most))
-    faults.add({"--scatter"},
-               fmt::format("{} = {} is outside 0 to {}", key, shortest(*value), most),
-               "relative standard deviations, 0.04 is 4 %; rho is a correlation");
-}
+struct ScatterKey {
+  const char* name;
+  std::optional<double> TwinScatter::*value;
+  double most;
+};
+constexpr ScatterKey scatter_keys[] = {{"test", &TwinScatter::test, 0.5},
+                                       {"slow", &TwinScatter::slow, 0.5},
+                                       {"rho", &TwinScatter::rho, 0.9999},
+                                       {"white", &TwinScatter::white, 0.5}};
 
 void check_scatter(const TwinScatter& scatter, FaultList& faults) {
-  check_scatter("test", scatter.test, 0.5, faults);
-  check_scatter("slow", scatter.slow, 0.5, faults);
-  check_scatter("rho", scatter.rho, 0.9999, faults);
-  check_scatter("white", scatter.white, 0.5, faults);
+  for (const ScatterKey& key : scatter_keys)
+    if (const auto value = scatter.*key.value; value && !(*value >= 0 && *value <= key.most))
+      faults.add({"--scatter"},
+                 fmt::format("{} = {} is outside 0 to {}", key.name, shortest(*value), key.most),
+                 "relative standard deviations, 0.04 is 4 %; rho is a correlation");
 }
 
 } // namespace
 
 TwinScatter parse_scatter(std::string_view text) {
-  static const std::vector<std::string> keys = {"test", "slow", "rho", "white"};
+  const std::vector<std::string> names = all_names(scatter_keys, &ScatterKey::name);
   TwinScatter scatter;
   FaultList faults;
-  for (const KeyValue& item : read_pairs(text, ',', "--scatter", keys, faults)) {
-    const double value = read_number(item, faults);
-    if (item.key == "test") scatter.test = value;
-    if (item.key == "slow") scatter.slow = value;
-    if (item.key == "rho") scatter.rho = value;
-    if (item.key == "white") scatter.white = value;
-  }
+  for (const KeyValue& item : read_pairs(text, ',', "--scatter", names, faults))
+    scatter.*std::ranges::find(scatter_keys, item.key, &ScatterKey::name)->value =
+        read_number(item, faults);
   if (faults.empty()) check_scatter(scatter, faults);
   faults.throw_if_any();
   return scatter;
@@ -63,7 +64,7 @@ void check_options(const TwinOptions& options) {
                "1 is the noise of the parameter set, 0 is none");
   check_choice("--noise", options.noise, {"normal", "t4", "heteroscedastic"}, faults);
   const auto laws = truth_names();
-  if (!options.law.empty() && std::find(laws.begin(), laws.end(), options.law) == laws.end())
+  if (!options.law.empty() && std::ranges::find(laws, options.law) == laws.end())
     faults.add({"--law"}, "'" + options.law + "' is not a law that is fitted to data",
                "known: " + join(laws, ", "));
   check_choice("--profile", options.profile, {"constant", "varied"}, faults);

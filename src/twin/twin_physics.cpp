@@ -15,22 +15,18 @@ namespace {
 // Slightly below the shear yield stress: the softest layer shears at less stress than the bulk.
 constexpr double limit_share = 0.95;
 
-struct State {
-  double sigma_n, psi, v, T_contact, T_tool, s, sigma_f;
-};
-
 // All influences except pressure, as one factor on mu.
-double relative_friction(const TwinParameters& set, const State& now) {
-  const double lv = std::log10(now.v / 50);
+double relative_friction(const TwinParameters& set, const TwinRow& now) {
+  const double lv = std::log10(now.v_rel_mm_s / 50);
   const double lp = std::log(now.psi) / std::log(20.0);
-  const double tn = (now.T_contact - 20) / 180;
-  const double film = std::exp(-(now.s / set.Lw) * (now.sigma_n / set.s_r) *
-                               std::sqrt(now.psi / 4.5) * std::exp((now.T_contact - 110) / 120));
+  const double tn = (now.T_contact_C - 20) / 180;
+  const double film = std::exp(-(now.s_mm / set.Lw) * (now.sigma_n_MPa / set.s_r) *
+                               std::sqrt(now.psi / 4.5) * std::exp((now.T_contact_C - 110) / 120));
   const double breakdown = 1 / (1 + std::exp(-12 * (lp * tn - set.b)));
   const double rates =
-      std::exp(-set.aT * (now.T_contact - 110) / 90 + set.av * lv - set.av2 * lv * lv +
+      std::exp(-set.aT * (now.T_contact_C - 110) / 90 + set.av * lv - set.av2 * lv * lv +
                set.apsi * (lp - 0.5) + set.axv * lv * (tn - 0.5));
-  return rates * (1 + set.rA * std::exp(-now.s / set.rL)) * (1 + set.wA * (1 - film)) *
+  return rates * (1 + set.rA * std::exp(-now.s_mm / set.rL)) * (1 + set.wA * (1 - film)) *
          (1 + set.bA * breakdown);
 }
 
@@ -62,97 +58,90 @@ double profile_share(const TwinTest& test, double x) {
 
 TwinRow twin_row(const TwinParameters& set, const TwinTest& test, std::size_t i, std::size_t n) {
   const double x = static_cast<double>(i) / static_cast<double>(n);
-  State now{};
-  now.v = test.v;
-  now.T_tool = test.T_tool;
-  now.s = round_to(twin_stroke_mm * x, 4);
+  TwinRow row{};
+  row.v_rel_mm_s = test.v;
+  row.T_tool_C = test.T_tool;
+  row.s_mm = round_to(twin_stroke_mm * x, 4);
+  row.time_s = round_to(row.s_mm / test.v, 7);
   const double drift = 1 + 0.10 * std::log(test.psi) / std::log(20.0) * (x - 0.5);
   const double level = std::max(500.0, test.p * (1 - std::exp(-x / 0.018)) * drift);
-  now.sigma_n = round_to(level * profile_share(test, x), 2);
-  now.psi = round_to(1 + (test.psi - 1) * (1 - std::exp(-x / 0.03)), 4);
-  now.T_contact = round_to(test.T_tool + std::min(60.0, 0.5 * std::sqrt(test.v * now.s)), 2);
-  const double strain = 0.25 + 0.6 * std::log(now.psi);
-  now.sigma_f = round_to(set.K * std::pow(strain / 0.9, 0.06) * (1 - 4e-4 * (test.T_tool - 20)), 2);
+  row.sigma_n_MPa = round_to(level * profile_share(test, x), 2);
+  row.psi = round_to(1 + (test.psi - 1) * (1 - std::exp(-x / 0.03)), 4);
+  row.T_contact_C = round_to(test.T_tool + std::min(60.0, 0.5 * std::sqrt(test.v * row.s_mm)), 2);
+  const double strain = 0.25 + 0.6 * std::log(row.psi);
+  row.sigma_f_MPa =
+      round_to(set.K * std::pow(strain / 0.9, 0.06) * (1 - 4e-4 * (test.T_tool - 20)), 2);
 
   // Real contact grows with pressure and saturates.
-  const double contact = 1 - std::exp(-now.sigma_n / (set.c_s * set.s_r));
+  const double contact = 1 - std::exp(-row.sigma_n_MPa / (set.c_s * set.s_r));
   const double reference = 1 - std::exp(-1 / set.c_s);
-  TwinRow row{};
-  row.tau0_MPa = set.mu0 * set.s_r * (contact / reference) * 0.72 * relative_friction(set, now);
-  row.limit_MPa = limit_share * now.sigma_f / std::sqrt(3.0);
-  row.time_s = round_to(now.s / test.v, 7);
-  row.sigma_n_MPa = now.sigma_n;
-  row.psi = now.psi;
-  row.v_rel_mm_s = test.v;
-  row.T_contact_C = now.T_contact;
-  row.T_tool_C = test.T_tool;
-  row.s_mm = now.s;
-  row.sigma_f_MPa = now.sigma_f;
+  row.tau0_MPa = set.mu0 * set.s_r * (contact / reference) * 0.72 * relative_friction(set, row);
+  row.limit_MPa = limit_share * row.sigma_f_MPa / std::sqrt(3.0);
   return row;
 }
 
 std::span<const TwinParameters> twin_sets() {
   static const std::vector<TwinParameters> sets = {
-      {"D",
-       "soft low-carbon steel, narrow stress range (recommended)",
-       {1725, 1865, 2005},
-       441,
-       1800,
-       0.741,
-       0.0898,
-       .214,
-       0,
-       .0817,
-       .0916,
-       .0306,
-       .079,
-       .83,
-       .223,
-       2.45,
-       .158,
-       .59,
-       .0806,
-       .0236},
-      {"W",
-       "soft low-carbon steel, wide stress range",
-       {1220, 1820, 2420},
-       387,
-       1800,
-       0.764,
-       0.0926,
-       .075,
-       .0025,
-       .0857,
-       .066,
-       .0431,
-       .098,
-       1.09,
-       .207,
-       2.45,
-       .103,
-       .516,
-       .0869,
-       .0135},
-      {"B",
-       "unphysically hard material, kept for comparison",
-       {949, 1087, 1226},
-       1689,
-       1090,
-       0.593,
-       0.1576,
-       .148,
-       .0095,
-       .0563,
-       .041,
-       .0375,
-       .097,
-       .50,
-       .134,
-       1.39,
-       .215,
-       .661,
-       .075,
-       .0157}};
+      {.name = "D",
+       .title = "soft low-carbon steel, narrow stress range (recommended)",
+       .p_levels = {1725, 1865, 2005},
+       .K = 441,
+       .s_r = 1800,
+       .c_s = 0.741,
+       .mu0 = 0.0898,
+       .aT = .214,
+       .av = 0,
+       .av2 = .0817,
+       .apsi = .0916,
+       .axv = .0306,
+       .rA = .079,
+       .rL = .83,
+       .wA = .223,
+       .Lw = 2.45,
+       .bA = .158,
+       .b = .59,
+       .s_test = .0806,
+       .s_ar = .0236},
+      {.name = "W",
+       .title = "soft low-carbon steel, wide stress range",
+       .p_levels = {1220, 1820, 2420},
+       .K = 387,
+       .s_r = 1800,
+       .c_s = 0.764,
+       .mu0 = 0.0926,
+       .aT = .075,
+       .av = .0025,
+       .av2 = .0857,
+       .apsi = .066,
+       .axv = .0431,
+       .rA = .098,
+       .rL = 1.09,
+       .wA = .207,
+       .Lw = 2.45,
+       .bA = .103,
+       .b = .516,
+       .s_test = .0869,
+       .s_ar = .0135},
+      {.name = "B",
+       .title = "unphysically hard material, kept for comparison",
+       .p_levels = {949, 1087, 1226},
+       .K = 1689,
+       .s_r = 1090,
+       .c_s = 0.593,
+       .mu0 = 0.1576,
+       .aT = .148,
+       .av = .0095,
+       .av2 = .0563,
+       .apsi = .041,
+       .axv = .0375,
+       .rA = .097,
+       .rL = .50,
+       .wA = .134,
+       .Lw = 1.39,
+       .bA = .215,
+       .b = .661,
+       .s_test = .075,
+       .s_ar = .0157}};
   return sets;
 }
 

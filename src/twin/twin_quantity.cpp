@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/names.h"
 #include "core/random.h"
 #include "core/text.h"
 #include "data/derived.h"
@@ -47,9 +48,8 @@ std::vector<double> latent(const TwinOptions& options, std::size_t effect, std::
 }
 
 std::vector<std::string> known_columns(const TwinDraft& draft) {
-  std::vector<std::string> names;
-  for (const data::Column& column : draft.data.columns)
-    if (column.name != "tau_R_MPa") names.push_back(column.name);
+  std::vector<std::string> names = all_names(draft.data.columns, &data::Column::name);
+  std::erase(names, "tau_R_MPa");
   for (const data::DerivedQuantity& quantity : data::derived_quantities())
     names.push_back(quantity.name);
   names.push_back("latent");
@@ -62,7 +62,7 @@ std::vector<double> quantity_rows(const TwinOptions& options, std::size_t effect
                                   const std::string& name, std::size_t tests,
                                   const TwinDraft& draft) {
   if (name == "latent") return latent(options, effect, tests, draft);
-  if (const data::Column* column = find_column(draft.data, name)) return column->values;
+  if (const data::Column* column = draft.data.find(name)) return column->values;
   return data::derive(*data::find_derived(name), draft.data, base_tau(draft));
 }
 
@@ -72,11 +72,11 @@ void check_column(const EffectSpec& spec, const std::string& name, const TwinDra
     faults.add({"--effect"}, "law '" + draft.law->law().name + "' has no limit to act on",
                "it is a limit itself: use on=mu");
   const auto known = known_columns(draft);
-  if (std::find(known.begin(), known.end(), name) == known.end()) {
+  if (std::ranges::find(known, name) == known.end()) {
     faults.add({"--effect"}, "unknown column '" + name + "'", suggest(name, known));
     return;
   }
-  const data::Column* column = find_column(draft.data, name);
+  const data::Column* column = draft.data.find(name);
   const bool text = column != nullptr && !column->levels.empty();
   const bool categorical = effects::find_effect(spec.form)->categorical && name == spec.column;
   if (text && !categorical)

@@ -20,9 +20,9 @@ struct Part {
 };
 
 Part columns_of(const TwinPart& part) {
-  Part out{{}, {}, find_column(part.data, "tau_R_MPa")->values};
-  if (const data::Column* sigma = find_column(part.data, "sigma_n_MPa")) out.sigma = sigma->values;
-  if (const data::Column* sigma_f = find_column(part.data, "sigma_f_MPa"))
+  Part out{{}, {}, part.data.find("tau_R_MPa")->values};
+  if (const data::Column* sigma = part.data.find("sigma_n_MPa")) out.sigma = sigma->values;
+  if (const data::Column* sigma_f = part.data.find("sigma_f_MPa"))
     for (const double value : sigma_f->values)
       out.k.push_back(value / std::sqrt(3.0));
   return out;
@@ -158,8 +158,7 @@ private:
 } // namespace
 
 const TwinLaw* TwinSummary::find(std::string_view name) const {
-  const auto at =
-      std::find_if(laws.begin(), laws.end(), [&](const TwinLaw& law) { return law.name == name; });
+  const auto at = std::ranges::find_if(laws, [&](const TwinLaw& law) { return law.name == name; });
   return at == laws.end() ? nullptr : &*at;
 }
 

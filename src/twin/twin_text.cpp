@@ -10,9 +10,7 @@
 
 namespace frictab::twin {
 
-namespace {
-
-std::vector<std::string> split(std::string_view text, char separator) {
+static std::vector<std::string> split(std::string_view text, char separator) {
   std::vector<std::string> parts;
   while (true) {
     const auto end = text.find(separator);
@@ -21,8 +19,6 @@ std::vector<std::string> split(std::string_view text, char separator) {
     text.remove_prefix(end + 1);
   }
 }
-
-} // namespace
 
 std::vector<KeyValue> read_pairs(std::string_view text, char separator, const std::string& option,
                                  std::span<const std::string> known, FaultList& faults) {
@@ -38,11 +34,11 @@ std::vector<KeyValue> read_pairs(std::string_view text, char separator, const st
     KeyValue item{std::string(trimmed(std::string_view(part).substr(0, equals))),
                   std::string(trimmed(std::string_view(part).substr(equals + 1))), option};
     const auto same = [&](const KeyValue& other) { return other.key == item.key; };
-    if (std::find(known.begin(), known.end(), item.key) == known.end())
+    if (std::ranges::find(known, item.key) == known.end())
       faults.add({option}, "unknown key '" + item.key + "'", suggest(item.key, known));
     else if (item.value.empty())
       faults.add({option}, "'" + item.key + "' has no value");
-    else if (std::any_of(pairs.begin(), pairs.end(), same))
+    else if (std::ranges::any_of(pairs, same))
       faults.add({option}, "'" + item.key + "' is given twice");
     else
       pairs.push_back(std::move(item));

@@ -33,9 +33,8 @@ bool is_calibrated(const Answers& answers) {
 std::string others_text(const Calibration& calibration) {
   constexpr std::size_t shown = 3;
   std::vector<std::string> possible = calibrate::possibly_best(calibration.comparisons);
-  const auto candidates =
-      static_cast<std::size_t>(std::count_if(calibration.fits.begin(), calibration.fits.end(),
-                                             [](const ModelFit& fit) { return !fit.reference; }));
+  const auto candidates = static_cast<std::size_t>(
+      std::ranges::count_if(calibration.fits, [](const ModelFit& fit) { return !fit.reference; }));
   if (possible.size() > 1 && possible.size() == candidates)
     return candidates == 2
                ? "; these tests cannot separate the two laws"
@@ -196,7 +195,7 @@ Text valid_text(const Answers& answers) {
   const ModelFit& fit = calibrate::recommended_fit(*answers.calibration).delivered();
   const std::vector<std::string> inputs = models::inputs(*fit.model.law, fit.model.conventions);
   for (const auto& [input, levels] : fit.model.law->levels) {
-    if (std::find(inputs.begin(), inputs.end(), input) == inputs.end()) continue;
+    if (std::ranges::find(inputs, input) == inputs.end()) continue;
     if (!text.empty()) text += ", ";
     text += column_name(input, answers.traces) + ": " + levels_text(levels);
   }
@@ -228,6 +227,17 @@ void add_tests_of(const trace::Trace& t, std::vector<std::string>& tests,
     add(lead.design);
   for (const trace::Alias& alias : t.cannot_tell)
     tests.push_back(alias.text);
+}
+
+// Command that has to follow because the tables are of another law than the recommended one.
+std::string necessary_command(const Answers& answers) {
+  if (!is_calibrated(answers) || answers.tables.empty()) return "";
+  const std::string& law = answers.calibration->recommended.law;
+  const bool is_tabulated = std::ranges::any_of(
+      answers.tables, [&](const table::Table& table) { return table.model == law; });
+  return law.empty() || is_tabulated
+             ? ""
+             : fmt::format("frictab run {} --set table.model=recommended", shell_word(answers.job));
 }
 
 Next next_of(const Answers& answers) {
@@ -269,17 +279,6 @@ std::string next_text(const Answers& answers) {
 }
 
 } // namespace
-
-std::string necessary_command(const Answers& answers) {
-  if (!is_calibrated(answers) || answers.tables.empty()) return "";
-  const std::string& law = answers.calibration->recommended.law;
-  const bool is_tabulated =
-      std::any_of(answers.tables.begin(), answers.tables.end(),
-                  [&](const table::Table& table) { return table.model == law; });
-  return law.empty() || is_tabulated
-             ? ""
-             : fmt::format("frictab run {} --set table.model=recommended", shell_word(answers.job));
-}
 
 Section in_short(const Answers& answers) {
   const bool synthetic = answers.calibration && answers.calibration->synthetic;

@@ -24,10 +24,6 @@ struct Answers {
   std::string job;                          // its file, for a command
 };
 
-// Command that has to follow because the tables are of another law than the recommended one; empty:
-// none.
-std::string necessary_command(const Answers& answers);
-
 // One line each; without those that are not known.
 Section in_short(const Answers& answers);
 

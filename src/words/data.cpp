@@ -37,7 +37,7 @@ public:
     std::vector<std::string> seen;
     for (const Dataset* part : {&parts_.training, &parts_.validation})
       for (const std::string& line : lines_of(*part))
-        if (std::find(seen.begin(), seen.end(), line) == seen.end()) {
+        if (std::ranges::find(seen, line) == seen.end()) {
           seen.push_back(line);
           list_.items.push_back(title.empty() ? line : title + ": " + line);
         }
@@ -98,8 +98,8 @@ Section data_read(const DataParts& parts, Detail detail) {
   section.say(size_text(parts.judged_by, t, parts.validation) +
               (calibrate::is_synthetic(t) ? " - SYNTHETIC data" : ""));
   if (parts.judged_by == calibrate::JudgedBy::fit)
-    section.say("If they are of several tests, data.experiment names the column that distinguishes "
-                "them.");
+    section.say(
+        "If they are of several tests, data.experiment names the column that distinguishes them.");
   section.say(sentence(uneven_text(parts.judged_by, t, parts.validation)));
   if (const std::string how = condensed_text(t, parts.validation); !how.empty())
     section.say("Rows are " + how + ".");
@@ -145,12 +145,11 @@ Section files_read(const DataParts& parts) {
                {"names in line", true},
                {"units in line", true},
                {"rows", true},
-               {"not read"}},
-              {}};
+               {"not read"}}};
   std::vector<data::FileRead> files = parts.training.files;
   for (const data::FileRead& file : parts.validation.files)
-    if (std::none_of(files.begin(), files.end(),
-                     [&](const data::FileRead& other) { return other.file == file.file; }))
+    if (std::ranges::none_of(files,
+                             [&](const data::FileRead& other) { return other.file == file.file; }))
       files.push_back(file);
   for (std::size_t i = 0, end = 0; i < files.size(); i = end) {
     std::size_t rows = 0;
@@ -164,10 +163,9 @@ Section files_read(const DataParts& parts) {
 
 Section tests(const DataParts& parts) {
   Section section{"tests", "Tests", "Tests"};
-  section.say(
-      "Lowest to highest value of each quantity; means of mu = tau_R/sigma_N and of tau_R/k "
-      "with k = sigma_f/\u221A3.",
-      "", Shown::on_pages);
+  section.say("Lowest to highest value of each quantity; means of mu = tau_R/sigma_N and of "
+              "tau_R/k with k = sigma_f/\u221A3.",
+              "", Shown::on_pages);
   Table table{"Tests",
               {{"test"}, {"use"}, {"rows", true}, {"mean mu", true}, {"mean tau_R/k", true}},
               {},
@@ -184,8 +182,8 @@ Section tests(const DataParts& parts) {
       Row row{{test.experiment, uses[use], thousands(test.rows), figures(test.mean_mu),
                test.mean_of_k ? figures(*test.mean_of_k) : "\u2013"}};
       for (const std::string& name : shown) {
-        const auto at = std::find_if(test.spans.begin(), test.spans.end(),
-                                     [&](const auto& span) { return span.first == name; });
+        const auto at =
+            std::ranges::find_if(test.spans, [&](const auto& span) { return span.first == name; });
         row.cells.emplace_back(
             at == test.spans.end() ? "\u2013" : span_text(at->second.first, at->second.second, 3));
       }
@@ -200,7 +198,7 @@ Section tests(const DataParts& parts) {
 Section column_roles(const Dataset& data) {
   constexpr std::size_t most = 100;
   Section section{"columns", "Columns", "Other columns"};
-  Table table{"Columns", {{"column"}, {"role"}, {"why"}}, {}};
+  Table table{"Columns", {{"column"}, {"role"}, {"why"}}};
   std::size_t more = 0;
   for (const data::Column& column : data.columns)
     if (!data::find_quantity(column.name)) {
@@ -210,19 +208,18 @@ Section column_roles(const Dataset& data) {
         ++more;
     }
   if (table.rows.empty()) return section;
-  section.say(
-      "What each column is to friction. Settings and labels may be causes that a law lacks; "
-      "channels and outcomes may follow from friction and are leads only; a response is "
-      "the measured friction itself. [data.roles] overrules it.",
-      "", Shown::on_pages);
+  section.say("What each column is to friction. Settings and labels may be causes that a law "
+              "lacks; channels and outcomes may follow from friction and are leads only; a "
+              "response is the measured friction itself. [data.roles] overrules it.",
+              "", Shown::on_pages);
   section.add(std::move(table));
   if (more > 0) section.say(and_more(more, "column"));
   return section;
 }
 
 Table ranges(const DataParts& parts) {
-  Table table{
-      "Ranges", {{"quantity"}, {"name"}, {"unit"}, {"training", true}, {"validation", true}}, {}};
+  Table table{"Ranges",
+              {{"quantity"}, {"name"}, {"unit"}, {"training", true}, {"validation", true}}};
   const auto range_of = [](const Dataset& data, const std::string& name) -> std::string {
     if (!data.has(name)) return "\u2013";
     const auto [low, high] = data::source_range(data, name, data.values(name));

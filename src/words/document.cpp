@@ -19,15 +19,11 @@ Text operator+(Text text, const Text& more) {
   return text += more;
 }
 
-namespace {
-
-Text marked(std::string text, Mark mark, std::string detail = {}) {
+static Text marked(std::string text, Mark mark, std::string detail = {}) {
   Text out;
   out.spans.push_back({std::move(text), mark, std::move(detail)});
   return out;
 }
-
-} // namespace
 
 Text strong(std::string text) {
   return marked(std::move(text), Mark::strong);

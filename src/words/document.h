@@ -99,7 +99,7 @@ struct Row {
 struct Table {
   std::string name; // for screen readers
   std::vector<Column> columns;
-  std::vector<Row> rows;
+  std::vector<Row> rows = {};
   std::string kind = {};
   std::size_t heading = 0; // column that names the rows
 };
@@ -112,7 +112,7 @@ struct Picture {
 // Pictures side by side; `layout` is a class of the style sheet.
 struct Pictures {
   std::string layout;
-  std::vector<Picture> pictures;
+  std::vector<Picture> pictures = {};
 };
 
 // A Section holds Blocks, and a Block may be a Section. As a template this is complete only where

@@ -176,14 +176,13 @@ Section below_the_range(const Verification& verification) {
 Section single_precision(const Verification& verification) {
   Section section{"", "", "Routines in single precision, largest found, MPa"};
   Table table{"Single precision",
-              {{"law"}, number_column("off the law"), {"off the same table in double precision"}},
-              {}};
+              {{"law"}, number_column("off the law"), {"off the same table in double precision"}}};
   for (const std::string& model : models_of(verification)) {
     std::vector<const DriftRecord*> single;
     for (const DriftRecord& r : verification.records)
       if (r.model == model && verify::in_single_precision(r)) single.push_back(&r);
     if (single.empty()) continue;
-    std::stable_sort(single.begin(), single.end(), [](const DriftRecord* a, const DriftRecord* b) {
+    std::ranges::stable_sort(single, [](const DriftRecord* a, const DriftRecord* b) {
       return a->max_vs_table_MPa > b->max_vs_table_MPa;
     });
     double law = 0;
@@ -210,9 +209,8 @@ Section fixed_states(const Verification& verification) {
   for (const DriftRecord& r : verification.records) {
     if (!r.ran || !r.fixed_states) continue;
     const std::string text = verify::fixed_states_text(r), target = verify::target_of(r);
-    auto one = std::find_if(all.begin(), all.end(), [&](const Fixed& other) {
-      return other.model == r.model && other.text == text;
-    });
+    auto one = std::ranges::find_if(
+        all, [&](const Fixed& other) { return other.model == r.model && other.text == text; });
     if (one == all.end()) one = all.insert(all.end(), {r.model, text, {}, 0});
     if (one->targets.empty() || one->targets.back() != target) one->targets.push_back(target);
     one->worst_MPa = std::max(one->worst_MPa, r.worst_case_MPa);
@@ -220,8 +218,7 @@ Section fixed_states(const Verification& verification) {
   Section section{"", "", "States that a solver's own table or a constant of the job fixes"};
   Table table{
       "Fixed states",
-      {{"law"}, number_column("off the law there"), {"what fixes which states, and its cost"}},
-      {}};
+      {{"law"}, number_column("off the law there"), {"what fixes which states, and its cost"}}};
   for (const Fixed& one : all)
     table.rows.push_back({{one.model, figures(one.worst_MPa),
                            fmt::format("{} {} {}", list_of(one.targets),
@@ -239,16 +236,14 @@ Section over_increments(const Verification& verification) {
                {"routine"},
                number_column("increments"),
                number_column("numbers compared"),
-               {"furthest off, as a share of what rounding allows"}},
-              {}};
+               {"furthest off, as a share of what rounding allows"}}};
   for (const DriftRecord& r : verification.records) {
     if (!r.path || r.path->figures.empty()) continue;
     std::size_t compared = 0;
     for (const codegen::PathFigure& figure : r.path->figures)
       compared += figure.compared;
-    const auto worst =
-        std::max_element(r.path->figures.begin(), r.path->figures.end(),
-                         [](const auto& a, const auto& b) { return a.of_allowed < b.of_allowed; });
+    const auto worst = std::ranges::max_element(
+        r.path->figures, [](const auto& a, const auto& b) { return a.of_allowed < b.of_allowed; });
     table.rows.push_back({{r.model, r.subject, thousands(r.path->increments), thousands(compared),
                            fmt::format("{:.2g}, {}", worst->of_allowed, worst->quantity)}});
   }
@@ -264,7 +259,7 @@ Section changed_files(const Verification& verification) {
   for (const verify::Finding& finding : verification.findings) {
     (finding.failed ? failed : notes)
         .items.push_back((finding.failed ? "" : "note: ") + finding.text());
-    if (std::find(mends.begin(), mends.end(), finding.mend) == mends.end() && finding.failed)
+    if (std::ranges::find(mends, finding.mend) == mends.end() && finding.failed)
       mends.push_back(finding.mend);
   }
   failed.items.insert(failed.items.end(), notes.items.begin(), notes.items.end());
@@ -281,10 +276,9 @@ Section drift(const Verification& verification, Detail detail) {
     section.say("Nothing was verified.");
     return section;
   }
-  section.say(
-      fmt::format("Largest found over the whole range; allowed: {}. Proven: no state drifts "
-                  "the table further.",
-                  verify::allowed_text(verification)));
+  section.say(fmt::format(
+      "Largest found over the whole range; allowed: {}. Proven: no state drifts the table further.",
+      verify::allowed_text(verification)));
   Table table{"Drift of each law",
               {{"law"},
                number_column("table"),
@@ -292,8 +286,7 @@ Section drift(const Verification& verification, Detail detail) {
                number_column("routines"),
                number_column("on rows"),
                number_column("rows outside"),
-               {"result"}},
-              {}};
+               {"result"}}};
   List notes;
   for (const std::string& model : models_of(verification)) {
     const LawDrift law = drift_of(verification, model);
@@ -355,9 +348,8 @@ Text drift_in_short(const Verification& verification) {
     text += fmt::format(", {} compiled {} {} MPa", thousands(count),
                         count == 1 ? "routine" : "routines", at_most(routines));
   text += fmt::format("; {} MPa allowed", verify::allowed_text(verification));
-  const auto changed =
-      std::count_if(verification.findings.begin(), verification.findings.end(),
-                    [](const verify::Finding& f) { return f.failed && f.model.empty(); });
+  const auto changed = std::ranges::count_if(
+      verification.findings, [](const verify::Finding& f) { return f.failed && f.model.empty(); });
   if (changed > 0) not_ok += "; " + badge("FILES CHANGED", "fail");
   return not_ok.empty() ? Text(text + ": passed") : text + not_ok;
 }

@@ -21,10 +21,10 @@ JudgedWords judged_words(JudgedBy judged_by) {
             "above are of tests left out",
             "Each test is predicted by the law fitted to all others.", "all experiments"};
   case JudgedBy::fit:
-    return {"Laws by mean absolute error on the ONE experiment they are fitted to; no other was "
-            "seen",
-            "All rows: those that the laws are fitted to",
-            "The one test that the law is fitted to.", "the one experiment"};
+    return {
+        "Laws by mean absolute error on the ONE experiment they are fitted to; no other was seen",
+        "All rows: those that the laws are fitted to", "The one test that the law is fitted to.",
+        "the one experiment"};
   case JudgedBy::held_out:
   case JudgedBy::validation_files:
     break;

@@ -76,13 +76,32 @@ std::string method_text(const Calibration& calibration) {
   std::vector<std::string> methods;
   for (const ModelFit& fit : calibration.fits)
     if (fit.model.law->calibrated != models::Calibrated::fixed && !fit.std_error_method.empty() &&
-        std::find(methods.begin(), methods.end(), fit.std_error_method) == methods.end())
+        std::ranges::find(methods, fit.std_error_method) == methods.end())
       methods.push_back(fit.std_error_method);
   std::string text =
       fmt::format("Loss: {}. Seed {}. Data fingerprint {}.", loss_name(calibration.loss),
                   calibration.seed, calibration.data_hash);
   if (!methods.empty()) text += " Standard errors: " + join(methods, "; ") + ".";
   return text;
+}
+
+// Fitted parameters with their standard errors: "mu = 0.0792 \u00B1 0.0020, m = 0.4998"; the size
+// of a law with its numbers in the formula.
+Text parameters_text(const ModelFit& fit) {
+  if (std::string size = calibrate::size_of_trained(fit); !size.empty()) return size;
+  const models::Law& law = *fit.model.law;
+  const std::size_t n = std::min(law.parameters.size(), fit.model.parameters.size());
+  if (n > 8) return fmt::format("{} parameters, in models/{}.json", n, law.name);
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double error = i < fit.std_error.size() ? fit.std_error[i] : no_value;
+    const bool fixed_law = law.calibrated == models::Calibrated::fixed;
+    const ValueText v = fixed_law ? ValueText{short_figures(fit.model.parameters[i]), ""}
+                                  : with_error(fit.model.parameters[i], error);
+    const models::Parameter& p = law.parameters[i];
+    parts.push_back(parameter_text(p.name, v, p.unit));
+  }
+  return join(parts, ", ");
 }
 
 Row law_row(const ModelFit& fit, std::size_t rank, bool best, int decimals) {
@@ -151,23 +170,6 @@ List remarks_on(const Calibration& calibration) {
 
 } // namespace
 
-Text parameters_text(const ModelFit& fit) {
-  if (std::string size = calibrate::size_of_trained(fit); !size.empty()) return size;
-  const models::Law& law = *fit.model.law;
-  const std::size_t n = std::min(law.parameters.size(), fit.model.parameters.size());
-  if (n > 8) return fmt::format("{} parameters, in models/{}.json", n, law.name);
-  std::vector<std::string> parts;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double error = i < fit.std_error.size() ? fit.std_error[i] : no_value;
-    const bool fixed_law = law.calibrated == models::Calibrated::fixed;
-    const ValueText v = fixed_law ? ValueText{short_figures(fit.model.parameters[i]), ""}
-                                  : with_error(fit.model.parameters[i], error);
-    const models::Parameter& p = law.parameters[i];
-    parts.push_back(parameter_text(p.name, v, p.unit));
-  }
-  return join(parts, ", ");
-}
-
 Section ranking(const Calibration& c, Detail detail) {
   Section section{"ranking", "Ranking", judged_words(c.judged_by).ranking + " (tau_R, MPa)"};
   if (c.fits.empty()) {
@@ -178,13 +180,13 @@ Section ranking(const Calibration& c, Detail detail) {
   }
   const calibrate::Metrics& t = c.fits.front().training;
   const int decimals = error_decimals(c);
-  section.say(fmt::format("Calibrated on {} of {}, {}. Residual = measured \u2212 predicted: a "
-                          "positive bias says that the law predicts too little friction. Intervals "
-                          "are 95 %, from resampling whole experiments. The noise floor is the "
-                          "scatter that no law of these columns can predict.",
-                          count_of(t.n_rows, "row"), count_of(t.n_experiments, "experiment"),
-                          judged_text(c)),
-              "", Shown::on_pages);
+  section.say(
+      fmt::format(
+          "Calibrated on {} of {}, {}. Residual = measured \u2212 predicted: a positive bias says "
+          "that the law predicts too little friction. Intervals are 95 %, from resampling whole "
+          "experiments. The noise floor is the scatter that no law of these columns can predict.",
+          count_of(t.n_rows, "row"), count_of(t.n_experiments, "experiment"), judged_text(c)),
+      "", Shown::on_pages);
   section.add(ranking_table(c));
   if (const std::string advice = calibrate::noise_floor_advice(c); !advice.empty())
     section.say(
@@ -218,8 +220,7 @@ Section delivered_laws(const Calibration& c) {
                number_column("95 % interval"),
                number_column("RMSE"),
                number_column("bias"),
-               {"parameters \u00B1 standard error", false, "", Shown::everywhere, "parameters"}},
-              {}};
+               {"parameters \u00B1 standard error", false, "", Shown::everywhere, "parameters"}}};
   List remarks;
   for (const ModelFit& judged : c.fits) {
     if (!judged.on_all) continue;
@@ -269,8 +270,7 @@ Table worse_than_best(const calibrate::Comparisons& c, int decimals) {
                number_column("RMSE above it"),
                number_column("p"),
                {"verdict"},
-               {"may be the best"}},
-              {}};
+               {"may be the best"}}};
   for (std::size_t j = 0; j < c.laws.size(); ++j) {
     const double p = c.best_p_values[j];
     const std::string may = std::isnan(p)
@@ -324,11 +324,11 @@ Section comparison(const Calibration& calibration) {
       "the leader: p of \"no law is better than this one\".",
       thousands(c.resamples), count_of(c.n_experiments, "validation experiment")));
   section.add(worse_than_best(c, decimals));
-  section.say("All pairs: by how many MPa the MAE of the row's law is larger than that of the "
-              "column's law; " +
-              strong("bold and shaded") +
-              " where the column's law is better (p < 0.05 for that pair alone, darker below "
-              "0.001).");
+  section.say(
+      "All pairs: by how many MPa the MAE of the row's law is larger than that of the column's "
+      "law; " +
+      strong("bold and shaded") +
+      " where the column's law is better (p < 0.05 for that pair alone, darker below 0.001).");
   section.add(all_pairs(c, decimals));
   return section;
 }
@@ -348,8 +348,7 @@ Table floors_table(const Calibration& calibration, int decimals) {
                number_column("MAE"),
                number_column("RMSE"),
                {"data"},
-               {"meaning"}},
-              {}};
+               {"meaning"}}};
   for (const calibrate::NoiseFloor& f : calibration.noise_floors)
     table.rows.push_back(
         {{calibrate::noise_floor_name(f), f.part,
@@ -403,8 +402,7 @@ Section experiment_band(const Calibration& c) {
               {{"law"},
                number_column("5 % below"),
                number_column("95 % below"),
-               number_column("validation experiments inside")},
-              {}};
+               number_column("validation experiments inside")}};
   for (const ModelFit& fit : c.fits)
     table.rows.push_back({{fit.model.law->name, factor_text(fit.band.low),
                            factor_text(fit.band.high), inside_text(fit.band)}});
@@ -415,22 +413,19 @@ Section experiment_band(const Calibration& c) {
 Section polynomial_terms(const Calibration& c) {
   constexpr std::size_t most_terms = 15; // the largest come first
   Section section{"polynomial", "Polynomial", "What the polynomial is made of"};
-  const auto fit = std::find_if(c.fits.begin(), c.fits.end(), [](const ModelFit& one) {
-    return one.polynomial && !one.polynomial->terms.empty();
-  });
+  const auto fit = std::ranges::find_if(
+      c.fits, [](const ModelFit& one) { return one.polynomial && !one.polynomial->terms.empty(); });
   if (fit == c.fits.end()) return section;
   const calibrate::PolynomialRecord& record = *fit->polynomial;
   const std::size_t shown = std::min(most_terms, record.terms.size());
   section.say(fmt::format(
       "ln mu = ln mu0 + the sum of b times its term; each z runs from -1 to 1 over the data, P2 = "
       "(3 z\u00B2 - 1)/2, P3 = (5 z\u00B3 - 3 z)/2, so that a term moves ln mu by b at most. "
-      "Errors "
-      "by experiment, the ridge held. The {} largest of {} terms{}.",
+      "Errors by experiment, the ridge held. The {} largest of {} terms{}.",
       shown, record.terms.size(),
       shown < record.terms.size() ? "; all are in calibration.json" : ""));
   Table table{"Terms of the polynomial",
-              {{"term"}, number_column("b"), number_column("standard error")},
-              {}};
+              {{"term"}, number_column("b"), number_column("standard error")}};
   for (std::size_t t = 0; t < shown; ++t) {
     const calibrate::PolynomialTerm& term = record.terms[t];
     const ValueText v = with_error(term.coefficient, term.std_error);
@@ -451,8 +446,7 @@ Section published_comparison(const Calibration& calibration) {
   Table table{"Published figures",
               {{"mean absolute error of tau_R"},
                number_column("published, MPa", "", "published"),
-               number_column("here, MPa")},
-              {}};
+               number_column("here, MPa")}};
   const auto all = published_figures();
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string ours = counterpart(calibration, i);
@@ -472,14 +466,13 @@ Section conditional_use(const Calibration& calibration) {
   if (c.laws.empty()) return section;
   const int decimals = error_decimals(calibration);
   const std::string length = short_figures(c.condition_on_mm);
-  section.say(
-      strong("Not to be compared with the ranking.") +
-          fmt::format(" Each law times one gain per experiment, predicted from how far that "
-                      "experiment's own first {0} mm of sliding are off from what is usual "
-                      "there; how far to trust them is learned from the training "
-                      "experiments. Errors on the rows beyond {0} mm only, in MPa. {1}",
-                      length, conditional_counts(c)),
-      "aside");
+  section.say(strong("Not to be compared with the ranking.") +
+                  fmt::format(" Each law times one gain per experiment, predicted from how far "
+                              "that experiment's own first {0} mm of sliding are off from what is "
+                              "usual there; how far to trust them is learned from the training "
+                              "experiments. Errors on the rows beyond {0} mm only, in MPa. {1}",
+                              length, conditional_counts(c)),
+              "aside");
   Table table{"Conditional use",
               {{"law"},
                number_column("MAE without gain"),

@@ -9,10 +9,6 @@
 
 namespace frictab::words {
 
-// Fitted parameters with their standard errors: "mu = 0.0792 \u00B1 0.0020, m = 0.4998"; the size
-// of a law with its numbers in the formula.
-Text parameters_text(const calibrate::ModelFit& fit);
-
 // The laws by error with the noise floor, what is known of their order, which law is recommended,
 // remarks, and the laws left out. brief: counts the laws that may be the best, full: names them.
 Section ranking(const calibrate::Calibration& calibration, Detail detail = Detail::full);

@@ -73,7 +73,9 @@ std::string conditional_counts(const calibrate::Conditional& c) {
   return text;
 }
 
-int column_decimals(double least, double largest) {
+// Decimals of a column of numbers, so that it lines up: three digits of `least`, at least two
+// decimals, and none beyond the sixth digit of `largest` where that takes more than six.
+static int column_decimals(double least, double largest) {
   if (!std::isfinite(least) || least <= 0) return 2;
   const auto digit_of = [](double value) {
     return static_cast<int>(std::floor(std::log10(value)));

@@ -39,9 +39,6 @@ std::string p_text(double p_value);
 // evaluate.
 std::string conditional_counts(const calibrate::Conditional& conditional);
 
-// Decimals of a column of numbers, so that it lines up: three digits of `least`, at least two
-// decimals, and none beyond the sixth digit of `largest` where that takes more than six.
-int column_decimals(double least, double largest);
 // Decimals of the ranking's errors, by the best law's error and the largest.
 int error_decimals(const calibrate::Calibration& calibration);
 

@@ -45,7 +45,7 @@ std::string state_text(const std::string& state, double value, const std::string
 }
 
 std::size_t count_if(const Assessment& v, bool (*test)(const LawThere&)) {
-  return static_cast<std::size_t>(std::count_if(v.laws.begin(), v.laws.end(), test));
+  return static_cast<std::size_t>(std::ranges::count_if(v.laws, test));
 }
 
 bool leads(const LawThere& law) {
@@ -67,10 +67,9 @@ std::string no_force_text(const Process& p) {
   case Prediction::no_tool:
     return "no force of the tool is given";
   case Prediction::force_driven:
-    return p.driven_was_found
-               ? "the tool seems to be driven by a force (it is a straight line over time, the "
-                 "speed is not steady; process.driven says otherwise)"
-               : "the tool is driven by a force";
+    return p.driven_was_found ? "the tool seems to be driven by a force (it is a straight line "
+                                "over time, the speed is not steady; process.driven says otherwise)"
+                              : "the tool is driven by a force";
   case Prediction::energy_driven:
     return "the tool is driven by an energy";
   case Prediction::contact_changes:
@@ -113,10 +112,10 @@ std::string read_text(const Process& p) {
 
 std::string where_text(const Process& p) {
   if (p.coverage.states.empty()) return "no state of the contact varies in the tests";
-  std::string text = fmt::format(
-      "{} of the friction work is thinly tested (less than half a test nearby), {} lies "
-      "outside the tests' range",
-      percent_of(p.coverage.thin.work), percent_of(p.coverage.outside.work));
+  std::string text =
+      fmt::format("{} of the friction work is thinly tested (less than half a test nearby), {} "
+                  "lies outside the tests' range",
+                  percent_of(p.coverage.thin.work), percent_of(p.coverage.outside.work));
   if (const std::string most = most_outside(p); p.coverage.outside.work >= 0.005 && !most.empty())
     text += ", " + most;
   return text;
@@ -177,11 +176,10 @@ std::string next_text(const Process& p) {
       reached > 0.99 ? "over this process"
                      : fmt::format("over the {} of its friction work that the rig reaches",
                                    percent_of(reached));
-  return fmt::format(
-      "run {} of process_plan.csv: what any law may err in tau_R {} falls from {} to "
-      "{}; with as many tests of the campaign again to {}",
-      count_of(t.tests.size(), "test"), where, open_text(t.open), open_text(t.with_tests),
-      open_text(t.with_repeats));
+  return fmt::format("run {} of process_plan.csv: what any law may err in tau_R {} falls from {} "
+                     "to {}; with as many tests of the campaign again to {}",
+                     count_of(t.tests.size(), "test"), where, open_text(t.open),
+                     open_text(t.with_tests), open_text(t.with_repeats));
 }
 
 std::string reach_text(const Process& p) {
@@ -225,19 +223,6 @@ std::string change_text(const Process& p, double percent) {
   const stats::Interval range = process::shown_range(percent);
   return fmt::format("{} of force (a rerun: {})", signed_percent(percent),
                      range_text(range.low, range.high));
-}
-
-std::string setting_text(const process::Setting& at) {
-  std::vector<std::string> parts;
-  const auto add = [&](const char* name, double value) {
-    if (std::isfinite(value))
-      parts.push_back(state_text(name, value, data::find_quantity(name)->unit));
-  };
-  add("sigma_n_MPa", at.sigma_n_MPa);
-  add("psi", at.psi);
-  add("v_rel_mm_s", at.v_rel_mm_s);
-  add("T_tool_C", at.T_tool_C);
-  return join(parts, ", ");
 }
 
 Section process_in_short(const Process& p) {
@@ -307,8 +292,7 @@ Section process_coverage(const Process& p) {
                 number_column("below", "outside"),
                 number_column("above", "outside"),
                 number_column("thinly tested"),
-                number_column("outside, of area x time")},
-               {}};
+                number_column("outside, of area x time")}};
   for (const process::StateCoverage& state : p.coverage.states)
     add_state(states, state, true);
   for (const process::StateCoverage& state : p.coverage.further)
@@ -318,8 +302,7 @@ Section process_coverage(const Process& p) {
               {{"part"},
                number_column("of all friction work"),
                number_column("outside"),
-               number_column("thinly tested")},
-              {}};
+               number_column("thinly tested")}};
   for (const process::PartCoverage& part : p.coverage.stroke)
     add_part(parts, part);
   for (const process::PartCoverage& part : p.coverage.surface)
@@ -329,6 +312,14 @@ Section process_coverage(const Process& p) {
 }
 
 namespace {
+
+std::string setting_text(const process::Setting& at) {
+  std::vector<std::string> parts;
+  for (std::size_t s = 0; s < at.size(); ++s)
+    if (const char* name = process::setting_names[s]; std::isfinite(at[s]))
+      parts.push_back(state_text(name, at[s], data::find_quantity(name)->unit));
+  return join(parts, ", ");
+}
 
 std::string error_text(const Process& p, double percent) {
   if (p.prediction != Prediction::force) return "";
@@ -358,10 +349,11 @@ void add_law(Table& table, const Process& p, const Assessment& v, const LawThere
 Section process_laws(const Process& p) {
   const Assessment& v = p.latest();
   Section section{"laws", "What the laws say", "What the laws say there"};
-  section.say(sentence(laws_text(p, v)) + " " +
-              fmt::format("Their stress differs by {:.1f} MPa (standard deviation between them, by "
-                          "friction work).",
-                          v.differ_MPa));
+  section.say(
+      sentence(laws_text(p, v)) + " " +
+      fmt::format(
+          "Their stress differs by {:.1f} MPa (standard deviation between them, by friction work).",
+          v.differ_MPa));
   Table table{"Laws in the process",
               {{"law"},
                number_column("mean, MPa", "tau_R"),
@@ -371,18 +363,16 @@ Section process_laws(const Process& p) {
                number_column("end", result_name(p)),
                number_column("scatter of tests", result_name(p)),
                number_column("best in resamples"),
-               number_column("error near the process")},
-              {}};
+               number_column("error near the process")}};
   for (const LawThere& law : v.laws)
     add_law(table, p, v, law);
   section.add(std::move(table));
   section.say(
-      "A change of force is the change of friction power over the tool's speed, with all "
-      "motion held: exact to first order where nothing else depends on friction. In a rerun: "
-      "the range that nine in ten of the reruns of four processes (synthetic) stayed in; "
-      "larger changes than 10 % need a rerun. Scatter of tests: standard deviation over resampled "
-      "tests, fitted again. Error near the process: relative, on the tests' rows by their "
-      "nearness.",
+      "A change of force is the change of friction power over the tool's speed, with all motion "
+      "held: exact to first order where nothing else depends on friction. In a rerun: the range "
+      "that nine in ten of the reruns of four processes (synthetic) stayed in; larger changes than "
+      "10 % need a rerun. Scatter of tests: standard deviation over resampled tests, fitted again. "
+      "Error near the process: relative, on the tests' rows by their nearness.",
       "", Shown::on_pages);
   return section;
 }
@@ -395,18 +385,18 @@ Section process_tests(const Process& p) {
     return section;
   }
   section.say(sentence(next_text(p)));
-  Table table{"Proposed tests", {{"test"}, {"settings"}, {"run twice"}}, {}};
+  Table table{"Proposed tests", {{"test"}, {"settings"}, {"run twice"}}};
   for (std::size_t i = 0; i < t.tests.size(); ++i) {
-    const bool twice = std::find(t.repeated.begin(), t.repeated.end(), i) != t.repeated.end();
+    const bool twice = std::ranges::find(t.repeated, i) != t.repeated.end();
     table.rows.push_back({{std::to_string(i + 1), setting_text(t.tests[i]), twice ? "yes" : ""}});
   }
   section.add(std::move(table));
   std::vector<std::string> centres;
   for (const process::Setting& centre : t.centres)
     centres.push_back(setting_text(centre));
-  section.say(fmt::format("Plainer, and nearly as good ({}): the centres of friction work, clipped "
-                          "to the rig: {}.",
-                          open_text(t.with_centres), join(centres, "; ")));
+  section.say(fmt::format(
+      "Plainer, and nearly as good ({}): the centres of friction work, clipped to the rig: {}.",
+      open_text(t.with_centres), join(centres, "; ")));
   std::vector<std::string> rig;
   for (const auto& [name, range] : t.rig)
     rig.push_back(fmt::format("{} {} to {}", name, short_figures(range.first, 4),

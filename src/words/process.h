@@ -21,7 +21,5 @@ Section process_reading(const process::Process& process);
 std::string change_text(const process::Process& process, double percent);
 // "force", or "friction work" where no force is predicted.
 std::string result_name(const process::Process& process);
-// "sigma_N 700 MPa, psi 4.5, v_rel 50 mm/s, T_tool 110 degC"
-std::string setting_text(const process::Setting& setting);
 
 } // namespace frictab::words

@@ -54,8 +54,7 @@ Section tables(const std::vector<table::Table>& all) {
     return section;
   }
   Table rows{"Tables",
-             {{"law"}, {"nodes", true}, {"size", true}, {"of"}, {"interpolation"}, {"grid"}},
-             {}};
+             {{"law"}, {"nodes", true}, {"size", true}, {"of"}, {"interpolation"}, {"grid"}}};
   List remarks;
   for (const table::Table& table : all) {
     rows.rows.push_back(
@@ -76,8 +75,7 @@ Table table_axes(const table::Table& table) {
              {"to", true},
              {"nodes", true},
              {"interpolated in"},
-             {"range from"}},
-            {}};
+             {"range from"}}};
   for (const table::TableAxis& axis : table.axes) {
     const bool any = !axis.nodes.empty();
     out.rows.push_back(

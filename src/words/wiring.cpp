@@ -25,7 +25,7 @@ std::vector<std::string> texts_at(const Json& object, const char* key) {
 }
 
 Table inputs_of(const Json& recipe, const std::string& title) {
-  Table table{"Inputs of " + title, {{"state"}, {"unit"}, {"where it comes from"}}, {}};
+  Table table{"Inputs of " + title, {{"state"}, {"unit"}, {"where it comes from"}}};
   if (const auto arguments = recipe.find("arguments"); arguments != recipe.end())
     for (const Json& argument : *arguments) {
       const std::string source = text_at(argument, "source");

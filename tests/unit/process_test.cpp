@@ -414,10 +414,11 @@ TEST_F(ProcessJudged, ProposedTestsLieWithinTheRigAndHelp) {
   const process::Process p = judge(steady(20), tool_of(20, 10));
   ASSERT_EQ(p.proposed.tests.size(), 4u);
   for (const process::Setting& at : p.proposed.tests) {
-    EXPECT_GE(at.sigma_n_MPa, 200);
-    EXPECT_LE(at.sigma_n_MPa, 1500);
-    EXPECT_GE(at.v_rel_mm_s, 10);
-    EXPECT_LE(at.v_rel_mm_s, 100);
+    const auto& [pressure, psi, speed, temperature] = at;
+    EXPECT_GE(pressure, 200);
+    EXPECT_LE(pressure, 1500);
+    EXPECT_GE(speed, 10);
+    EXPECT_LE(speed, 100);
   }
   EXPECT_LT(p.proposed.with_tests, p.proposed.open);
   EXPECT_LE(p.proposed.with_tests, p.proposed.with_repeats);
@@ -436,8 +437,8 @@ TEST_F(ProcessJudged, PlanIsReadBackByDataTests) {
   data.tests = "plan.csv";
   const data::Dataset read = data::load_dataset({"data.csv"}, data);
   EXPECT_EQ(read.experiments, (std::vector<std::string>{"A", "P01"}));
-  EXPECT_NEAR(read.values("plan_sigma_n_MPa")[2], p.proposed.tests[0].sigma_n_MPa,
-              1e-5 * p.proposed.tests[0].sigma_n_MPa);
+  const double pressure = p.proposed.tests[0][0];
+  EXPECT_NEAR(read.values("plan_sigma_n_MPa")[2], pressure, 1e-5 * pressure);
   EXPECT_EQ(plan, process::plan_csv(p.proposed, {"A", "B"}, 1)) << "the same seed, the same order";
 }
 

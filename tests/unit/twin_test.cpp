@@ -13,7 +13,6 @@
 
 namespace frictab::twin_test {
 
-using twin::find_column;
 using twin::make_twin;
 using twin::Twin;
 using twin::TwinOptions;
@@ -33,7 +32,7 @@ Twin twin_of(std::uint64_t seed, const std::vector<std::string>& effects = {},
 }
 
 const std::vector<double>& tau(const TwinPart& part) {
-  return find_column(part.data, "tau_R_MPa")->values;
+  return part.data.find("tau_R_MPa")->values;
 }
 
 // The twin was tuned (facts: 51 / 24 / 95 fixed, 12-15 calibrated) on validation experiments.
@@ -45,12 +44,12 @@ TEST(Twin, SetDReproducesThePublishedErrorsOfConstants) {
       mean[law.name] += law.validation.mae_MPa / 3;
     // Calibrated constants again, without the summary's own code.
     double xy = 0, xx = 0, error = 0;
-    const auto& sigma = find_column(twin.training.data, "sigma_n_MPa")->values;
+    const auto& sigma = twin.training.data.find("sigma_n_MPa")->values;
     for (std::size_t i = 0; i < sigma.size(); ++i) {
       xy += sigma[i] * tau(twin.training)[i];
       xx += sigma[i] * sigma[i];
     }
-    const auto& held_out = find_column(twin.validation.data, "sigma_n_MPa")->values;
+    const auto& held_out = twin.validation.data.find("sigma_n_MPa")->values;
     for (std::size_t i = 0; i < held_out.size(); ++i)
       error += std::abs(tau(twin.validation)[i] - xy / xx * held_out[i]);
     mean["mu by hand"] += error / static_cast<double>(held_out.size()) / 3;
@@ -93,11 +92,11 @@ TEST(Twin, ObeysTheRangesOfTheContract) {
           {"T_tool_C", {20, 200}},      {"T_contact_C", {20, 260}}, {"s_mm", {0, 20}},
           {"tau_R_MPa", {1, 1000}},     {"time_s", {0, 4}},         {"sigma_f_MPa", {100, 2000}}};
       for (const auto& [name, range] : ranges)
-        for (const double value : find_column(part->data, name)->values) {
+        for (const double value : part->data.find(name)->values) {
           ASSERT_GE(value, range.first) << set << ' ' << name;
           ASSERT_LE(value, range.second) << set << ' ' << name;
         }
-      const auto& time = find_column(part->data, "time_s")->values;
+      const auto& time = part->data.find("time_s")->values;
       for (std::size_t e = 0; e < part->data.experiments.size(); ++e)
         for (std::size_t i = part->data.first_row[e] + 1; i < part->data.first_row[e + 1]; ++i)
           ASSERT_GT(time[i], time[i - 1]) << "rows are in time order";
@@ -110,7 +109,7 @@ TEST(Twin, TestOrderIsOneShuffleOfBothParts) {
   std::vector<double> order;
   for (const TwinPart* part : {&twin.training, &twin.validation})
     for (std::size_t e = 0; e < part->data.experiments.size(); ++e)
-      order.push_back(find_column(part->data, "run_order")->values[part->data.first_row[e]]);
+      order.push_back(part->data.find("run_order")->values[part->data.first_row[e]]);
   EXPECT_FALSE(std::is_sorted(order.begin(), order.end()));
   const std::set<double> distinct(order.begin(), order.end());
   EXPECT_EQ(distinct.size(), 111u);
@@ -231,7 +230,7 @@ TEST(Twin, HiddenColumnStillActs) {
   options.effects = {twin::parse_effect("form=linear,column=humidity_pct,strength=0.3")};
   options.hide = {"humidity_pct"};
   const Twin twin = make_twin(options);
-  EXPECT_EQ(find_column(twin.training.data, "humidity_pct"), nullptr);
+  EXPECT_EQ(twin.training.data.find("humidity_pct"), nullptr);
   EXPECT_NEAR(strength_by_hand(twin.training), 0.3, 1e-3);
 }
 

@@ -14,10 +14,6 @@ namespace frictab::os {
 
 namespace fs = std::filesystem;
 
-bool may_read(const fs::path& path) {
-  return ::access(path.c_str(), R_OK) == 0;
-}
-
 bool may_write(const fs::path& path) {
   return ::access(path.c_str(), W_OK) == 0;
 }
@@ -52,7 +48,7 @@ std::vector<fs::path> entries_of(const fs::path& directory) {
     paths.push_back(at->path());
   if (error && error != std::errc::no_such_file_or_directory)
     throw std::system_error(error, "cannot list " + directory.string());
-  std::sort(paths.begin(), paths.end());
+  std::ranges::sort(paths);
   return paths;
 }
 

@@ -9,7 +9,6 @@
 namespace frictab::os {
 
 // True if this process may do so; to run a directory is to reach its files.
-bool may_read(const std::filesystem::path& path);
 bool may_write(const std::filesystem::path& path);
 bool may_run(const std::filesystem::path& path);
 

@@ -9,9 +9,7 @@
 
 namespace frictab::os {
 
-namespace {
-
-int add_loaded(dl_phdr_info* info, std::size_t, void* all) {
+static int add_loaded(dl_phdr_info* info, std::size_t, void* all) {
   const std::filesystem::path found = info->dlpi_name; // empty: the program itself
   if (!found.has_parent_path()) return 0;              // a part of the kernel
   std::error_code error;
@@ -20,8 +18,6 @@ int add_loaded(dl_phdr_info* info, std::size_t, void* all) {
       {found.filename().string(), error ? found : file});
   return 0;
 }
-
-} // namespace
 
 Library::Library(const std::filesystem::path& file)
     : handle_(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
@@ -44,8 +40,7 @@ void* Library::address_or_null(void* handle, const std::string& symbol) {
 std::vector<LoadedLibrary> loaded_libraries() {
   std::vector<LoadedLibrary> all;
   ::dl_iterate_phdr(add_loaded, &all);
-  std::sort(all.begin(), all.end(),
-            [](const LoadedLibrary& a, const LoadedLibrary& b) { return a.name < b.name; });
+  std::ranges::sort(all, {}, &LoadedLibrary::name);
   return all;
 }
 

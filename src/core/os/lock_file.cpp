@@ -10,17 +10,13 @@
 
 namespace frictab::os {
 
-namespace {
-
 // True if the open file still has this name; its previous owner may have removed it.
-bool is_there(int file, const std::filesystem::path& name) {
+static bool is_there(int file, const std::filesystem::path& name) {
   struct stat open {
   }, named{};
   return ::fstat(file, &open) == 0 && ::lstat(name.c_str(), &named) == 0 &&
          open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
-
-} // namespace
 
 LockFile::Answer LockFile::try_to_lock(std::error_code& error) {
   do {

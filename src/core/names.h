@@ -1,0 +1,19 @@
+// The names of several things, as messages and lists of choices take them.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace frictab {
+
+// Returns the name of each, in their order: all_names(quantities(), &Quantity::name).
+template <class Things, class Name = std::identity>
+std::vector<std::string> all_names(Things&& things, Name name = {}) {
+  std::vector<std::string> names;
+  for (const auto& thing : things)
+    names.emplace_back(std::invoke(name, thing));
+  return names;
+}
+
+} // namespace frictab
