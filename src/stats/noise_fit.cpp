@@ -209,7 +209,7 @@ private:
 class NoiseFitter {
 public:
   NoiseFitter(const NoiseData& data, double growth)
-      : searched_(data.slope ? 4 : 3), base_(base_of(data, growth)), likelihood_(data, base_) {
+      : base_(base_of(data, growth)), likelihood_(data, base_) {
     const double left =
         std::sqrt(data.residual.squaredNorm() / static_cast<double>(data.residual.size()));
     size_ = std::max(left / base_.scale, 1e-12);
@@ -234,10 +234,9 @@ public:
 
   // Starts from an earlier fit, at its length and the two neighbouring ones, and from scratch.
   NoiseFit around(const NoiseModel& earlier) const {
-    const auto at =
-        std::min_element(slow_lengths.begin(), slow_lengths.end(), [&](double a, double b) {
-          return std::abs(std::log(a / earlier.length)) < std::abs(std::log(b / earlier.length));
-        });
+    const auto at = std::ranges::min_element(slow_lengths, [&](double a, double b) {
+      return std::abs(std::log(a / earlier.length)) < std::abs(std::log(b / earlier.length));
+    });
     NoiseFit best = fit(*at, logs(earlier), close);
     consider(fit(*at, usual, far), best);
     const NoiseFit from = best;
@@ -259,6 +258,7 @@ public:
 private:
   using Logs = std::vector<double>;
   // Logarithms of gain, slow, white, slope.
+  static constexpr std::size_t searched = 4;
   const Logs usual = {-0.5, -1, -1, -1.5}, mostly_slow = {-2.5, -0.5, -1, -2.5};
   static constexpr double far = 0.5, close = 0.1;     // first steps
   static constexpr double tight = 1e-9, loose = 1e-2; // in log likelihood
@@ -280,7 +280,7 @@ private:
     NoiseModel noise = base_;
     noise.length = length;
     double* values[] = {&noise.gain, &noise.slow, &noise.white, &noise.slope};
-    for (std::size_t i = 0; i < searched_; ++i)
+    for (std::size_t i = 0; i < searched; ++i)
       *values[i] = size_ * std::exp(x[i]);
     return noise;
   }
@@ -293,14 +293,13 @@ private:
   }
 
   NoiseFit fit(double length, Logs start, double first_step, double tolerance = tight) const {
-    start.resize(searched_);
     const LogMinimum least =
         least_criterion([&](std::span<const double> x,
                             std::span<double>) { return likelihood_.criterion(model(x, length)); },
                         std::move(start),
-                        {.low = Logs(searched_, least_log - 0.01),
-                         .high = Logs(searched_, most_log + 0.01),
-                         .prior = {Logs(searched_, 0.0), prior_precision},
+                        {.low = Logs(searched, least_log - 0.01),
+                         .high = Logs(searched, most_log + 0.01),
+                         .prior = {Logs(searched, 0.0), prior_precision},
                          .first_step = first_step,
                          .tolerance = tolerance,
                          .log_tolerance = std::max(10 * tolerance, 1e-6),
@@ -308,7 +307,6 @@ private:
     return {model(least.logs, length), -least.criterion - likelihood_.constant()};
   }
 
-  std::size_t searched_; // number of optimised logarithms; the slope is the last
   NoiseModel base_;
   Likelihood likelihood_;
   double size_; // of the residual, relative to the stress

@@ -59,7 +59,7 @@ double scoring_step(Estimates all, double variance) {
 
 bool has_pairs(Estimates all) {
   const std::vector<Sums> groups = sums_of(all, 1);
-  return std::any_of(groups.begin(), groups.end(), [](const Sums& s) { return s.count > 1; });
+  return std::ranges::any_of(groups, [](const Sums& s) { return s.count > 1; });
 }
 
 // Plain variance about the group means, from which the scoring starts.

@@ -22,8 +22,8 @@
 #include "trace/columns/aliases.h"
 #include "trace/judge/delivery.h"
 #include "trace/judge/refit_traced.h"
+#include "trace/judge/rows_alike.h"
 #include "trace/judge/scatter.h"
-#include "trace/judge/uncertainty.h"
 #include "trace/judge/verdict.h"
 #include "trace/search/order_search.h"
 #include "trace/tuning.h"
@@ -147,8 +147,7 @@ std::vector<TracedParameter> parameters_of(const effects::PlacedEffect& placed,
                       fit.model.law->parameters[first + p].unit, uncertainty.why_none[first + p]});
   const std::vector<models::Parameter> all = effects::parameters_of(placed);
   for (std::size_t p = 0; p < all.size(); ++p)
-    if (std::none_of(fitted.begin(), fitted.end(),
-                     [&](const models::Parameter& one) { return one.name == all[p].name; }))
+    if (!contains(fitted, all[p].name, &models::Parameter::name))
       traced.push_back(
           {all[p].name, placed.parameters[p], no_value, effects::unit_of(all[p], placed), ""});
   return traced;
@@ -187,16 +186,15 @@ std::vector<TracedEffect> effects_of(const Found& found, const Delivery& deliver
     effect.derived = names.derived;
     effect.between = finding.between;
     effect.p_value = finding.p_value;
-    const std::size_t parameter = first_parameter(rival, i);
-    effect.parameters = parameters_of(effect.placed, fit, uncertainty, parameter);
+    effect.parameters = parameters_of(effect.placed, fit, uncertainty, first_parameter(rival, i));
     effect.alternatives = alternatives_of(finding, search.candidates());
     effect.design = design_for(search, finding);
     effect.order_confounded = may_stand_for_time(found, cause);
     if (effect.order_confounded && effect.design.tests.empty())
       effect.design = design_in_turn(search, cause);
     effect.gain_MPa = delivery.gain_MPa[i];
-    effect.curve = effect_curve(search.campaign(), rival, search.sensitivities(), i, parameter,
-                                uncertainty.covariance);
+    effect.curve =
+        effect_curve(search.campaign(), rival, search.sensitivities(), i, uncertainty.covariance);
   }
   return traced;
 }
@@ -261,12 +259,12 @@ Trace trace_in_order(const TraceInput& in) {
 data::Dataset in_order_of_names(const data::Dataset& data) {
   std::vector<std::size_t> order(data.experiments.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     return data.experiments[a] < data.experiments[b];
   });
   data::Dataset sorted = data.subset(order);
-  std::stable_sort(sorted.columns.begin(), sorted.columns.end(),
-                   [](const data::Column& a, const data::Column& b) { return a.name < b.name; });
+  std::ranges::stable_sort(
+      sorted.columns, [](const data::Column& a, const data::Column& b) { return a.name < b.name; });
   return sorted;
 }
 
@@ -313,9 +311,8 @@ Trace trace(const TraceInput& input) {
   const data::Dataset sorted = in_order_of_names(both);
   std::vector<std::size_t> places;
   for (std::size_t e = both.experiments.size() - few; e < both.experiments.size(); ++e)
-    places.push_back(static_cast<std::size_t>(
-        std::find(sorted.experiments.begin(), sorted.experiments.end(), both.experiments[e]) -
-        sorted.experiments.begin()));
+    places.push_back(std::ranges::find(sorted.experiments, both.experiments[e]) -
+                     sorted.experiments.begin());
   return run(sorted, std::move(places));
 }
 

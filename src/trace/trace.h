@@ -3,7 +3,7 @@
 //
 // Rooms, each of which knows only those before it (docs/tracing.md explains the method):
 //   columns   what an effect may follow (a Cause): columns, histories and pairs of them
-//     candidates       the list of them; test_dates: the order of tests from time stamps
+//     candidates       the list of them
 //     shapes, terms    forms of an effect of a cause; curves, factors and products as columns
 //     factor_band      the factor of an effect over rows, with its uncertainty
 //     order_test       whether test means have structure along the order of tests
@@ -11,9 +11,8 @@
 //   search    what the residual of the law follows more than by chance
 //     law_on_blocks    a law on blocks: predictions, derivatives, weighted fits
 //     selection        200 tests that represent a larger campaign
-//     rivals           a law with some effects, fitted with the noise (a Rival); plausibility
-//     directions       derivatives of tau_R: by fitted parameters, by an effect's factor
-//     search           its state
+//     rivals           a law with some effects, fitted with the noise (a Rival)
+//     search           its state; derivatives by fitted parameters and by an effect's factor
 //     search_effects   the recipe: one search, then structure along the order of tests
 //     joint            response, law and terms of a campaign; findings as causes
 //     modes            tests as means and cosines
@@ -24,9 +23,9 @@
 //     order_search     structure along the order of tests
 //   judge     what a finding is worth on tests that the search has not seen
 //     nested_errors    errors on tests that neither a search nor a fit has seen
-//     delivery         findings that are delivered with the law; rows_alike: under equal weights
+//     delivery         findings that are delivered with the law
+//     rows_alike       standard errors; the law with the effects under equal weights
 //     refit_traced     the law with the effects, fitted again to all experiments
-//     uncertainty      standard errors of its parameters
 //     gains, scatter   how far tests as a whole lie from a law; unexplained scatter
 //     verdict          the verdict and its sentences
 //   advise    what to look at and which tests to run next

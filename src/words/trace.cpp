@@ -125,10 +125,10 @@ void add_design(Section& section, const trace::Design& d) {
 // Whether another effect is a product with the effect's only column.
 bool is_in_product(const TracedEffect& e, const Trace& t) {
   return e.placed.inputs.size() == 1 &&
-         std::any_of(t.effects.begin(), t.effects.end(), [&](const TracedEffect& other) {
+         std::ranges::any_of(t.effects, [&](const TracedEffect& other) {
            const auto& inputs = other.placed.inputs;
            return inputs.size() > 1 &&
-                  std::any_of(inputs.begin(), inputs.end(), [&](const effects::EffectInput& one) {
+                  std::ranges::any_of(inputs, [&](const effects::EffectInput& one) {
                     return one.column == e.placed.inputs[0].column;
                   });
          });
@@ -242,9 +242,8 @@ std::string effect_in_product(const std::string& name, const char* verb) {
 
 // The first lead that tests can settle; empty: none, or it is among those not confirmed.
 std::string suspect(const Trace& t) {
-  const auto lead = std::find_if(t.leads.begin(), t.leads.end(), [](const Lead& one) {
-    return !one.significant && !one.design.tests.empty();
-  });
+  const auto lead = std::ranges::find_if(
+      t.leads, [](const Lead& one) { return !one.significant && !one.design.tests.empty(); });
   if (lead == t.leads.end()) return "";
   const std::string product = effect_in_product(lead_name(*lead), "changes with");
   return "suspected, not proven: " + (product.empty() ? lead_name(*lead) : product);

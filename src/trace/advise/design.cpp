@@ -21,10 +21,6 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Derivatives of tau_R, per block, by each parameter that all rivals share, and by each rival's
 // amplitude.
 class Directions {
@@ -40,7 +36,7 @@ public:
     const Rival& first = *rivals_[0];
     const models::Model model = search_.model_of(first);
     const std::vector<double> tau = calibrate::predict(model, data);
-    MatrixXd columns(static_cast<Index>(blocks.count()), 0);
+    MatrixXd columns(blocks.count(), 0);
     for (std::size_t p = 0; p < first.parameters.size(); ++p)
       if (!is_of_last(first, p)) stats::append_columns(columns, slope(model, p, data, tau, blocks));
     for (const Rival* rival : rivals_)
@@ -50,8 +46,7 @@ public:
     std::vector<MatrixXd> each;
     for (std::size_t e = 0; e < blocks.experiments(); ++e) {
       const MatrixXd part =
-          columns.middleRows(static_cast<Index>(blocks.first[e]),
-                             static_cast<Index>(blocks.first[e + 1] - blocks.first[e]));
+          columns.middleRows(blocks.first[e], blocks.first[e + 1] - blocks.first[e]);
       each.push_back(part.transpose() * part);
     }
     return each;
@@ -119,7 +114,7 @@ public:
     // Prefers a design with fewer settings if it is nearly as good.
     for (std::size_t s = settings.size(); s-- > 0 && settings.size() > 1;) {
       std::vector<Setting> fewer = settings;
-      fewer.erase(fewer.begin() + static_cast<long>(s));
+      fewer.erase(fewer.begin() + s);
       Plan simpler = best_plan(fewer);
       if (simpler.tests.size() > plan.tests.size() ||
           simpler.amplitude < tuning::kept_share_of_amplitude * plan.amplitude)
@@ -143,7 +138,7 @@ private:
     for (const Rival* rival : rivals_)
       for (const std::size_t c : rival->causes.back().columns)
         for (const std::string& name : search_.candidates().columns[c].recorded)
-          if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+          if (!contains(names, name)) names.push_back(name);
     return names;
   }
 
@@ -220,7 +215,7 @@ private:
       for (std::size_t i = 0; i < design.size(); ++i)
         better = improve(design, i) || better;
     }
-    std::sort(design.begin(), design.end());
+    std::ranges::sort(design);
     return design;
   }
 
@@ -301,10 +296,9 @@ Design design_tests(const Search& search, std::vector<const Rival*> rivals, doub
 
 // Whether a cause has all columns of another, which is then its special case, so that no test can
 // decide for the smaller and against the larger.
-bool contains(const Cause& larger, const Cause& smaller) {
-  return std::all_of(smaller.columns.begin(), smaller.columns.end(), [&](std::size_t column) {
-    return std::find(larger.columns.begin(), larger.columns.end(), column) != larger.columns.end();
-  });
+bool includes(const Cause& larger, const Cause& smaller) {
+  return std::ranges::all_of(smaller.columns,
+                             [&](std::size_t column) { return contains(larger.columns, column); });
 }
 
 // Whether two causes come from the same recorded columns, as a path and the distance slid since the
@@ -325,7 +319,7 @@ Design design_for(const Search& search, const Finding& finding) {
   std::vector<const Rival*> rivals{&finding.rival};
   for (std::size_t i = 0; i < finding.others.size(); ++i)
     if (const Cause& own = finding.rival.causes.back(), &other = finding.others[i].causes.back();
-        finding.in_set[i] && !contains(other, own) &&
+        finding.in_set[i] && !includes(other, own) &&
         !are_of_same_columns(search.candidates(), own, other))
       rivals.push_back(&finding.others[i]);
   return rivals.size() > 1 ? design_tests(search, rivals, tuning::two_sided_std_errors) : Design{};
@@ -365,7 +359,7 @@ Ends ends_by_level(const Setting& setting, const VectorXd& x, const VectorXd& ga
     const Eigen::ArrayXd here = (x.array() == setting.values[level]).cast<double>();
     if (here.sum() > 0) means.emplace_back((here * gain.array()).sum() / here.sum(), level);
   }
-  const auto [low, high] = std::minmax_element(means.begin(), means.end());
+  const auto [low, high] = std::ranges::minmax_element(means);
   return {low->second, high->second, high->first - low->first};
 }
 

@@ -14,9 +14,6 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 struct Looked {
   double p_value = 1, slope = 0;
 };
@@ -29,7 +26,7 @@ double p_of_t(double t, double degrees) {
 VectorXd within_tests(const stats::Blocks& blocks, VectorXd x) {
   for (std::size_t e = 0; e < blocks.experiments(); ++e) {
     const auto first = static_cast<Index>(blocks.first[e]);
-    auto part = x.segment(first, static_cast<Index>(blocks.first[e + 1]) - first);
+    auto part = x.segment(first, blocks.first[e + 1] - first);
     part.array() -= part.mean();
   }
   return x;
@@ -75,8 +72,7 @@ Lead lead_of_follower(const data::Column& column, const VectorXd& x, const Looke
 
 std::vector<Lead> leads_that_may_follow(const Search& search, const Rival& rival) {
   std::vector<Lead> leads;
-  if (static_cast<Index>(search.blocks().experiments()) < tuning::fewest_tests_for_followers)
-    return leads;
+  if (search.blocks().experiments() < tuning::fewest_tests_for_followers) return leads;
   const VectorXd& measured = search.campaign().measured;
   const double scale = tuning::smallest_share_of_tau * search.tau_scale_MPa();
   const VectorXd residual =
@@ -95,8 +91,7 @@ std::vector<Lead> leads_that_may_follow(const Search& search, const Rival& rival
   }
   std::erase_if(
       leads, [&](const Lead& lead) { return lead.p_value * looks > search.input().options.alpha; });
-  std::stable_sort(leads.begin(), leads.end(),
-                   [](const Lead& a, const Lead& b) { return a.p_value < b.p_value; });
+  std::ranges::stable_sort(leads, {}, &Lead::p_value);
   return leads;
 }
 

@@ -19,9 +19,6 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 constexpr std::size_t most_leads = 6, most_left = 3;
 constexpr const char* speed = "v_rel_mm_s";
 
@@ -29,8 +26,7 @@ bool is_listed(const Trace& trace, const Lead& lead) {
   const auto same = [&](const auto& other) {
     return other.columns == lead.columns && other.derived == lead.derived;
   };
-  return std::any_of(trace.leads.begin(), trace.leads.end(), same) ||
-         std::any_of(trace.effects.begin(), trace.effects.end(), same);
+  return std::ranges::any_of(trace.leads, same) || std::ranges::any_of(trace.effects, same);
 }
 
 bool too_few_tests(const Trace& trace) {
@@ -50,10 +46,9 @@ void add_lead(Trace& trace, Lead lead, std::size_t most = most_leads) {
 
 // Standard deviation over rows; for a text column, whether it varies.
 double spread_of(const data::Column& column) {
-  const auto [least, most] = std::minmax_element(column.values.begin(), column.values.end());
+  const auto [least, most] = std::ranges::minmax_element(column.values);
   if (!column.levels.empty()) return *most > *least;
-  const Eigen::Map<const VectorXd> values(column.values.data(),
-                                          static_cast<Index>(column.values.size()));
+  const Eigen::Map<const VectorXd> values(column.values.data(), column.values.size());
   return std::sqrt((values.array() - values.mean()).square().mean());
 }
 
@@ -123,7 +118,7 @@ std::string size_between(const Search& search, const Cause& cause) {
     ++tests[static_cast<std::size_t>(x(e))];
   }
   const auto first = static_cast<std::size_t>(
-      std::find_if(tests.begin(), tests.end(), [](double n) { return n > 0; }) - tests.begin());
+      std::ranges::find_if(tests, [](double n) { return n > 0; }) - tests.begin());
   std::vector<std::string> changes;
   for (std::size_t l = first + 1; l < tests.size() && changes.size() < most_shown; ++l)
     if (tests[l] > 0)
@@ -163,8 +158,8 @@ double per_e_fold(const Search& search, const VectorXd& y) {
   for (std::size_t e = 0; e < search.blocks().experiments(); ++e) {
     std::vector<std::pair<double, double>> points;
     for (std::size_t b = search.first()[e]; b < search.first()[e + 1]; ++b)
-      if (const double speed_here = v(static_cast<Index>(b)); speed_here > 0)
-        points.emplace_back(std::log(speed_here), y(static_cast<Index>(b)));
+      if (const double speed_here = v(b); speed_here > 0)
+        points.emplace_back(std::log(speed_here), y(b));
     double mx = 0, my = 0;
     for (const auto& [x, value] : points) {
       mx += x / static_cast<double>(points.size());
@@ -196,7 +191,7 @@ std::string rate_sentence(const Search& search, const VectorXd& change) {
 }
 
 bool follows_speed(const Search& search, const Cause& cause) {
-  return std::all_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
+  return std::ranges::all_of(cause.columns, [&](std::size_t c) {
     return search.candidates().columns[c].recorded == std::vector<std::string>{speed};
   });
 }
@@ -234,9 +229,8 @@ std::vector<const Left*> plain_ones(const Found& found) {
   };
   for (const Left& left : found.leftover.left) {
     if (left.cause.is_joint()) continue;
-    const auto same = std::find_if(plain.begin(), plain.end(), [&](const Left* other) {
-      return column(*other).recorded == column(left).recorded;
-    });
+    const auto same = std::ranges::find_if(
+        plain, [&](const Left* other) { return column(*other).recorded == column(left).recorded; });
     if (same == plain.end())
       plain.push_back(&left);
     else if (!column(left).derived)
@@ -272,8 +266,7 @@ Lead lead_of(const Cause& cause, const Candidates& candidates) {
   for (const std::size_t c : cause.columns) {
     const CandidateColumn& column = candidates.columns[c];
     for (const std::string& name : column.recorded)
-      if (std::find(lead.columns.begin(), lead.columns.end(), name) == lead.columns.end())
-        lead.columns.push_back(name);
+      if (!contains(lead.columns, name)) lead.columns.push_back(name);
     if (column.derived) lead.derived += (lead.derived.empty() ? "" : ", ") + column.name;
   }
   return lead;

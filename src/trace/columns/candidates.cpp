@@ -33,23 +33,20 @@ using data::Dataset;
 
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
 using Rows = std::span<const double>;
 
 bool is_constant(Rows values) {
-  return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
+  return std::ranges::all_of(values, [&](double v) { return v == values.front(); });
 }
 
 bool has_two_values(Rows values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return std::all_of(values.begin(), values.end(),
-                     [low = *low, high = *high](double v) { return v == low || v == high; });
+  const auto [low, high] = std::ranges::minmax_element(values);
+  return std::ranges::all_of(
+      values, [low = *low, high = *high](double v) { return v == low || v == high; });
 }
 
 std::size_t count_empty(Rows values) {
-  return static_cast<std::size_t>(
-      std::count_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }));
+  return std::ranges::count_if(values, [](double v) { return std::isnan(v); });
 }
 
 // Squared correlation; 0 if a column does not vary.
@@ -92,7 +89,7 @@ std::vector<double> quantiles_of(std::vector<double>& all) {
 }
 
 double width_of(Rows values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto [low, high] = std::ranges::minmax_element(values);
   return *high - *low;
 }
 
@@ -128,8 +125,7 @@ public:
                   Rows predicted, const std::vector<std::string>& inputs,
                   const TraceOptions& options)
       : training_(training), validation_(validation), blocks_(blocks), predicted_(predicted),
-        inputs_(inputs), options_(options),
-        golden_(golden_direction(static_cast<Index>(blocks.count()))) {
+        inputs_(inputs), options_(options), golden_(golden_direction(blocks.count())) {
     for (const Column& column : validation.columns)
       validation_columns_.emplace(column.name, &column);
   }
@@ -153,7 +149,7 @@ private:
       known.push_back(quantity.name);
     FaultList faults;
     const auto check = [&](const std::string& name, const Place& place) {
-      if (std::find(known.begin(), known.end(), name) == known.end())
+      if (!contains(known, name))
         faults.add(place, "the data have no column '" + name + "'", suggest(name, known));
     };
     for (const std::string& name : options_.ignore)
@@ -170,9 +166,7 @@ private:
     faults.throw_if_any();
   }
 
-  bool ignored(const std::string& name) const {
-    return std::find(options_.ignore.begin(), options_.ignore.end(), name) != options_.ignore.end();
-  }
+  bool ignored(const std::string& name) const { return contains(options_.ignore, name); }
 
   // Accepts only a declared order, or a column whose name gives one, because files are often sorted
   // by condition.
@@ -219,7 +213,7 @@ private:
     std::vector<std::uint64_t> draw;
     for (const std::string& name : training_.experiments)
       draw.push_back(hash_of(name));
-    std::sort(place.begin(), place.end(), [&](std::size_t a, std::size_t b) {
+    std::ranges::sort(place, [&](std::size_t a, std::size_t b) {
       return std::tie(order[a], draw[a], a) < std::tie(order[b], draw[b], b);
     });
     for (std::size_t i = 0; i < place.size(); ++i)
@@ -234,9 +228,9 @@ private:
     std::string why;
     if (data::is_measured(column.name))
       why = "it is what was measured";
-    else if (!std::all_of(column.levels.begin(), column.levels.end(), has_digit))
+    else if (!std::ranges::all_of(column.levels, has_digit))
       why = fmt::format("'{}' is neither a number nor a time stamp",
-                        *std::find_if_not(column.levels.begin(), column.levels.end(), has_digit));
+                        *std::ranges::find_if_not(column.levels, has_digit));
     else if (values < 3)
       why = values == 1 ? "every test begins with the same value"
                         : "the tests begin with two values only";
@@ -341,8 +335,7 @@ private:
         !wear.empty() && (name == wear || (name == "test_order" && wear == found_.order_column));
     const bool course = column.within && (name == "time_s" || name == "s_mm");
     column.between = column.is_order ? column.is_wear : !derived && !course;
-    column.in_law =
-        std::find(inputs_.begin(), inputs_.end(), effects::symbol_of(name)) != inputs_.end();
+    column.in_law = contains(inputs_, effects::symbol_of(name));
     found_.by_symbol[effects::symbol_of(name)] = column.values;
     const double at = standing(column.values, golden_);
     if (const CandidateColumn* twin = twin_of(column.values, at)) {
@@ -387,9 +380,9 @@ private:
     text.recorded = {column.name};
     text.levels = column.levels;
     // A block that spans two levels gets the level of its first row.
-    text.values.resize(static_cast<Index>(blocks_.count()));
+    text.values.resize(blocks_.count());
     for (std::size_t b = 0; b < blocks_.count(); ++b)
-      text.values(static_cast<Index>(b)) = column.values[blocks_.first_row[b]];
+      text.values(b) = column.values[blocks_.first_row[b]];
     text.within = varies_within(column.values, training_);
     text.between = !text.within;
     text.is_order = is_order(column.name);
@@ -400,7 +393,7 @@ private:
 
   bool possible(const data::DerivedQuantity& quantity) const {
     if (ignored(quantity.name)) return false;
-    return std::all_of(quantity.needs.begin(), quantity.needs.end(), [&](const std::string& need) {
+    return std::ranges::all_of(quantity.needs, [&](const std::string& need) {
       return need == "tau" || (training_.has(need) && validation_.has(need) && !ignored(need));
     });
   }
@@ -457,7 +450,7 @@ double usual_range(Rows values, const Dataset& data) {
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
     own.push_back(
         width_of(values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])));
-  std::sort(own.begin(), own.end());
+  std::ranges::sort(own);
   return own[own.size() / 2];
 }
 
@@ -542,22 +535,22 @@ bool is_state(const CandidateColumn& column) {
          column.name != "time_s";
 }
 
-Eigen::MatrixXd state_means(const Candidates& candidates, const stats::Blocks& blocks) {
-  Eigen::MatrixXd all(static_cast<Eigen::Index>(blocks.experiments()), 0);
+MatrixXd state_means(const Candidates& candidates, const stats::Blocks& blocks) {
+  MatrixXd all(blocks.experiments(), 0);
   for (const CandidateColumn& column : candidates.columns) {
     if (!is_state(column) || column.name == "sigma_f_MPa") continue; // which follows from others
-    Eigen::VectorXd x = blocks.experiment_means(column.values).col(0);
+    VectorXd x = blocks.experiment_means(column.values).col(0);
     if (stats::standardise(x)) stats::append_columns(all, x);
   }
   return all;
 }
 
-bool one_factor_at_a_time(const Eigen::MatrixXd& states) {
+bool one_factor_at_a_time(const MatrixXd& states) {
   if (states.cols() < 2 || states.rows() < tuning::fewest_tests_for_one_factor) return false;
   Eigen::VectorXi count = Eigen::VectorXi::Zero(states.rows());
-  for (Eigen::Index s = 0; s < states.cols(); ++s) {
-    Eigen::VectorXd sorted = states.col(s);
-    std::sort(sorted.begin(), sorted.end());
+  for (Index s = 0; s < states.cols(); ++s) {
+    VectorXd sorted = states.col(s);
+    std::ranges::sort(sorted);
     const double range = sorted(sorted.size() - 1) - sorted(0), middle = sorted(sorted.size() / 2);
     count += ((states.col(s).array() - middle).abs() > tuning::changed_share_of_range * range)
                  .cast<int>()
@@ -570,12 +563,11 @@ bool one_factor_at_a_time(const Eigen::MatrixXd& states) {
 std::optional<Cause> cause_in(const Candidates& to, const Cause& cause, const Candidates& from) {
   Cause found = cause;
   for (std::size_t& column : found.columns) {
-    const auto at =
-        std::find_if(to.columns.begin(), to.columns.end(), [&](const CandidateColumn& one) {
-          return one.name == from.columns[column].name;
-        });
+    const auto at = std::ranges::find_if(to.columns, [&](const CandidateColumn& one) {
+      return one.name == from.columns[column].name;
+    });
     if (at == to.columns.end()) return std::nullopt;
-    column = static_cast<std::size_t>(at - to.columns.begin());
+    column = at - to.columns.begin();
   }
   return found;
 }
@@ -605,8 +597,8 @@ int complexity(const Cause& cause, const Candidates& candidates) {
 }
 
 bool constant_in_experiments(const Cause& cause, const Candidates& candidates) {
-  return std::none_of(cause.columns.begin(), cause.columns.end(),
-                      [&](std::size_t c) { return candidates.columns[c].within; });
+  return std::ranges::none_of(cause.columns,
+                              [&](std::size_t c) { return candidates.columns[c].within; });
 }
 
 } // namespace frictab::trace

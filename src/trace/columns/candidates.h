@@ -8,23 +8,22 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "effects/extended_law.h"
 #include "stats/blocks.h"
+#include "trace/basics.h"
 #include "trace/options.h"
 
 namespace frictab::trace {
 
 // Block means by symbol: the law's inputs and every candidate column.
-using BlockColumns = std::map<std::string, Eigen::VectorXd>;
+using BlockColumns = std::map<std::string, VectorXd>;
 
 struct CandidateColumn {
   std::string name;                  // recorded column or derived quantity
   std::vector<std::string> recorded; // the recorded columns it comes from
   bool derived = false;
   std::vector<std::string> levels; // of a text column
-  Eigen::VectorXd values;          // per block
+  VectorXd values;                 // per block
   effects::Spread spread;          // over rows
   bool within = false;             // varies within experiments
   bool two_values = false; // a number with only two values over rows; block means may lie between
@@ -75,10 +74,10 @@ bool varies_within(std::span<const double> values, const data::Dataset& data);
 bool is_state(const CandidateColumn& column);
 // Returns the test means of the states that differ between tests, each scaled to mean 0 and
 // standard deviation 1.
-Eigen::MatrixXd state_means(const Candidates& candidates, const stats::Blocks& blocks);
+MatrixXd state_means(const Candidates& candidates, const stats::Blocks& blocks);
 // Whether at most 5 % of the tests change more than one state; such a design cannot show joint
 // effects of states.
-bool one_factor_at_a_time(const Eigen::MatrixXd& states);
+bool one_factor_at_a_time(const MatrixXd& states);
 
 // The one or two columns that an effect follows; two act together.
 struct Cause {

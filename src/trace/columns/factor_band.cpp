@@ -8,10 +8,6 @@
 
 namespace frictab::trace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 double derivative_step(double parameter) {
   return tuning::step_share_of_parameter *
          std::max(std::abs(parameter), tuning::smallest_stepped_size);
@@ -23,16 +19,16 @@ FactorOnRows factor_on_rows(const effects::PlacedEffect& effect,
   std::vector<double> at = effects::fitted_values(effect);
   const auto factor = [&] {
     VectorXd out(rows);
-    program.evaluate(static_cast<std::size_t>(rows), columns, at, out.data());
+    program.evaluate(rows, columns, at, out.data());
     return out;
   };
-  FactorOnRows found{factor(), MatrixXd(rows, static_cast<Index>(at.size()))};
+  FactorOnRows found{factor(), MatrixXd(rows, at.size())};
   for (std::size_t p = 0; p < at.size(); ++p) {
     const double step = derivative_step(at[p]), kept = at[p];
     at[p] = kept + step;
     const VectorXd up = factor();
     at[p] = kept - step;
-    found.slope.col(static_cast<Index>(p)) = (up - factor()) / (2 * step);
+    found.slope.col(p) = (up - factor()) / (2 * step);
     at[p] = kept;
   }
   return found;

@@ -3,9 +3,8 @@
 
 #include <span>
 
-#include <Eigen/Dense>
-
 #include "effects/effect.h"
+#include "trace/basics.h"
 
 namespace frictab::trace {
 
@@ -13,17 +12,17 @@ namespace frictab::trace {
 double derivative_step(double parameter);
 
 struct FactorOnRows {
-  Eigen::VectorXd factor; // 1: no effect
-  Eigen::MatrixXd slope;  // rows x fitted parameters: its derivatives
+  VectorXd factor; // 1: no effect
+  MatrixXd slope;  // rows x fitted parameters: its derivatives
 };
 
 // Evaluates the factor. `columns`: those of the effect's inputs, in their order.
 FactorOnRows factor_on_rows(const effects::PlacedEffect& effect,
-                            std::span<const double* const> columns, Eigen::Index rows);
+                            std::span<const double* const> columns, Index rows);
 
 // Standard errors of quantities with these derivatives, to first order: sqrt(g' C g) per row, where
 // C is the covariance of the parameters. NaN where a parameter with a non-zero derivative has no
 // known error.
-Eigen::VectorXd std_errors(const Eigen::MatrixXd& slope, const Eigen::MatrixXd& covariance);
+VectorXd std_errors(const MatrixXd& slope, const MatrixXd& covariance);
 
 } // namespace frictab::trace

@@ -15,10 +15,6 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr std::uint64_t order_stream = 72;
 
 double wave(std::size_t rank, int number, std::size_t count) {
@@ -47,7 +43,7 @@ VectorXd structures(const MatrixXd& z, std::span<const std::size_t> order, const
   VectorXd ordered(z.rows());
   for (Index c = 0; c < z.cols(); ++c) {
     for (std::size_t i = 0; i < order.size(); ++i)
-      ordered(static_cast<Index>(i)) = z(static_cast<Index>(order[i]), c);
+      ordered(i) = z(order[i], c);
     const auto s = structure(ordered, waves);
     all.segment<3>(3 * c) << s[0], s[1], s[2];
   }
@@ -59,8 +55,7 @@ VectorXd structures(const MatrixXd& z, std::span<const std::size_t> order, const
 std::vector<std::size_t> ranks(std::span<const double> order) {
   std::vector<std::size_t> by(order.size()), rank(order.size());
   std::iota(by.begin(), by.end(), 0);
-  std::stable_sort(by.begin(), by.end(),
-                   [&](std::size_t a, std::size_t b) { return order[a] < order[b]; });
+  std::ranges::stable_sort(by, [&](std::size_t a, std::size_t b) { return order[a] < order[b]; });
   for (std::size_t i = 0; i < by.size(); ++i)
     rank[by[i]] = i;
   return rank;
@@ -76,10 +71,10 @@ VectorXd experiment_scores(const VectorXd& residual, const VectorXd& sensitivity
   whitener.apply(all);
   const MatrixXd q = stats::orthonormal(all.rightCols(fitted.cols()));
   const VectorXd r = all.col(0) - q * (q.transpose() * all.col(0));
-  VectorXd scores(static_cast<Index>(first.size() - 1));
+  VectorXd scores(first.size() - 1);
   for (Index e = 0; e < scores.size(); ++e) {
-    const auto begin = static_cast<Index>(first[static_cast<std::size_t>(e)]);
-    const auto count = static_cast<Index>(first[static_cast<std::size_t>(e) + 1]) - begin;
+    const auto begin = static_cast<Index>(first[e]);
+    const auto count = static_cast<Index>(first[e + 1]) - begin;
     const auto s = all.col(1).segment(begin, count);
     scores(e) = s.dot(r.segment(begin, count)) / std::max(s.norm(), tuning::smallest_divisor);
   }
@@ -95,7 +90,7 @@ OrderTest test_order(const MatrixXd& scores, std::span<const double> order,
   MatrixXd waves(z.rows(), tuning::order_test_waves);
   for (Index i = 0; i < z.rows(); ++i)
     for (int w = 0; w < tuning::order_test_waves; ++w)
-      waves(i, w) = wave(static_cast<std::size_t>(i), w + 1, count);
+      waves(i, w) = wave(i, w + 1, count);
   std::vector<std::size_t> at(count); // experiment at each rank
   for (std::size_t e = 0; e < count; ++e)
     at[rank[e]] = e;
@@ -111,7 +106,7 @@ OrderTest test_order(const MatrixXd& scores, std::span<const double> order,
   VectorXd smallest = VectorXd::Ones(all_count);
   for (Index k = 0; k < all.cols(); ++k) {
     std::vector<double> sorted(all.col(k).data(), all.col(k).data() + all_count);
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     for (Index b = 0; b < all_count; ++b) {
       const auto beyond = sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), all(b, k));
       smallest(b) =
@@ -132,10 +127,10 @@ OrderTest test_order(const MatrixXd& scores, std::span<const double> order,
 
 MatrixXd order_functions(std::span<const double> order, int count) {
   const auto rank = ranks(order);
-  MatrixXd functions(static_cast<Index>(rank.size()), count);
+  MatrixXd functions(rank.size(), count);
   for (std::size_t e = 0; e < rank.size(); ++e)
     for (int w = 0; w < count; ++w)
-      functions(static_cast<Index>(e), w) = wave(rank[e], w + 1, rank.size());
+      functions(e, w) = wave(rank[e], w + 1, rank.size());
   return functions;
 }
 
@@ -144,8 +139,7 @@ MatrixXd functions_on_blocks(const MatrixXd& functions, const VectorXd& sensitiv
   MatrixXd columns(sensitivity.size(), functions.cols());
   for (std::size_t e = 0; e + 1 < first.size(); ++e)
     for (std::size_t b = first[e]; b < first[e + 1]; ++b)
-      columns.row(static_cast<Index>(b)) =
-          sensitivity(static_cast<Index>(b)) * functions.row(static_cast<Index>(e));
+      columns.row(b) = sensitivity(b) * functions.row(e);
   return columns;
 }
 

@@ -6,18 +6,16 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "stats/noise.h"
+#include "trace/basics.h"
 
 namespace frictab::trace {
 
 // Returns one score per experiment: how far its friction as a whole lies from the law, in standard
 // deviations under the noise model.
-Eigen::VectorXd experiment_scores(const Eigen::VectorXd& residual,
-                                  const Eigen::VectorXd& sensitivity, const Eigen::MatrixXd& fitted,
-                                  const stats::Whitener& whitener,
-                                  std::span<const std::size_t> first);
+VectorXd experiment_scores(const VectorXd& residual, const VectorXd& sensitivity,
+                           const MatrixXd& fitted, const stats::Whitener& whitener,
+                           std::span<const std::size_t> first);
 
 // Permutation test of the null hypothesis that the scores have no structure along the order. Three
 // statistics: likeness of tests up to six apart, the excursion of the cumulated sum, and slow
@@ -25,20 +23,19 @@ Eigen::VectorXd experiment_scores(const Eigen::VectorXd& residual,
 // friction may differ) is compared with its own permutation distribution.
 struct OrderTest {
   double p_value = 1;
-  Eigen::Index column = 0; // column of scores with the largest slow waves
+  Index column = 0; // column of scores with the largest slow waves
 };
-OrderTest test_order(const Eigen::MatrixXd& scores, std::span<const double> order,
+OrderTest test_order(const MatrixXd& scores, std::span<const double> order,
                      std::size_t permutations, std::uint64_t seed);
 
 // Returns the position of each experiment in the order: 0, 1, 2, ...
 std::vector<std::size_t> ranks(std::span<const double> order);
 
 // Returns slow functions of the order (cosines of the rank), per experiment; each has mean 0.
-Eigen::MatrixXd order_functions(std::span<const double> order, int count);
+MatrixXd order_functions(std::span<const double> order, int count);
 
 // Returns sensitivity times the functions, per block of each experiment.
-Eigen::MatrixXd functions_on_blocks(const Eigen::MatrixXd& functions,
-                                    const Eigen::VectorXd& sensitivity,
-                                    std::span<const std::size_t> first);
+MatrixXd functions_on_blocks(const MatrixXd& functions, const VectorXd& sensitivity,
+                             std::span<const std::size_t> first);
 
 } // namespace frictab::trace

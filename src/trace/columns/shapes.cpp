@@ -1,9 +1,10 @@
-// Grids of shapes, and bounds of their fits.
+// Grids of shapes, bounds of their fits, and the penalty on absurd ones.
 #include "trace/columns/shapes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "data/quantity.h"
 #include "trace/tuning.h"
@@ -14,17 +15,13 @@ using effects::PlacedEffect;
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Whether a form has a position and a width (a hump, a step), so that it has structure of that
 // width.
 bool is_local(const PlacedEffect& effect) {
   const auto fitted = effects::fitted_parameters(effect);
   const std::size_t amplitudes = effects::amplitudes_of(effect);
   const auto has = [&](bool width) {
-    return std::any_of(fitted.begin() + static_cast<long>(amplitudes), fitted.end(),
+    return std::any_of(fitted.begin() + amplitudes, fitted.end(),
                        [&](const models::Parameter& p) { return (p.lower > 0) == width; });
   };
   return fitted.size() > amplitudes + 1 && has(true) && has(false);
@@ -171,8 +168,7 @@ void keep_different(std::vector<GridShape>& shapes) {
     const float norm = d.norm();
     if (!(norm > tuning::smallest_norm_of_shape) || !std::isfinite(norm)) continue;
     Centred centred(d / norm);
-    if (std::any_of(seen.begin(), seen.end(),
-                    [&](const Centred& other) { return other.resembles(centred); }))
+    if (std::ranges::any_of(seen, [&](const Centred& other) { return other.resembles(centred); }))
       continue;
     seen.push_back(std::move(centred));
     kept.push_back(std::move(shape));
@@ -196,12 +192,11 @@ public:
   // Derivative of the factor by the amplitude.
   Eigen::VectorXf direction(const PlacedEffect& effect) {
     if (!bound_ || references_of(effect) != references_) bind(effect);
-    Eigen::VectorXf direction(static_cast<Index>(bound_->rows()));
+    Eigen::VectorXf direction(bound_->rows());
     bound_->sweep(effects::fitted_values(effect), true,
                   [&](const expr::BoundProgram::Block& block) {
                     for (std::size_t i = 0; i < block.count; ++i)
-                      direction(static_cast<Index>(block.first + i)) =
-                          static_cast<float>(block.derivative[0][i]);
+                      direction(block.first + i) = static_cast<float>(block.derivative[0][i]);
                   });
     return direction;
   }
@@ -218,7 +213,7 @@ private:
     const auto rows = columns_.at(effects::symbol_of(effect.inputs[0].column)).size();
     references_ = references_of(effect);
     program_ = std::make_unique<expr::Program>(effects::factor_program(effect));
-    bound_ = std::make_unique<expr::BoundProgram>(*program_, static_cast<std::size_t>(rows), data);
+    bound_ = std::make_unique<expr::BoundProgram>(*program_, rows, data);
   }
 
   const BlockColumns& columns_;
@@ -238,8 +233,8 @@ MatrixXd roughness_of(const PlacedEffect& effect) {
 VectorXd factor_on(const PlacedEffect& effect, const BlockColumns& columns) {
   const std::vector<const double*> data = inputs_on(effect, columns);
   VectorXd factor(columns.begin()->second.size());
-  effects::factor_program(effect).evaluate(static_cast<std::size_t>(factor.size()), data,
-                                           effects::fitted_values(effect), factor.data());
+  effects::factor_program(effect).evaluate(factor.size(), data, effects::fitted_values(effect),
+                                           factor.data());
   return factor;
 }
 
@@ -247,12 +242,12 @@ MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns
   const expr::Program program = effects::factor_program(effect);
   const std::vector<const double*> data = inputs_on(effect, columns);
   const Index count = columns.at(effects::symbol_of(effect.inputs[0].column)).size();
-  MatrixXd basis(count, static_cast<Index>(effects::amplitudes_of(effect)));
-  expr::BoundProgram(program, static_cast<std::size_t>(count), data)
+  MatrixXd basis(count, effects::amplitudes_of(effect));
+  expr::BoundProgram(program, count, data)
       .sweep(effects::fitted_values(effect), true, [&](const expr::BoundProgram::Block& block) {
         for (Index a = 0; a < basis.cols(); ++a)
           for (std::size_t i = 0; i < block.count; ++i)
-            basis(static_cast<Index>(block.first + i), a) = block.derivative[a][i];
+            basis(block.first + i, a) = block.derivative[a][i];
       });
   return basis;
 }
@@ -272,7 +267,7 @@ bool form_fits(const effects::EffectForm& form, const Cause& cause, const Candid
 
 // Whether both columns vary within tests: between tests a threshold in two columns fits anything.
 bool both_move(const Cause& cause, const Candidates& candidates) {
-  return std::all_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
+  return std::ranges::all_of(cause.columns, [&](std::size_t c) {
     return candidates.columns[c].within && !candidates.columns[c].derived;
   });
 }
@@ -322,6 +317,95 @@ void bound_shapes(models::Law& extended, std::size_t own, std::span<const Placed
     }
     next += fitted.size();
   }
+}
+
+namespace {
+
+// Range of an effect's factor over its whole domain, and at tested values.
+struct FactorRange {
+  double largest = 0; // largest change of friction
+  double low = 1, high = 1, tested_low = 1, tested_high = 1;
+
+  void include(double factor) {
+    largest = std::max(largest, std::abs(factor - 1));
+    low = std::min(low, factor);
+    high = std::max(high, factor);
+  }
+};
+
+// Index of the first numeric input, along which the factor is evaluated.
+std::size_t running_input(const effects::PlacedEffect& effect) {
+  return effect.inputs[0].levels.empty() ? 0 : 1;
+}
+
+// Rows of inputs in which all other inputs are at one of their ends or levels.
+std::vector<std::vector<double>> corners_of(const effects::PlacedEffect& effect) {
+  std::vector<std::vector<double>> rows{{}};
+  for (std::size_t i = 0; i < effect.inputs.size(); ++i) {
+    const effects::EffectInput& input = effect.inputs[i];
+    std::vector<double> positions = {input.low, input.high};
+    if (i == running_input(effect)) positions.pop_back();
+    if (!input.levels.empty()) {
+      positions.resize(input.levels.size());
+      std::iota(positions.begin(), positions.end(), 0.0);
+    }
+    std::vector<std::vector<double>> longer;
+    for (const auto& row : rows)
+      for (const double position : positions) {
+        longer.push_back(row);
+        longer.back().push_back(position);
+      }
+    rows = std::move(longer);
+  }
+  return rows;
+}
+
+FactorRange factor_range(const effects::PlacedEffect& effect, const CandidateColumn& column) {
+  FactorRange range;
+  if (effect.form->categorical && effect.form->columns == 1) {
+    for (const double a : effects::fitted_values(effect))
+      range.largest = std::max(range.largest, std::abs(a));
+    return range;
+  }
+  const expr::Program program = effects::factor_program(effect);
+  const std::vector<double> at = effects::fitted_values(effect);
+  const auto corners = corners_of(effect);
+  const std::size_t running = running_input(effect);
+  const effects::EffectInput& x = effect.inputs[running];
+  std::vector<double> positions;
+  for (int i = 0; i <= tuning::plausibility_intervals; ++i)
+    positions.push_back(x.low + (x.high - x.low) * i / tuning::plausibility_intervals);
+  const auto& tested_at = x.column == column.name ? column.tested : positions;
+  const auto at_corners = [&](double position, auto take) {
+    for (std::vector<double> row : corners) {
+      row[running] = position;
+      take(program(row, at));
+    }
+  };
+  at_corners(tested_at.front(),
+             [&](double f) { range.low = range.high = range.tested_low = range.tested_high = f; });
+  for (const double position : positions)
+    at_corners(position, [&](double f) { range.include(f); });
+  for (const double tested : tested_at)
+    at_corners(tested, [&](double f) {
+      range.tested_low = std::min(range.tested_low, f);
+      range.tested_high = std::max(range.tested_high, f);
+    });
+  return range;
+}
+
+} // namespace
+
+// Two kinds of effect can fit at the tested values as well as the true one: large changes that
+// cancel there, and humps between those values. Both are penalised.
+double implausibility(const effects::PlacedEffect& effect, const CandidateColumn& column) {
+  const FactorRange range = factor_range(effect, column);
+  if (!std::isfinite(range.largest)) return tuning::infinite_factor_cost;
+  const double tested = range.tested_high - range.tested_low;
+  const double beyond =
+      (range.high - range.low - tested) / std::max(tested, tuning::smallest_tested_range);
+  return tuning::large_change_cost * range.largest * range.largest +
+         tuning::hump_cost * std::clamp(beyond - tuning::tolerated_hump, 0.0, tuning::largest_hump);
 }
 
 } // namespace frictab::trace

@@ -19,13 +19,13 @@ std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidate
 
 // Derivatives of the factor by the amplitudes, per block: for forms that are linear in their
 // amplitudes, at any values of these; for others at the effect's own values.
-Eigen::MatrixXd amplitude_basis(const effects::PlacedEffect& effect, const BlockColumns& columns);
+MatrixXd amplitude_basis(const effects::PlacedEffect& effect, const BlockColumns& columns);
 
 // Returns the effect's factor, per block.
-Eigen::VectorXd factor_on(const effects::PlacedEffect& effect, const BlockColumns& columns);
+VectorXd factor_on(const effects::PlacedEffect& effect, const BlockColumns& columns);
 
 // Roughness matrix of a smooth effect's amplitudes.
-Eigen::MatrixXd roughness_of(const effects::PlacedEffect& effect);
+MatrixXd roughness_of(const effects::PlacedEffect& effect);
 
 // Returns an effect of that form with the form's own start values; for a category, with all levels.
 effects::PlacedEffect start_effect(const effects::EffectForm& form, const Cause& cause,
@@ -36,5 +36,11 @@ effects::PlacedEffect start_effect(const effects::EffectForm& form, const Cause&
 // between tested values, because data cannot show structure inside a gap.
 void bound_shapes(models::Law& extended, std::size_t own_parameters,
                   std::span<const effects::PlacedEffect> effects, const Candidates& candidates);
+
+// Returns a penalty in log likelihood on effects that fit where tests were run and are absurd
+// elsewhere: for large changes of friction (as if changes were normal with a standard deviation of
+// 50 %), and for humps between tested values. `column`: the one that the effect follows (for a
+// pair, the first).
+double implausibility(const effects::PlacedEffect& effect, const CandidateColumn& column);
 
 } // namespace frictab::trace

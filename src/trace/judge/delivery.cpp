@@ -22,10 +22,6 @@ using calibrate::Difference;
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 class Deliverer {
 public:
   explicit Deliverer(const Found& found) : f_(found), s_(found.search), in_(s_.input()) {}
@@ -86,8 +82,7 @@ private:
     d_.baseline = weighted(s_.base());
     d_.rival = s_.last();
     for (std::size_t i = f_.findings.size(); i-- > 0;)
-      if (std::find(d_.findings.begin(), d_.findings.end(), i) == d_.findings.end())
-        d_.rival = without_effect(s_.campaign(), d_.rival, i);
+      if (!contains(d_.findings, i)) d_.rival = without_effect(s_.campaign(), d_.rival, i);
     if (d_.findings.empty()) d_.rival = s_.base();
     offered_ = d_.rival;
     if (weights_ == 1) weigh_alike();
@@ -120,8 +115,8 @@ private:
   // Gain of a finding on left-out tests.
   double nested_gain(std::size_t finding) const {
     const NestedErrors::Weighted& errors = d_.nested.weighted[weights_];
-    const auto at = std::find(judged_.begin(), judged_.end(), finding) - judged_.begin();
-    return nested_mae(errors.without[static_cast<std::size_t>(at)]) - nested_mae(errors.all);
+    const auto at = std::ranges::find(judged_, finding) - judged_.begin();
+    return nested_mae(errors.without[at]) - nested_mae(errors.all);
   }
 
   bool is_parent(std::size_t finding) const {
@@ -155,7 +150,7 @@ private:
     for (const std::size_t i : alike.kept)
       kept.push_back(d_.findings[i]);
     for (const std::size_t f : d_.findings)
-      if (std::find(kept.begin(), kept.end(), f) == kept.end())
+      if (!contains(kept, f))
         d_.against[f] = {
             "none within its error where all rows weigh alike, as in the law delivered"};
     d_.findings = std::move(kept);
@@ -229,7 +224,7 @@ private:
                                   -loss.value_MPa),
                       false, true};
     d_.rival = fewer[worst];
-    d_.findings.erase(d_.findings.begin() + static_cast<long>(worst));
+    d_.findings.erase(d_.findings.begin() + worst);
     drop_contradicted();
   }
 
@@ -282,9 +277,8 @@ private:
   // reading of the friction.
   std::optional<std::size_t> too_good() const {
     const double before = d_.before.validation.rmse_MPa, after = d_.after.validation.rmse_MPa;
-    const auto reading =
-        std::find_if(d_.findings.begin(), d_.findings.end(),
-                     [&](std::size_t finding) { return reads_something(finding); });
+    const auto reading = std::ranges::find_if(
+        d_.findings, [&](std::size_t finding) { return reads_something(finding); });
     if (reading == d_.findings.end() ||
         !(after * after < tuning::implausible_share_left * before * before))
       return std::nullopt;
@@ -300,8 +294,8 @@ private:
 
   bool reads_something(std::size_t finding) const {
     const auto& columns = f_.findings[finding].rival.causes.back().columns;
-    return std::any_of(columns.begin(), columns.end(),
-                       [&](std::size_t c) { return s_.candidates().columns[c].is_reading; });
+    return std::ranges::any_of(
+        columns, [&](std::size_t c) { return s_.candidates().columns[c].is_reading; });
   }
 
   static Against contradiction(const Difference& gain) {
@@ -400,8 +394,7 @@ Delivery deliver(const Found& found) {
 }
 
 bool Delivery::contradicted() const {
-  return std::any_of(against.begin(), against.end(),
-                     [](const auto& of) { return of.second.contradicted; });
+  return std::ranges::any_of(against, [](const auto& of) { return of.second.contradicted; });
 }
 
 ValidationShift shift_of(const TestGains& seen, const TestGains& unseen, double freedom) {

@@ -13,10 +13,6 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 double squares_left(const VectorXd& y, const MatrixXd& columns) {
   const MatrixXd q = stats::orthonormal(columns);
   return std::max((y - q * (q.transpose() * y)).squaredNorm(), tuning::smallest_divisor);
@@ -27,7 +23,7 @@ double squares_left(const VectorXd& y, const MatrixXd& columns) {
 TestGains test_gains(const data::Dataset& data, std::span<const double> predicted) {
   const auto measured = data.values("tau_R_MPa");
   const std::size_t tests = data.experiments.size();
-  TestGains out{VectorXd(static_cast<Index>(tests)), VectorXd(static_cast<Index>(tests))};
+  TestGains out{VectorXd(tests), VectorXd(tests)};
   std::vector<double> per_row; // variance of a mean times the number of its rows
   std::vector<std::size_t> unknown;
   for (std::size_t e = 0; e < tests; ++e) {
@@ -57,15 +53,14 @@ TestGains test_gains(const data::Dataset& data, std::span<const double> predicte
       unknown.push_back(e);
       continue;
     }
-    const Eigen::Map<const VectorXd> m(means.data(), static_cast<Index>(parts));
+    const Eigen::Map<const VectorXd> m(means.data(), parts);
     const auto k = static_cast<double>(parts);
     out.variance(at) = (m.array() - m.mean()).square().sum() / ((k - 1) * k);
     per_row.push_back(out.variance(at) * static_cast<double>(rows));
   }
   const double usual = data::median_of(per_row);
   for (const std::size_t e : unknown)
-    out.variance(static_cast<Index>(e)) =
-        usual / static_cast<double>(data.first_row[e + 1] - data.first_row[e]);
+    out.variance(e) = usual / static_cast<double>(data.first_row[e + 1] - data.first_row[e]);
   return out;
 }
 

@@ -22,8 +22,8 @@ namespace frictab::trace {
 // Errors of left-out tests, one entry per test.
 struct LeftOut {
   std::vector<stats::ErrorSums> sums;
-  Eigen::VectorXd relative; // mean of |ln(measured / predicted)| over its rows
-  Eigen::VectorXd score;
+  VectorXd relative; // mean of |ln(measured / predicted)| over its rows
+  VectorXd score;
 };
 
 struct NestedErrors {

@@ -11,7 +11,7 @@
 #include "calibrate/refit.h"
 #include "core/parallel.h"
 #include "core/progress.h"
-#include "trace/judge/uncertainty.h"
+#include "trace/judge/rows_alike.h"
 
 namespace frictab::trace {
 
@@ -59,7 +59,7 @@ private:
 // Errors of every experiment by the law fitted without its fold; empty if a fold lacks a column.
 std::vector<stats::ErrorSums> cross_validated(const Refitter& refitter, const Dataset& all,
                                               std::span<const std::size_t> fold_of) {
-  const std::size_t folds = *std::max_element(fold_of.begin(), fold_of.end()) + 1;
+  const std::size_t folds = *std::ranges::max_element(fold_of) + 1;
   std::vector<stats::ErrorSums> errors(fold_of.size());
   std::vector<char> done(folds, 0);
   const Progress progress("fitting the traced law to all experiments", folds);
@@ -76,7 +76,7 @@ std::vector<stats::ErrorSums> cross_validated(const Refitter& refitter, const Da
       errors[out[i]] = sums[i];
     done[fold] = 1;
   });
-  if (std::count(done.begin(), done.end(), 0) > 0) return {};
+  if (std::ranges::count(done, 0) > 0) return {};
   return errors;
 }
 

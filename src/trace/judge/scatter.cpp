@@ -18,10 +18,6 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Mean square of the measured rows about a straight line through each block: the noise averaged
 // away in block means.
 double within_blocks(const data::Dataset& training, const stats::Blocks& blocks) {
@@ -103,9 +99,9 @@ Repeats scatter_of_repeats(const data::Dataset& data, const VectorXd& gain) {
   for (const auto& group : calibrate::replicate_groups(data)) {
     double mean = 0;
     for (const std::size_t e : group)
-      mean += gain(static_cast<Index>(e)) / static_cast<double>(group.size());
+      mean += gain(e) / static_cast<double>(group.size());
     for (const std::size_t e : group)
-      sum += std::pow(gain(static_cast<Index>(e)) - mean, 2);
+      sum += std::pow(gain(e) - mean, 2);
     repeats.degrees += static_cast<double>(group.size() - 1);
   }
   if (repeats.degrees >= tuning::fewest_degrees_of_repeats)

@@ -21,10 +21,6 @@ using effects::PlacedEffect;
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 static_assert(tuning::site_costs.size() == sites.size());
 
 // One way to explain the residual, linear in its coefficients.
@@ -79,8 +75,7 @@ void fit_options(const Search& search, const stats::NoiseModel& noise, Options& 
 }
 
 void sort_options(Options& options) {
-  std::stable_sort(options.begin(), options.end(),
-                   [](const Option& a, const Option& b) { return a.criterion < b.criterion; });
+  std::ranges::stable_sort(options, {}, &Option::criterion);
 }
 
 Rival rival_of(const Search& search, const Campaign& campaign, const Option& option,
@@ -176,9 +171,7 @@ std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>
   sort_options(options);
   Options best; // best option of each cause
   for (Option& option : options)
-    if (std::none_of(best.begin(), best.end(),
-                     [&](const Option& o) { return o.cause == option.cause; }) &&
-        best.size() < tuning::shortlisted_causes)
+    if (!contains(best, option.cause, &Option::cause) && best.size() < tuning::shortlisted_causes)
       best.push_back(std::move(option));
   if (search.campaign().selection) drop_distinguishable(search, noise, best);
   std::vector<Rival> rivals = rivals_of(search, search.campaign(), best, noise);
@@ -236,8 +229,7 @@ public:
       add_closed(shapes, p, starts);
       add_smooth(p, starts);
     }
-    std::stable_sort(starts.begin(), starts.end(),
-                     [](const Start& a, const Start& b) { return a.explained > b.explained; });
+    std::ranges::stable_sort(starts, std::greater{}, &Start::explained);
     return starts;
   }
 
@@ -245,14 +237,13 @@ private:
   void add_closed(const std::vector<GridShape>& shapes, std::size_t site,
                   std::vector<Start>& starts) const {
     std::map<const effects::EffectForm*, Start> best;
-    MatrixXd basis(target_.size(), static_cast<Index>(shapes.size()));
+    MatrixXd basis(target_.size(), shapes.size());
     for (std::size_t i = 0; i < shapes.size(); ++i)
-      basis.col(static_cast<Index>(i)) =
-          shapes[i].direction.cast<double>().cwiseProduct(s_.sensitivities()[site]);
+      basis.col(i) = shapes[i].direction.cast<double>().cwiseProduct(s_.sensitivities()[site]);
     whitener_.apply(basis);
     basis -= known_ * (known_.transpose() * basis).eval();
     for (std::size_t i = 0; i < shapes.size(); ++i) {
-      const auto column = basis.col(static_cast<Index>(i));
+      const auto column = basis.col(i);
       const double size = column.squaredNorm(), along = column.dot(target_);
       if (!(size > 0)) continue;
       Start start{shapes[i].effect, along * along / size};
@@ -312,8 +303,8 @@ void keep_promising(double share, std::size_t index, std::vector<Start>& starts,
   const auto promise = [&](std::size_t i) {
     return fits[i].penalised + (1 / share - 1) * fits[i].total;
   };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return promise(a) > promise(b); });
+  std::ranges::stable_sort(order,
+                           [&](std::size_t a, std::size_t b) { return promise(a) > promise(b); });
   if (order.size() > tuning::most_forms_on_all_tests) order.resize(tuning::most_forms_on_all_tests);
   std::vector<Start> kept;
   for (const std::size_t i : order) {
@@ -342,8 +333,7 @@ std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::s
   rivals.push_back(winner);
   rivals.back().penalised -= tuning::site_costs[site_of(winner.effects[index])];
   if (winner.effects[index].form->penalty) rivals.back().penalised -= tuning::smooth_cost;
-  std::stable_sort(rivals.begin(), rivals.end(),
-                   [](const Rival& a, const Rival& b) { return a.penalised > b.penalised; });
+  std::ranges::stable_sort(rivals, std::greater{}, &Rival::penalised);
   return rivals;
 }
 

@@ -14,10 +14,6 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr std::uint64_t fold_stream = 0x666f6c64; // "fold"
 
 // Per test, the error and the score.
@@ -53,8 +49,8 @@ public:
     keep_what_pays(choice);
     for (JointFold& fold : choice.folds)
       std::erase_if(fold.terms, [&](std::size_t term) {
-        return std::any_of(choice.dropped.begin(), choice.dropped.end(), [&](const JointStep& one) {
-          return o_.columns[one.term] == o_.columns[term];
+        return std::ranges::any_of(choice.dropped, [&](const JointStep& one) {
+          return o_.terms[one.term].columns == o_.terms[term].columns;
         });
       });
     return choice;
@@ -62,7 +58,7 @@ public:
 
 private:
   void take_folds(const std::vector<std::size_t>& fold_of, JointChoice& choice) {
-    choice.folds.resize(*std::max_element(fold_of.begin(), fold_of.end()) + 1);
+    choice.folds.resize(*std::ranges::max_element(fold_of) + 1);
     for (std::size_t t = 0; t < fold_of.size(); ++t)
       choice.folds[fold_of[t]].out.push_back(t);
     std::erase_if(choice.folds, [](const JointFold& fold) { return fold.out.empty(); });
@@ -95,7 +91,7 @@ private:
 
   // Errors of some of the terms found, refitted without each fold.
   Errors held(const std::vector<JointFold>& folds, const std::vector<SizedTerm>& terms) const {
-    Errors errors(static_cast<Index>(modes_.tests()), 2);
+    Errors errors(modes_.tests(), 2);
     parallel_for(small_.size(), [&](std::size_t f) {
       const JointModel& part = *small_[f];
       add_errors(found_, folds[f].out,
@@ -108,10 +104,7 @@ private:
   // Number of a term among those found.
   std::size_t number_of(const JointStep& step) const {
     const auto& terms = path_.fit.terms;
-    return static_cast<std::size_t>(
-        std::find_if(terms.begin(), terms.end(),
-                     [&](const SizedTerm& one) { return one.term == step.term; }) -
-        terms.begin());
+    return std::ranges::find(terms, step.term, &SizedTerm::term) - terms.begin();
   }
 
   void keep_what_pays(JointChoice& choice) const {
@@ -137,7 +130,7 @@ private:
       if (least == choice.kept.size()) break;
       fit.terms = fit.terms_without(number_of(choice.kept[least]));
       choice.dropped.push_back(choice.kept[least]);
-      choice.kept.erase(choice.kept.begin() + static_cast<long>(least));
+      choice.kept.erase(choice.kept.begin() + least);
       with = without_least;
     }
   }
@@ -145,7 +138,7 @@ private:
   bool is_parent(const std::vector<JointStep>& steps, std::size_t i) const {
     std::vector<std::vector<std::size_t>> columns;
     for (const JointStep& step : steps)
-      columns.push_back(o_.columns[step.term]);
+      columns.push_back(o_.terms[step.term].columns);
     return is_in_product(columns[i], columns);
   }
 
@@ -180,17 +173,16 @@ std::vector<std::size_t> folds_of_settings(const std::vector<std::size_t>& units
       if (!taken[t] && units[t] == units[first]) take(t);
     for (const std::size_t t : left) {
       if (taken[t] || group.size() >= most || states.cols() == 0) continue;
-      const auto apart = states.row(static_cast<Index>(t)) - states.row(static_cast<Index>(first));
+      const auto apart = states.row(t) - states.row(first);
       if (apart.cwiseAbs().maxCoeff() < tuning::same_setting_std_deviations) take(t);
     }
     groups.push_back(std::move(group));
   }
-  std::stable_sort(groups.begin(), groups.end(),
-                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  std::ranges::stable_sort(groups,
+                           [](const auto& a, const auto& b) { return a.size() > b.size(); });
   std::vector<std::size_t> fold(tests), size(folds, 0);
   for (const auto& group : groups) {
-    const auto at =
-        static_cast<std::size_t>(std::min_element(size.begin(), size.end()) - size.begin());
+    const auto at = static_cast<std::size_t>(std::ranges::min_element(size) - size.begin());
     for (const std::size_t t : group)
       fold[t] = at;
     size[at] += group.size();
@@ -202,9 +194,8 @@ std::vector<std::size_t> folds_of_settings(const std::vector<std::size_t>& units
 
 bool is_in_product(const std::vector<std::size_t>& columns,
                    const std::vector<std::vector<std::size_t>>& of_all) {
-  return columns.size() == 1 && std::any_of(of_all.begin(), of_all.end(), [&](const auto& other) {
-           return other.size() > 1 &&
-                  std::find(other.begin(), other.end(), columns[0]) != other.end();
+  return columns.size() == 1 && std::ranges::any_of(of_all, [&](const auto& other) {
+           return other.size() > 1 && contains(other, columns[0]);
          });
 }
 

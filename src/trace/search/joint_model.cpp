@@ -14,10 +14,6 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 double sum_of(const ByClass& weight, const ByClass& value) {
   double sum = 0;
   for (std::size_t c = 0; c < mode_classes; ++c)
@@ -47,8 +43,7 @@ double log_root_det(const Eigen::LLT<MatrixXd>& factored) {
 } // namespace
 
 bool JointFit::has(std::size_t term) const {
-  return std::any_of(terms.begin(), terms.end(),
-                     [&](const SizedTerm& one) { return one.term == term; });
+  return contains(terms, term, &SizedTerm::term);
 }
 
 std::vector<SizedTerm> JointFit::terms_without(std::size_t term) const {
@@ -61,17 +56,17 @@ JointData JointData::part(const std::vector<char>& keep_test) const {
   std::vector<Index> rows;
   JointData some;
   for (std::size_t c = 0; c < mode_classes; ++c) {
-    some.first[c] = static_cast<Index>(rows.size());
+    some.first[c] = rows.size();
     for (Index i = first[c]; i < first[c + 1]; ++i)
-      if (keep_test[test[static_cast<std::size_t>(i)]]) rows.push_back(i);
+      if (keep_test[test[i]]) rows.push_back(i);
   }
-  some.first[mode_classes] = static_cast<Index>(rows.size());
+  some.first[mode_classes] = rows.size();
   some.response = response(rows);
   some.columns = columns(rows, Eigen::all);
   some.law = law;
   some.terms = terms;
   for (const Index i : rows)
-    some.test.push_back(test[static_cast<std::size_t>(i)]);
+    some.test.push_back(test[i]);
   return some;
 }
 
@@ -81,12 +76,12 @@ JointData JointData::with_terms(const std::vector<SizedTerm>& some) const {
   few.law = law;
   few.first = first;
   few.test = test;
-  std::vector<Index> kept(static_cast<std::size_t>(law));
+  std::vector<Index> kept(law);
   std::iota(kept.begin(), kept.end(), 0);
   for (const SizedTerm& one : some) {
     const JointTerm& term = terms[one.term];
     few.terms.push_back(term);
-    few.terms.back().first = static_cast<Index>(kept.size());
+    few.terms.back().first = kept.size();
     for (Index k = 0; k < term.count; ++k)
       kept.push_back(term.first + k);
   }
@@ -118,7 +113,7 @@ JointModel::JointModel(JointData data)
 }
 
 std::vector<Moments> JointModel::moments(const MatrixXd& responses) const {
-  std::vector<Moments> all(static_cast<std::size_t>(responses.cols()));
+  std::vector<Moments> all(responses.cols());
   for (Moments& one : all)
     one.along.resize(data_.columns.cols(), mode_classes);
   for (std::size_t c = 0; c < mode_classes; ++c) {
@@ -126,8 +121,8 @@ std::vector<Moments> JointModel::moments(const MatrixXd& responses) const {
     const auto here = responses.middleRows(begin, rows);
     const MatrixXd along = data_.columns.middleRows(begin, rows).transpose() * here;
     for (Index r = 0; r < responses.cols(); ++r) {
-      Moments& one = all[static_cast<std::size_t>(r)];
-      one.along.col(static_cast<Index>(c)) = along.col(r);
+      Moments& one = all[r];
+      one.along.col(c) = along.col(r);
       one.squares[c] = here.col(r).squaredNorm();
     }
   }
@@ -206,14 +201,14 @@ JointFit JointModel::solve(const std::vector<SizedTerm>& terms, const ByClass& v
   for (std::size_t c = 0; c < mode_classes; ++c)
     if (weight[c] > 0) {
       normal += weight[c] * own[c];
-      along += weight[c] * moments.along.col(static_cast<Index>(c))(fit.columns);
+      along += weight[c] * moments.along.col(c)(fit.columns);
     }
   double log_sizes = 0;
   for (Index i = 0; i < coefficients; ++i)
     if (i < data_.law) {
       penalty(i) = tuning::law_ridge * normal(i, i) + tuning::smallest_law_ridge;
     } else {
-      const double sd = spread[static_cast<std::size_t>(i - data_.law)];
+      const double sd = spread[i - data_.law];
       penalty(i) = 1 / (sd * sd);
       log_sizes += std::log(sd);
     }
@@ -223,7 +218,7 @@ JointFit JointModel::solve(const std::vector<SizedTerm>& terms, const ByClass& v
   fit.coefficients = fit.inverse * along;
   for (std::size_t c = 0; c < mode_classes; ++c) {
     if (!(weight[c] > 0)) continue;
-    const VectorXd here = moments.along.col(static_cast<Index>(c))(fit.columns);
+    const VectorXd here = moments.along.col(c)(fit.columns);
     fit.squares[c] = std::max(moments.squares[c] - 2 * here.dot(fit.coefficients) +
                                   fit.coefficients.dot(own[c] * fit.coefficients),
                               0.0);
@@ -312,7 +307,7 @@ JointModel::OfTerm JointModel::of_term(const Beside& beside, std::size_t term) c
   for (std::size_t c = 0; c < mode_classes; ++c) {
     out.cross[c].resize(at.count, count);
     for (Index i = 0; i < count; ++i) {
-      const auto& [cross, column] = beside.columns[static_cast<std::size_t>(i)];
+      const auto& [cross, column] = beside.columns[i];
       out.cross[c].col(i) = (*cross)[c].col(column).segment(at.first, at.count);
     }
     if (beside.weight[c] > 0) weighted += beside.weight[c] * out.cross[c];
@@ -368,9 +363,9 @@ struct TermOnResponses {
 
     void consider(TermSize tried, const std::vector<Index>& rows, const Eigen::ArrayXd& gains) {
       for (std::size_t i = 0; i < rows.size(); ++i)
-        if (const double one = gains(static_cast<Index>(i)); one > gain(rows[i])) {
+        if (const double one = gains(i); one > gain(rows[i])) {
           gain(rows[i]) = one;
-          size[static_cast<std::size_t>(rows[i])] = tried;
+          size[rows[i]] = tried;
         }
     }
   };
@@ -379,21 +374,21 @@ struct TermOnResponses {
   // that of the bent part without the straight one and with its likeliest size.
   template <std::size_t count> Likeliest likeliest(const double (&grid)[count]) const {
     const Index responses = squares.rows();
-    std::vector<Index> all(static_cast<std::size_t>(responses));
+    std::vector<Index> all(responses);
     std::iota(all.begin(), all.end(), 0);
     Likeliest best{Eigen::ArrayXd::Zero(responses), std::vector<TermSize>(all.size())};
     std::vector<std::vector<Index>> by_straight(count); // responses for which it is likeliest
     by_straight[0] = all;
     if (term.straight > 0) {
-      Eigen::ArrayXXd gain(responses, static_cast<Index>(count) - 1);
+      Eigen::ArrayXXd gain(responses, count - 1);
       for (std::size_t s = 1; s < count; ++s) {
-        gain.col(static_cast<Index>(s) - 1) = gains({grid[s], 0});
-        best.consider({grid[s], 0}, all, gain.col(static_cast<Index>(s) - 1));
+        gain.col(s - 1) = gains({grid[s], 0});
+        best.consider({grid[s], 0}, all, gain.col(s - 1));
       }
       for (const Index r : all) {
         Index at = 0;
         gain.row(r).maxCoeff(&at);
-        by_straight[static_cast<std::size_t>(at) + 1].push_back(r);
+        by_straight[at + 1].push_back(r);
       }
     }
     for (std::size_t s = 0; s < count && term.count > term.straight; ++s) {
@@ -420,7 +415,7 @@ struct TermOnResponses {
       gain -= 0.5 / (spread(j) * spread(j)) * coefficients.col(j).array().square();
     for (std::size_t c = 0; c < mode_classes; ++c) {
       if (!(weight[c] > 0)) continue;
-      const auto before = squares.col(static_cast<Index>(c));
+      const auto before = squares.col(c);
       const MatrixXd turned = coefficients * own[c].block(begin, begin, count, count);
       Eigen::ArrayXd left = before;
       for (Index j = 0; j < count; ++j)
@@ -443,7 +438,7 @@ JointModel::Ratio JointModel::likeliest(const Beside& with, const Left& left,
   const OfTerm of = of_term(with, term);
   const auto own = own_products(with, of, term);
   TermOnResponses one{at, weight, with.free, own, {}, {}};
-  one.squares.resize(1, static_cast<Index>(mode_classes));
+  one.squares.resize(1, mode_classes);
   for (std::size_t c = 0; c < mode_classes; ++c) {
     const auto column = static_cast<Index>(c);
     one.along[c] = (moments.along.col(column).segment(at.first, at.count) -
@@ -460,8 +455,7 @@ JointModel::Ratio JointModel::likeliest(const Beside& with, const Left& left,
 JointModel::Left JointModel::left_along(const Beside& with, const Moments& moments) const {
   Left left;
   for (std::size_t c = 0; c < mode_classes; ++c)
-    left[c] = moments.along.col(static_cast<Index>(c))(with.fit.columns) -
-              with.product[c] * with.fit.coefficients;
+    left[c] = moments.along.col(c)(with.fit.columns) - with.product[c] * with.fit.coefficients;
   return left;
 }
 
@@ -506,18 +500,18 @@ MatrixXd JointModel::ratios_of(const JointFit& fit, const MatrixXd& responses,
   const Beside with = beside(fit);
   const MatrixXd z = data_.columns(Eigen::all, fit.columns);
   std::array<MatrixXd, mode_classes> of_fit; // responses x columns of Z: r' Z
-  Eigen::ArrayXXd squares(responses.cols(), static_cast<Index>(mode_classes));
+  Eigen::ArrayXXd squares(responses.cols(), mode_classes);
   for (std::size_t c = 0; c < mode_classes; ++c) {
     const Index begin = data_.first[c], rows = data_.first[c + 1] - begin;
     of_fit[c] = responses.middleRows(begin, rows).transpose() * z.middleRows(begin, rows);
-    squares.col(static_cast<Index>(c)) = responses.middleRows(begin, rows)
-                                             .colwise()
-                                             .squaredNorm()
-                                             .transpose()
-                                             .array()
-                                             .max(tuning::smallest_divisor);
+    squares.col(c) = responses.middleRows(begin, rows)
+                         .colwise()
+                         .squaredNorm()
+                         .transpose()
+                         .array()
+                         .max(tuning::smallest_divisor);
   }
-  MatrixXd best(responses.cols(), static_cast<Index>(terms.size()));
+  MatrixXd best(responses.cols(), terms.size());
   parallel_for(terms.size(), [&](std::size_t i) {
     const JointTerm& term = data_.terms[terms[i]];
     const OfTerm of = of_term(with, terms[i]);
@@ -533,8 +527,7 @@ MatrixXd JointModel::ratios_of(const JointFit& fit, const MatrixXd& responses,
                         of_fit[c].middleRows(from, count) * of.turned.transpose();
       }
       some.add_up();
-      best.col(static_cast<Index>(i)).segment(from, count) =
-          some.likeliest(tuning::coarse_term_sizes).gain;
+      best.col(i).segment(from, count) = some.likeliest(tuning::coarse_term_sizes).gain;
     }
   });
   return best;

@@ -16,10 +16,6 @@ using expr::Expr;
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Rounds off every minimum that depends on parameters.
 class Smoother {
 public:
@@ -42,8 +38,8 @@ private:
   }
   bool depends(const Expr& e) const {
     const auto used = expr::symbols(e);
-    return std::any_of(used.begin(), used.end(),
-                       [&](const std::string& s) { return parameters_.count(s) > 0; });
+    return std::ranges::any_of(used,
+                               [&](const std::string& s) { return parameters_.count(s) > 0; });
   }
   Expr rounded(const Expr& a, const Expr& b) const {
     const Expr d = a - b;
@@ -68,7 +64,7 @@ LawOnBlocks::LawOnBlocks(const models::Law& law, const models::Conventions& conv
   for (const std::string& name : names)
     bound.push_back(columns.at(name).data());
   count_ = columns.begin()->second.size();
-  bound_ = std::make_unique<expr::BoundProgram>(*program_, static_cast<std::size_t>(count_), bound);
+  bound_ = std::make_unique<expr::BoundProgram>(*program_, count_, bound);
 }
 
 VectorXd LawOnBlocks::predict(std::span<const double> parameters) const {
@@ -81,12 +77,11 @@ VectorXd LawOnBlocks::predict(std::span<const double> parameters) const {
 
 VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd& jacobian) const {
   VectorXd tau(count_);
-  jacobian.setZero(count_, static_cast<Index>(parameters.size()));
+  jacobian.setZero(count_, parameters.size());
   bound_->sweep(parameters, true, [&](const expr::BoundProgram::Block& block) {
     std::copy_n(block.value, block.count, tau.data() + block.first);
     for (std::size_t p = 0; p < block.derivative.size(); ++p)
-      std::copy_n(block.derivative[p], block.count,
-                  jacobian.col(static_cast<Index>(p)).data() + block.first);
+      std::copy_n(block.derivative[p], block.count, jacobian.col(p).data() + block.first);
   });
   return tau;
 }
@@ -101,14 +96,14 @@ constexpr auto many_blocks = static_cast<Index>(stats::block_budget);
 class BlockSquares : public stats::LeastSquares {
 public:
   BlockSquares(const LawOnBlocks& law, const VectorXd& measured, const stats::Whitener& whitener,
-               const Penalty& penalty, const VectorXd& weight, std::span<const double> start)
-      : law_(law), measured_(measured), whitener_(whitener), penalty_(penalty), weight_(weight),
+               const Penalty& penalty, std::span<const double> start)
+      : law_(law), measured_(measured), whitener_(whitener), penalty_(penalty),
         positive_(law.predict(start).array() > 0) {}
 
   double cost(std::span<const double> parameters) override {
     const VectorXd tau = law_.predict(parameters);
     MatrixXd residual = measured_ - tau;
-    whiten(residual);
+    whitener_.apply(residual);
     return cost_of(residual.col(0), parameters, tau);
   }
 
@@ -117,7 +112,7 @@ public:
     MatrixXd all(tau.size(), raw_.cols() + 1); // residual and derivatives
     all.col(0) = measured_ - tau;
     all.rightCols(raw_.cols()) = raw_;
-    whiten(all);
+    whitener_.apply(all);
     const auto jacobian = all.rightCols(raw_.cols());
     stats::NormalEquations n{cost_of(all.col(0), parameters, tau),
                              jacobian.transpose() * all.col(0), stats::gram(jacobian)};
@@ -129,11 +124,6 @@ public:
   }
 
 private:
-  void whiten(MatrixXd& columns) const {
-    whitener_.apply(columns);
-    if (weight_.size() > 0) columns = weight_.asDiagonal() * columns;
-  }
-
   VectorXd from_centre(std::span<const double> parameters) const {
     VectorXd off = stats::as_vector(parameters);
     if (penalty_.centre.size() > 0) off -= penalty_.centre;
@@ -159,7 +149,6 @@ private:
   const VectorXd& measured_;
   const stats::Whitener& whitener_;
   const Penalty& penalty_;
-  const VectorXd& weight_;
   const Eigen::Array<bool, Eigen::Dynamic, 1> positive_; // per block, at the start
   MatrixXd raw_;
 };
@@ -168,7 +157,7 @@ private:
 
 BlockFit fit_blocks(const LawOnBlocks& law, const VectorXd& measured,
                     const stats::Whitener& whitener, std::vector<double> start,
-                    const Penalty& penalty, const VectorXd& weight, FitEnd end) {
+                    const Penalty& penalty, FitEnd end) {
   std::vector<stats::ParameterRange> ranges;
   for (std::size_t p = 0; p < start.size(); ++p) {
     ranges.push_back({law.parameters()[p].lower, law.parameters()[p].upper});
@@ -177,24 +166,24 @@ BlockFit fit_blocks(const LawOnBlocks& law, const VectorXd& measured,
   // Most fits of a choice end early, so the path shows in their costs, and through the noise of the
   // folds in the scores: by other rules of bounds and damping these changed by up to 5 %, for
   // better or worse.
-  const stats::LevenbergMarquardtOptions options{
-      .tolerance = end.enough,
-      .promise_ends = false,
-      .small_gains_end = 1,
-      .most_trials = static_cast<std::size_t>(end.most_steps),
-      .unit = stats::DampingUnit::current_diagonal,
-      .fall = 0.2,
-      .growth = 8,
-      .growth_of_growth = 1,
-      .least_damping_after_rejection = 0,
-      .most_damping = 1e8,
-      .clamps_at_bounds = true,
-      .derivatives_at_first_trial = measured.size() <= many_blocks,
-      .learns_curvature = false};
-  BlockSquares squares(law, measured, whitener, penalty, weight, start);
+  const stats::LevenbergMarquardtOptions options{.tolerance = end.enough,
+                                                 .promise_ends = false,
+                                                 .small_gains_end = 1,
+                                                 .most_trials = end.most_steps,
+                                                 .unit = stats::DampingUnit::current_diagonal,
+                                                 .fall = 0.2,
+                                                 .growth = 8,
+                                                 .growth_of_growth = 1,
+                                                 .least_damping_after_rejection = 0,
+                                                 .most_damping = 1e8,
+                                                 .clamps_at_bounds = true,
+                                                 .derivatives_at_first_trial =
+                                                     measured.size() <= many_blocks,
+                                                 .learns_curvature = false};
+  BlockSquares squares(law, measured, whitener, penalty, start);
   stats::LevenbergMarquardtFit found =
       stats::levenberg_marquardt(squares, ranges, std::move(start), options);
-  BlockFit fit{std::move(found.parameters), {}, {}, 2 * found.cost};
+  BlockFit fit{std::move(found.parameters), {}, {}};
   fit.predicted = law.predict(fit.parameters, fit.jacobian);
   return fit;
 }

@@ -18,10 +18,6 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Parts of names, and whole words between underscores.
 constexpr const char* of_environment[] = {"humid",    "ambient",  "room",   "weather", "climate",
                                           "dewpoint", "umgebung", "feucht", "klima",   "wetter"};
@@ -52,7 +48,7 @@ std::vector<double> in_order(const Search& search, const VectorXd& of_tests) {
   const auto rank = ranks(search.candidates().order);
   std::vector<double> values(rank.size());
   for (std::size_t e = 0; e < rank.size(); ++e)
-    values[rank[e]] = of_tests(static_cast<Index>(e));
+    values[rank[e]] = of_tests(e);
   return values;
 }
 
@@ -83,8 +79,7 @@ void add_direction(OrderStructure& order, const Search& search) {
     const std::vector<double> test =
         in_order(search, VectorXd::Map(number.data(), n)); // position in the order -> test
     const auto name = [&](Index place) {
-      return search.input()
-          .training.experiments[static_cast<std::size_t>(test[static_cast<std::size_t>(place)])];
+      return search.input().training.experiments[static_cast<std::size_t>(test[place])];
     };
     order.change = std::expm1(y.tail(n - after).mean() - y.head(after).mean());
     order.step = name(after - 1) + " and " + name(after);
@@ -107,15 +102,14 @@ double p_of_steps(const VectorXd& steps, const std::vector<std::size_t>& places,
                   std::uint64_t seed) {
   double own = 0;
   for (const std::size_t place : places)
-    own += steps(static_cast<Index>(place)) * steps(static_cast<Index>(place));
+    own += steps(place) * steps(place);
   std::vector<double> squares(steps.size());
   VectorXd::Map(squares.data(), steps.size()) = steps.array().square();
   Random random(seed, steps_stream);
   std::size_t as_large = 1;
   for (std::size_t draw = 0; draw < tuning::order_permutations; ++draw) {
     random.shuffle(std::span(squares));
-    const double sum = std::accumulate(
-        squares.begin(), squares.begin() + static_cast<std::ptrdiff_t>(places.size()), 0.0);
+    const double sum = std::accumulate(squares.begin(), squares.begin() + places.size(), 0.0);
     as_large += sum >= own * (1 - tuning::smallest_divisor);
   }
   return static_cast<double>(as_large) / static_cast<double>(tuning::order_permutations + 1);
@@ -144,9 +138,9 @@ AlongOrder along_order(const Search& search, std::size_t c) {
   if (column.is_order) return AlongOrder::is_order;
   if (column.levels.empty() || !constant_in_experiments({{c}}, search.candidates()))
     return AlongOrder::no;
-  VectorXd level(static_cast<Index>(search.blocks().experiments()));
+  VectorXd level(search.blocks().experiments());
   for (Index e = 0; e < level.size(); ++e)
-    level(e) = column.values(static_cast<Index>(search.first()[static_cast<std::size_t>(e)]));
+    level(e) = column.values(search.first()[e]);
   const std::vector<double> levels = in_order(search, level);
   const std::vector<std::size_t> changes = changes_of(levels);
   const std::size_t count = std::set<double>(levels.begin(), levels.end()).size();
@@ -173,9 +167,10 @@ bool is_environment(std::string name) {
     const std::string all = "_" + name + "_";
     return all.find(std::string("_") + word + "_") != std::string::npos;
   };
-  return std::any_of(std::begin(environment), std::end(environment), has) ||
-         std::any_of(std::begin(of_environment), std::end(of_environment),
-                     [&](const char* part) { return name.find(part) != std::string::npos; });
+  return std::ranges::any_of(environment, has) ||
+         std::ranges::any_of(of_environment, [&](const char* part) {
+           return name.find(part) != std::string::npos;
+         });
 }
 
 // Whether neighbours by name are more alike than by chance (von Neumann's ratio, one-sided 1 %).
@@ -195,7 +190,7 @@ struct StrongestSite {
 StrongestSite test_along_order(const Search& search) {
   const stats::Whitener weights = search.whitener();
   std::vector<std::size_t> tried;
-  MatrixXd scores(static_cast<Index>(search.blocks().experiments()), 0);
+  MatrixXd scores(search.blocks().experiments(), 0);
   for (std::size_t site = 0; site < sites.size(); ++site) {
     if (search.sensitivities()[site].size() == 0) continue;
     stats::append_columns(scores, scores_of(search, weights, site));
@@ -203,7 +198,7 @@ StrongestSite test_along_order(const Search& search) {
   }
   const OrderTest test = test_order(scores, search.candidates().order, tuning::order_permutations,
                                     search.input().seed);
-  return {test.p_value, tried[static_cast<std::size_t>(test.column)]};
+  return {test.p_value, tried[test.column]};
 }
 
 } // namespace
@@ -213,7 +208,7 @@ bool may_stand_for_time(const Found& found, const Cause& cause) {
   if (!constant_in_experiments(cause, search.candidates())) return false;
   if (found.order.found) return true;
   if (!search.candidates().order_column.empty()) return false;
-  return std::any_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
+  return std::ranges::any_of(cause.columns, [&](std::size_t c) {
     const CandidateColumn& column = search.candidates().columns[c];
     return column.levels.empty() &&
            (is_environment(column.name) ||
@@ -222,9 +217,8 @@ bool may_stand_for_time(const Found& found, const Cause& cause) {
 }
 
 std::vector<Suspect> prefer_declared(const Search& search, std::vector<Suspect> suspects) {
-  const auto declared = std::find_if(suspects.begin(), suspects.end(), [&](const Suspect& one) {
-    return is_declared(search, one.cause);
-  });
+  const auto declared = std::ranges::find_if(
+      suspects, [&](const Suspect& one) { return is_declared(search, one.cause); });
   return declared == suspects.end() ? suspects : std::vector{*declared};
 }
 

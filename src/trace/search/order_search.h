@@ -9,7 +9,7 @@ namespace frictab::trace {
 
 // Mean logarithm of measured over calculated friction of each test, for a law's predictions per
 // block.
-Eigen::VectorXd log_gains(const Search& search, const Eigen::VectorXd& predicted);
+VectorXd log_gains(const Search& search, const VectorXd& predicted);
 
 // How a column goes with the declared order. `stretches`: a text column each of whose levels is one
 // stretch of it, as of batches; `steps`: friction also steps where the levels change and hardly

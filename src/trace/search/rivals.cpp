@@ -11,7 +11,6 @@
 #include "stats/noise_fit.h"
 #include "stats/resampling.h"
 #include "trace/columns/shapes.h"
-#include "trace/search/plausibility.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
@@ -19,10 +18,6 @@ namespace frictab::trace {
 using effects::PlacedEffect;
 
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 void take_fit(Rival& rival, BlockFit fit) {
   rival.parameters = std::move(fit.parameters);
@@ -40,18 +35,18 @@ void take_parameters(Rival& rival) {
 
 VectorXd by_experiment(const VectorXd& whitened, const stats::Whitener& whitener,
                        std::span<const std::size_t> first) {
-  VectorXd value(static_cast<Index>(first.size() - 1));
+  VectorXd value(first.size() - 1);
   for (Index e = 0; e < value.size(); ++e) {
-    const auto begin = static_cast<Index>(first[static_cast<std::size_t>(e)]);
-    const auto end = static_cast<Index>(first[static_cast<std::size_t>(e) + 1]);
+    const auto begin = static_cast<Index>(first[e]);
+    const auto end = static_cast<Index>(first[e + 1]);
     value(e) = -0.5 * (whitened.segment(begin, end - begin).squaredNorm() + whitener.log_det()(e));
   }
   return value;
 }
 
 bool on_limit(const std::vector<PlacedEffect>& effects) {
-  return std::any_of(effects.begin(), effects.end(),
-                     [](const PlacedEffect& e) { return e.acts_on == effects::ActsOn::m; });
+  return std::ranges::any_of(effects,
+                             [](const PlacedEffect& e) { return e.acts_on == effects::ActsOn::m; });
 }
 
 } // namespace
@@ -75,8 +70,7 @@ void tie_parameters(Campaign& campaign, const Rival& base, double share) {
   MatrixXd jacobian = base.jacobian;
   whitener.apply(jacobian);
   campaign.own = {share * jacobian.transpose() * jacobian,
-                  Eigen::Map<const VectorXd>(base.parameters.data(),
-                                             static_cast<Index>(base.parameters.size()))};
+                  Eigen::Map<const VectorXd>(base.parameters.data(), base.parameters.size())};
 }
 
 namespace {
@@ -86,10 +80,10 @@ Penalty penalties(const Campaign& campaign, const Rival& rival) {
   Penalty all{penalty_of(rival), {}};
   const Index own = campaign.own.centre.size();
   const auto of_the_law = [&](const Cause& cause) {
-    return std::any_of(cause.columns.begin(), cause.columns.end(),
-                       [&](std::size_t c) { return campaign.candidates.columns[c].in_law; });
+    return std::ranges::any_of(
+        cause.columns, [&](std::size_t c) { return campaign.candidates.columns[c].in_law; });
   };
-  if (own == 0 || std::none_of(rival.causes.begin(), rival.causes.end(), of_the_law)) return all;
+  if (own == 0 || std::ranges::none_of(rival.causes, of_the_law)) return all;
   const auto count = static_cast<Index>(rival.parameters.size());
   if (all.matrix.size() == 0) all.matrix = MatrixXd::Zero(count, count);
   all.centre = VectorXd::Zero(count);
@@ -114,7 +108,7 @@ double freedom_of(const Rival& rival, const stats::Whitener& whitener) {
 // Whether the fit is finite and no effect makes friction negative.
 bool is_possible(const Rival& rival, const Campaign& campaign) {
   return std::isfinite(rival.total) && std::isfinite(rival.freedom) &&
-         std::all_of(rival.effects.begin(), rival.effects.end(), [&](const PlacedEffect& effect) {
+         std::ranges::all_of(rival.effects, [&](const PlacedEffect& effect) {
            return effect.acts_on == effects::ActsOn::tau ||
                   factor_on(effect, campaign.candidates.by_symbol).minCoeff() > 0;
          });
@@ -141,7 +135,7 @@ void evaluate(Rival& rival, const Campaign& campaign) {
 
 std::vector<double> start_of(const models::Law& extended, std::span<const double> own,
                              std::size_t count, std::span<const PlacedEffect> effects) {
-  std::vector<double> start(own.begin(), own.begin() + static_cast<long>(count));
+  std::vector<double> start(own.begin(), own.begin() + count);
   for (const PlacedEffect& effect : effects)
     for (const double value : effects::fitted_values(effect))
       start.push_back(value);
@@ -207,8 +201,7 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
     rival.predicted = with.predict(rival.parameters);
     const stats::Whitener whitener(rival.noise, rival.predicted, campaign.blocks,
                                    campaign.nuisance);
-    take_fit(rival,
-             fit_blocks(with, campaign.measured, whitener, rival.parameters, penalty, {}, end));
+    take_fit(rival, fit_blocks(with, campaign.measured, whitener, rival.parameters, penalty, end));
   };
   // First with the limit rounded off, otherwise rows below it have no influence on it.
   if (!from_selection && on_limit(rival.effects)) {
@@ -277,7 +270,7 @@ stats::NoiseModel noise_by(const Campaign& campaign, const stats::NoiseData& dat
   };
   const VectorXd residual = data.residual(rows), tau = data.tau(rows);
   const MatrixXd fitted = some(data.fitted), nuisance = some(data.nuisance);
-  return fit({residual, tau, campaign.selection->blocks, fitted, nuisance, data.slope}).noise;
+  return fit({residual, tau, campaign.selection->blocks, fitted, nuisance}).noise;
 }
 
 } // namespace
@@ -322,7 +315,7 @@ Rival with_weights(const Campaign& campaign, Rival rival, const stats::NoiseMode
                         campaign.candidates.by_symbol);
   const stats::Whitener whitener(weights, rival.predicted, campaign.blocks, campaign.nuisance);
   take_fit(rival, fit_blocks(law, campaign.measured, whitener, rival.parameters,
-                             penalties(campaign, rival), {}, end));
+                             penalties(campaign, rival), end));
   rival.weights = weights;
   take_parameters(rival);
   evaluate(rival, campaign);
@@ -337,17 +330,15 @@ std::size_t first_parameter(const Rival& rival, std::size_t effect) {
 }
 
 std::size_t site_of(const PlacedEffect& effect) {
-  return static_cast<std::size_t>(std::find(sites.begin(), sites.end(), effect.acts_on) -
-                                  sites.begin());
+  return std::ranges::find(sites, effect.acts_on) - sites.begin();
 }
 
 Rival less_effect(Rival rival, std::size_t index) {
   const bool limit = rival.parameters.size() > first_parameter(rival, rival.effects.size());
-  const auto first = rival.parameters.begin() + static_cast<long>(first_parameter(rival, index));
-  rival.parameters.erase(
-      first, first + static_cast<long>(effects::fitted_parameters(rival.effects[index]).size()));
-  rival.effects.erase(rival.effects.begin() + static_cast<long>(index));
-  rival.causes.erase(rival.causes.begin() + static_cast<long>(index));
+  const auto first = rival.parameters.begin() + first_parameter(rival, index);
+  rival.parameters.erase(first, first + effects::fitted_parameters(rival.effects[index]).size());
+  rival.effects.erase(rival.effects.begin() + index);
+  rival.causes.erase(rival.causes.begin() + index);
   if (limit && !on_limit(rival.effects)) rival.parameters.pop_back(); // m_limit, after them
   return rival;
 }
@@ -360,10 +351,10 @@ Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t i
 
 std::vector<bool> indistinguishable_rivals(const std::vector<Rival>& rivals, std::uint64_t seed) {
   const Index experiments = rivals.front().log_likelihood.size();
-  MatrixXd times(static_cast<Index>(tuning::rival_resamples), experiments);
-  std::vector<double> counts(static_cast<std::size_t>(experiments));
+  MatrixXd times(tuning::rival_resamples, experiments);
+  std::vector<double> counts(experiments);
   for (Index b = 0; b < times.rows(); ++b) {
-    stats::resample(seed, static_cast<std::size_t>(b), counts);
+    stats::resample(seed, b, counts);
     times.row(b) = Eigen::Map<const VectorXd>(counts.data(), experiments);
   }
   std::vector<bool> same;

@@ -21,7 +21,7 @@ inline constexpr std::size_t on_mu = 0, on_both = 3;
 
 // Derivative of tau_R by an effect's factor, per block, at each site; of size 0 where the law has
 // no such site.
-using Sensitivities = std::array<Eigen::VectorXd, sites.size()>;
+using Sensitivities = std::array<VectorXd, sites.size()>;
 
 // Data and settings that all fits of a campaign share.
 struct Campaign {
@@ -29,9 +29,9 @@ struct Campaign {
   models::Conventions conventions;
   const stats::Blocks& blocks;
   const Candidates& candidates;
-  Eigen::VectorXd measured; // per block; minus the error of evaluating the law at block means
-  Eigen::MatrixXd nuisance; // per block: directions that may not explain anything
-  bool quick = false;       // the noise is fitted only as accurately as weights need
+  VectorXd measured;  // per block; minus the error of evaluating the law at block means
+  MatrixXd nuisance;  // per block: directions that may not explain anything
+  bool quick = false; // the noise is fitted only as accurately as weights need
   // For more than 200 tests: the tests with which fits start, and to which the noise is fitted.
   std::shared_ptr<const Selection> selection = nullptr;
   bool of_selected = false; // this campaign consists of selected tests
@@ -50,9 +50,9 @@ struct Rival {
   std::size_t own = 0; // number of the law's own parameters, which come first
   stats::NoiseModel noise;
   stats::NoiseModel weights; // weights of the fit: the noise model, or equal for all rows
-  Eigen::VectorXd predicted;
-  Eigen::MatrixXd jacobian;
-  Eigen::VectorXd log_likelihood; // per experiment
+  VectorXd predicted;
+  MatrixXd jacobian;
+  VectorXd log_likelihood; // per experiment
   double total = 0;
   double freedom = 0; // effective number of parameters; stiff smooths have fewer than knots
   // Total minus the costs of parameters, complexity and implausibility; -infinity where friction
@@ -90,7 +90,7 @@ stats::NoiseModel refit_campaign_noise(const Campaign& campaign, const stats::No
 
 // Penalty matrix of the smooth effects over all parameters, which a fit adds to its normal
 // equations. Empty if no effect is penalised.
-Eigen::MatrixXd penalty_of(const Rival& rival);
+MatrixXd penalty_of(const Rival& rival);
 
 // Ties the law's own parameters p to those of this rival, p0, in further fits in which an effect
 // follows an input of the law. Such an effect can take the place of a parameter; the tests then

@@ -1,10 +1,12 @@
-// Start of a search: candidates, the law on blocks, its fit without effects.
+// Start of a search: candidates, the law on blocks, its fit without effects; directions that a fit
+// has used up.
 #include "trace/search/search.h"
+
+#include <set>
 
 #include "core/progress.h"
 #include "stats/noise_fit.h"
 #include "stats/projection.h"
-#include "trace/search/directions.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
@@ -13,10 +15,6 @@ using expr::Expr;
 using models::Model;
 
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 bool is_trained(const models::Law& law) {
   return models::is_trained(law.calibrated);
@@ -39,9 +37,9 @@ MatrixXd trained_directions(const std::vector<std::string>& inputs, const BlockC
     for (std::size_t j = i; j < z.size(); ++j)
       all.push_back(predicted.cwiseProduct(z[i]).cwiseProduct(z[j]));
   }
-  MatrixXd directions(predicted.size(), static_cast<Index>(all.size()));
+  MatrixXd directions(predicted.size(), all.size());
   for (std::size_t i = 0; i < all.size(); ++i)
-    directions.col(static_cast<Index>(i)) = all[i];
+    directions.col(i) = all[i];
   return directions;
 }
 
@@ -64,6 +62,106 @@ models::Law with_piece_as_column(const Model& model, const stats::Blocks& blocks
       Expr::symbol(law.parameters.front().name) * Expr::symbol("trained_piece"), formula.combine};
   surrogate.build = [with](const models::Conventions&) { return with; };
   return surrogate;
+}
+
+// Piecewise linear functions with seven knots: they span any form of the quantity.
+MatrixXd hat_functions(const VectorXd& x) {
+  std::vector<double> sorted(x.data(), x.data() + x.size());
+  std::ranges::sort(sorted);
+  std::set<double> knots;
+  for (int i = 0; i < tuning::knots_of_any_form; ++i)
+    knots.insert(sorted[i * (sorted.size() - 1) / (tuning::knots_of_any_form - 1)]);
+  MatrixXd columns(x.size(), knots.size());
+  Index next = 0;
+  for (const double knot : knots)
+    columns.col(next++) = (x.array() - knot).max(0.0).matrix();
+  columns.col(next - 1) = x; // the last hinge is zero everywhere
+  return columns;
+}
+
+MatrixXd level_functions(const VectorXd& x, std::size_t levels) {
+  MatrixXd columns(x.size(), levels);
+  for (std::size_t level = 0; level < levels; ++level)
+    columns.col(level) = (x.array() == static_cast<double>(level)).cast<double>().matrix();
+  return columns;
+}
+
+MatrixXd any_form(const Cause& cause, const Candidates& candidates) {
+  const CandidateColumn& x = candidates.columns[cause.columns[0]];
+  if (!cause.is_joint())
+    return x.levels.empty() ? hat_functions(x.values) : level_functions(x.values, x.levels.size());
+  MatrixXd levels = MatrixXd::Ones(x.values.size(), 1);
+  VectorXd product = levels.col(0);
+  for (const std::size_t c : cause.columns) {
+    const CandidateColumn& one = candidates.columns[c];
+    if (one.levels.empty())
+      product.array() *= one.values.array() - one.values.mean();
+    else
+      levels = level_functions(one.values, one.levels.size());
+  }
+  MatrixXd all;
+  for (Index l = 0; l < levels.cols(); ++l)
+    stats::append_columns(all, levels.col(l).asDiagonal() * hat_functions(product));
+  return all;
+}
+
+// Directions that count as fitted: those of all parameters and, for each effect in the law, of any
+// form of its quantity (straight lines between seven values). Otherwise the misfit of the chosen
+// form would be found as another effect of the same quantity.
+MatrixXd fitted_directions(const Campaign& campaign, const Rival& rival,
+                           const Sensitivities& sensitivities) {
+  MatrixXd all = rival.jacobian;
+  for (std::size_t i = 0; i < rival.effects.size(); ++i) {
+    const VectorXd& sensitivity = sensitivities[site_of(rival.effects[i])];
+    if (sensitivity.size() == 0) continue;
+    stats::append_columns(all, sensitivity.asDiagonal() *
+                                   any_form(rival.causes[i], campaign.candidates));
+  }
+  return all;
+}
+
+// Derivatives of tau_R by a factor on mu, on the limit, on both, and by an addition of tau_scale.
+// Central differences over +-6 %, so that rows near the limit respond to mu as well as to the
+// limit.
+Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, double tau_scale_MPa) {
+  const std::size_t own = campaign.law.parameters.size();
+  BlockColumns columns = campaign.candidates.by_symbol;
+  columns["everywhere"] = VectorXd::Ones(campaign.measured.size());
+  const auto change = [&](effects::ActsOn acts_on) {
+    effects::PlacedEffect everywhere;
+    everywhere.form = effects::find_effect("linear");
+    everywhere.inputs = {{"everywhere", {}, 0, 1}};
+    everywhere.acts_on = acts_on;
+    everywhere.parameters = {0, 0, 1}; // 1 + a x, x = 1
+    std::vector<effects::PlacedEffect> effects = rival.effects;
+    effects.push_back(everywhere);
+    const models::Law law =
+        effects::extended_law(campaign.law, campaign.conventions,
+                              std::span(rival.parameters).first(own), effects, "sensitivity");
+    const LawOnBlocks on(law, campaign.conventions, columns);
+    std::vector<double> at = start_of(law, rival.parameters, own, effects);
+    const auto amplitude = static_cast<std::size_t>(
+        std::ranges::find_if(law.parameters,
+                             [&](const models::Parameter& p) {
+                               return p.name == "e" + std::to_string(effects.size()) + "_a";
+                             }) -
+        law.parameters.begin());
+    at[amplitude] = tuning::factor_step;
+    const VectorXd up = on.predict(at);
+    at[amplitude] = -tuning::factor_step;
+    return VectorXd((up - on.predict(at)) / (2 * tuning::factor_step));
+  };
+  Sensitivities all;
+  all[on_mu] = change(effects::ActsOn::mu);
+  if (effects::has_limit(campaign.law, campaign.conventions)) {
+    all[1] = change(effects::ActsOn::m);
+    if (all[1].squaredNorm() < tuning::felt_share_of_squares * all[0].squaredNorm())
+      all[1].resize(0);
+  }
+  if (effects::has_own_limit(campaign.law, campaign.conventions))
+    all[on_both] = change(effects::ActsOn::mu_m);
+  all[2] = VectorXd::Constant(campaign.measured.size(), tau_scale_MPa);
+  return all;
 }
 
 } // namespace
