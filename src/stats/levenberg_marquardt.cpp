@@ -198,7 +198,7 @@ private:
         const double here = to_step_scale(ranges_[i], x_[i]),
                      low = to_step_scale(ranges_[i], ranges_[i].lower),
                      high = to_step_scale(ranges_[i], ranges_[i].upper);
-        const double wanted = here + part(static_cast<Index>(a));
+        const double wanted = here + part(a);
         if (!options_.clamps_at_bounds && (wanted < low || wanted > high))
           step(free[a]) = std::clamp(wanted, low, high) - here;
         else
@@ -206,14 +206,14 @@ private:
       }
       if (inside.size() == free.size()) {
         for (std::size_t a = 0; a < free.size(); ++a)
-          step(free[a]) = part(static_cast<Index>(a));
+          step(free[a]) = part(a);
         break;
       }
       free = std::move(inside);
     }
     Trial trial{x_, step.dot(model.descent) - 0.5 * step.dot(model.hessian * step), {}};
     for (std::size_t i = 0; i < x_.size(); ++i)
-      if (const double move = step(static_cast<Index>(i)); move != 0)
+      if (const double move = step(i); move != 0)
         trial.to[i] = from_step_scale(ranges_[i], to_step_scale(ranges_[i], x_[i]) + move);
     return trial;
   }

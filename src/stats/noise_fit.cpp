@@ -42,9 +42,7 @@ std::vector<BlockShape> shapes_of(const Blocks& blocks) {
       share.push_back(blocks.usual_rows / blocks.rows(b));
     const auto [shape, is_new] = known.emplace(std::move(share), shapes.size());
     if (is_new)
-      shapes.push_back(
-          {Eigen::Map<const VectorXd>(shape->first.data(), static_cast<Index>(shape->first.size())),
-           {}});
+      shapes.push_back({Eigen::Map<const VectorXd>(shape->first.data(), shape->first.size()), {}});
     shapes[shape->second].experiments.push_back(e);
   }
   return shapes;
@@ -89,11 +87,8 @@ public:
     columns.col(fitted_ + 1) = data.tau.array() / d;
     columns.col(fitted_ + 2) = data.tau.array() * data.blocks.position.array() / d;
     log_d_ = d.log().sum();
-    for (std::size_t e = 0; e < data.blocks.experiments(); ++e) {
-      const auto begin = static_cast<Index>(data.blocks.first[e]);
-      columns_.emplace_back(
-          columns.middleRows(begin, static_cast<Index>(data.blocks.first[e + 1]) - begin));
-    }
+    for (std::size_t e = 0; e < data.blocks.experiments(); ++e)
+      columns_.emplace_back(data.blocks.rows_of(columns, e));
   }
 
   // Without the constant.
@@ -101,7 +96,7 @@ public:
     const double slow = noise.slow * noise.slow, white = noise.white * noise.white;
     const Index own = fitted_ + 1;
     MatrixXd normal = MatrixXd::Zero(own, own); // lower triangle only
-    MatrixXd random(own, 2 * static_cast<Index>(columns_.size()));
+    MatrixXd random(own, 2 * columns_.size());
     Index next = 0;
     double log_det = 0;
     for (const Turned& turned : at_length(noise.length)) {
@@ -225,7 +220,7 @@ public:
     for (const int way : {-1, 1}) {
       NoiseFit here = from;
       for (int l = middle + way; l >= 0 && l < static_cast<int>(slow_lengths.size()); l += way) {
-        here = fit(slow_lengths[static_cast<std::size_t>(l)], logs(here.noise), close);
+        here = fit(slow_lengths[l], logs(here.noise), close);
         consider(here, best);
       }
     }

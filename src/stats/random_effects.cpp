@@ -155,7 +155,7 @@ std::vector<std::size_t> furthest(Estimates all) {
     order.emplace_back(-std::abs(all[i].value - summary.mean) / std::sqrt(variance), i);
   }
   const std::size_t n = std::min(order.size(), most_candidates);
-  std::partial_sort(order.begin(), order.begin() + static_cast<long>(n), order.end());
+  std::partial_sort(order.begin(), order.begin() + n, order.end());
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < n; ++i)
     indices.push_back(order[i].second);
@@ -164,7 +164,7 @@ std::vector<std::size_t> furthest(Estimates all) {
 
 Outlier against_others(Estimates all, std::size_t i) {
   std::vector<Estimate> rest(all.begin(), all.end());
-  rest.erase(rest.begin() + static_cast<long>(i));
+  rest.erase(rest.begin() + i);
   Outlier one{all[i], random_effects(rest), 1};
   const RandomEffects& others = one.others;
   const double degrees = static_cast<double>(rest.size()) - 1;

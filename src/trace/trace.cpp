@@ -21,9 +21,9 @@
 #include "trace/advise/leads.h"
 #include "trace/columns/aliases.h"
 #include "trace/judge/delivery.h"
+#include "trace/judge/gains.h"
 #include "trace/judge/refit_traced.h"
 #include "trace/judge/rows_alike.h"
-#include "trace/judge/scatter.h"
 #include "trace/judge/verdict.h"
 #include "trace/search/order_search.h"
 #include "trace/tuning.h"
@@ -63,7 +63,7 @@ Trace what_was_tried(const Found& found) {
   trace.n_flips = found.leftover.flips;
   trace.smallest_seen = found.leftover.smallest_seen;
   for (const Seen& seen : found.leftover.seen) {
-    const CandidateColumn& column = search.candidates().columns[seen.cause.columns[0]];
+    const CandidateColumn& column = search.candidates().first_of(seen.cause);
     const double size = seen.identifiable ? seen.size : 0;
     if (!seen.identifiable) trace.not_identifiable.push_back(column.name);
     trace.detectable.push_back({column.name, column.derived ? column.name : "", effects::ActsOn::mu,
@@ -83,22 +83,22 @@ void judge(calibrate::ModelFit& fit, const TraceInput& in, const Delivery& deliv
   if (!in.searched.empty()) {
     std::vector<stats::ErrorSums> sums;
     for (std::size_t i = 0; i < in.searched.size(); ++i) {
-      sums.push_back(delivery.unseen[in.searched[i]]);
+      sums.push_back(delivery.unseen_sums[in.searched[i]]);
       fit.unseen.push_back(
           calibrate::error_of(in.validation.experiments[i], true, sums.back(), no_value));
     }
     fit.validation = calibrate::metrics(sums, in.bootstrap, in.seed);
     for (std::size_t e = 0; e < in.training.experiments.size(); ++e)
       fit.over_all.push_back(
-          calibrate::error_of(in.training.experiments[e], true, delivery.unseen[e], no_value));
+          calibrate::error_of(in.training.experiments[e], true, delivery.unseen_sums[e], no_value));
     fit.band = calibrate::check_band(fit.model, {}, in.training.subset({}));
   } else if (in.validation.experiments.empty()) {
     fit.validation = delivery.after.validation;
     fit.band = calibrate::check_band(fit.model, {}, in.validation);
-    if (delivery.nested.folds == 0) fit.unseen = in.fit.unseen;
+    if (delivery.left_out.folds == 0) fit.unseen = in.fit.unseen;
     for (std::size_t e = 0; fit.unseen.size() < in.training.experiments.size(); ++e)
       fit.unseen.push_back(
-          calibrate::error_of(in.training.experiments[e], true, delivery.unseen[e], no_value));
+          calibrate::error_of(in.training.experiments[e], true, delivery.unseen_sums[e], no_value));
   } else {
     const std::vector<double> unseen = calibrate::predict(fit.model, in.validation);
     fit.validation = errors_of(in, in.validation, unseen);
@@ -154,7 +154,7 @@ std::vector<TracedParameter> parameters_of(const effects::PlacedEffect& placed,
 }
 
 std::vector<Alternative> alternatives_of(const Finding& finding, const Candidates& candidates) {
-  const std::string name = cause_name(finding.rival.causes.back(), candidates);
+  const std::string name = cause_name(finding.cause(), candidates);
   std::vector<Alternative> alternatives;
   for (std::size_t i = 0; i < std::min(finding.others.size(), alternatives_shown); ++i) {
     const Rival& other = finding.others[i];
@@ -178,7 +178,7 @@ std::vector<TracedEffect> effects_of(const Found& found, const Delivery& deliver
   std::vector<TracedEffect> traced;
   for (std::size_t i = 0; i < rival.effects.size(); ++i) {
     const Finding& finding = found.findings[delivery.findings[i]];
-    const Cause& cause = finding.rival.causes.back();
+    const Cause& cause = finding.cause();
     TracedEffect& effect = traced.emplace_back();
     effect.placed = rival.effects[i];
     const Lead names = lead_of(rival.causes[i], search.candidates());
@@ -213,7 +213,7 @@ Delivered search_and_deliver(const TraceInput& in) {
   std::vector<Cause> barred;
   std::vector<std::string> rejected;
   for (const auto& [index, against] : delivery.against) {
-    barred.push_back(found.findings[index].rival.causes.back());
+    barred.push_back(found.findings[index].cause());
     rejected.push_back(rejection(found.search.candidates(), barred.back(),
                                  found.findings[index].p_value, against.why));
   }
@@ -235,15 +235,10 @@ Trace trace_in_order(const TraceInput& in) {
   trace.extended = fit_of(found, delivery, uncertainty);
   trace.extended_model = trace.extended.model.law ? trace.extended.model.name() : "";
   trace.effects = effects_of(found, delivery, trace.extended, uncertainty);
-  trace.unseen = delivery.unseen_by;
+  static_cast<BeforeAndAfter&>(trace) = delivery;
   trace.as_calibrated = {in.fit.training, in.fit.validation};
-  trace.before = delivery.before;
-  trace.after = delivery.after;
   if (found.order.found && trace.effects.empty() && in.searched.empty())
     trace.after = {trace.extended.training, trace.extended.validation};
-  trace.improvement = delivery.improvement;
-  trace.over_calibrated = delivery.over_calibrated;
-  trace.nested = delivery.check;
   trace.validation_searched = !in.searched.empty();
   if (!trace.validation_searched)
     trace.validation_shift = validation_shift_of(found.search, delivery.rival);
@@ -283,17 +278,9 @@ double tests_for(double alpha) {
 }
 
 const char* verdict_name(Verdict verdict) {
-  switch (verdict) {
-  case Verdict::effect_added:
-    return "effect_added";
-  case Verdict::nothing_missing:
-    return "nothing_missing";
-  case Verdict::nothing_found:
-    return "nothing_found";
-  case Verdict::unexplained_structure:
-    break;
-  }
-  return "unexplained_structure";
+  constexpr const char* names[] = {"effect_added", "nothing_missing", "nothing_found",
+                                   "unexplained_structure"};
+  return names[static_cast<std::size_t>(verdict)];
 }
 
 Trace trace(const TraceInput& input) {

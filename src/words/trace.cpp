@@ -103,6 +103,17 @@ std::string design_sentence(const trace::Design& d) {
   return text;
 }
 
+// Numbers of equal tests that follow each other.
+std::vector<std::size_t> runs_of(const std::vector<std::vector<std::string>>& tests) {
+  std::vector<std::size_t> runs;
+  for (std::size_t t = 0; t < tests.size(); ++t)
+    if (t > 0 && tests[t] == tests[t - 1])
+      ++runs.back();
+    else
+      runs.push_back(1);
+  return runs;
+}
+
 // The proposed tests: the number of equal ones, then what they vary.
 void add_design(Section& section, const trace::Design& d) {
   if (d.tests.empty()) return;
@@ -110,14 +121,12 @@ void add_design(Section& section, const trace::Design& d) {
   Table table{"Tests that settle it", {{"tests", true}}, {}};
   for (const std::string& column : d.columns)
     table.columns.push_back({column, true});
-  for (std::size_t t = 0; t < d.tests.size();) {
-    std::size_t alike = t + 1;
-    while (alike < d.tests.size() && d.tests[alike] == d.tests[t])
-      ++alike;
-    Row row{{std::to_string(alike - t)}};
+  std::size_t t = 0;
+  for (const std::size_t alike : runs_of(d.tests)) {
+    Row row{{std::to_string(alike)}};
     row.cells.insert(row.cells.end(), d.tests[t].begin(), d.tests[t].end());
     table.rows.push_back(std::move(row));
-    t = alike;
+    t += alike;
   }
   section.add(std::move(table));
 }
@@ -410,12 +419,11 @@ std::string tests_in_short(const trace::Design& d) {
   if (in_turn)
     return fmt::format("{} tests {} and {} in turn", d.tests.size(), settings(0), settings(1));
   std::vector<std::string> groups;
-  for (std::size_t t = 0, alike = 0; t < d.tests.size(); t += alike) {
-    alike = 1;
-    while (t + alike < d.tests.size() && d.tests[t + alike] == d.tests[t])
-      ++alike;
+  std::size_t t = 0;
+  for (const std::size_t alike : runs_of(d.tests)) {
     groups.push_back((groups.empty() ? count_of(alike, "test") : std::to_string(alike)) + " " +
                      settings(t));
+    t += alike;
   }
   return join(groups, "; ");
 }

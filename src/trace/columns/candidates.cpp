@@ -49,6 +49,11 @@ std::size_t count_empty(Rows values) {
   return std::ranges::count_if(values, [](double v) { return std::isnan(v); });
 }
 
+// The rows of one test.
+Rows of_test(const Dataset& data, std::size_t e, Rows values) {
+  return values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e]);
+}
+
 // Squared correlation; 0 if a column does not vary.
 double likeness(const VectorXd& a, const VectorXd& b) {
   const VectorXd x = a.array() - a.mean(), y = b.array() - b.mean();
@@ -106,14 +111,11 @@ bool are_among(const Dataset& tests, const Dataset& others) {
   std::unordered_map<std::string_view, std::size_t> known;
   for (std::size_t e = 0; e < others.experiments.size(); ++e)
     known.emplace(others.experiments[e], e);
-  const auto friction = [](const Dataset& data, std::size_t e) {
-    return data.values("tau_R_MPa")
-        .subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e]);
-  };
   for (std::size_t e = 0; e < tests.experiments.size(); ++e) {
     const auto found = known.find(tests.experiments[e]);
     if (found == known.end() ||
-        !std::ranges::equal(friction(tests, e), friction(others, found->second)))
+        !std::ranges::equal(of_test(tests, e, tests.values("tau_R_MPa")),
+                            of_test(others, found->second, others.values("tau_R_MPa"))))
       return false;
   }
   return true;
@@ -184,12 +186,13 @@ private:
       not_an_order(*order, dates.fault, "write dates as 2024-09-01");
       return;
     }
+    std::vector<double> values;
     for (std::size_t e = 0; e < training_.experiments.size(); ++e) {
       const double value = order->values[training_.first_row[e]];
-      found_.order.push_back(order->levels.empty() ? value
-                                                   : dates.place[static_cast<std::size_t>(value)]);
+      values.push_back(order->levels.empty() ? value
+                                             : dates.place[static_cast<std::size_t>(value)]);
     }
-    part_equals(found_.order);
+    found_.order = sorted_tests(values);
     found_.order_column = order->name;
   }
 
@@ -207,17 +210,14 @@ private:
 
   // Orders tests with equal values, such as those of one day, at random instead of by name: names
   // often follow the conditions. (Experiments are sorted by name.)
-  void part_equals(std::vector<double>& order) const {
-    std::vector<std::size_t> place(order.size());
-    std::iota(place.begin(), place.end(), 0);
+  std::vector<std::size_t> sorted_tests(const std::vector<double>& values) const {
+    std::vector<std::size_t> tests(values.size());
+    std::iota(tests.begin(), tests.end(), 0);
     std::vector<std::uint64_t> draw;
     for (const std::string& name : training_.experiments)
       draw.push_back(hash_of(name));
-    std::ranges::sort(place, [&](std::size_t a, std::size_t b) {
-      return std::tie(order[a], draw[a], a) < std::tie(order[b], draw[b], b);
-    });
-    for (std::size_t i = 0; i < place.size(); ++i)
-      order[place[i]] = static_cast<double>(i);
+    std::ranges::sort(tests, {}, [&](std::size_t e) { return std::tuple(values[e], draw[e], e); });
+    return tests;
   }
 
   bool orders_nothing(const Column& column) {
@@ -438,18 +438,38 @@ bool may_act_with_others(const CandidateColumn& column) {
 
 } // namespace
 
+std::vector<const CandidateColumn*> Candidates::of(const Cause& cause) const {
+  std::vector<const CandidateColumn*> all;
+  for (const std::size_t c : cause.columns)
+    all.push_back(&columns[c]);
+  return all;
+}
+
+std::vector<std::string> Candidates::recorded_of(const Cause& cause) const {
+  std::vector<std::string> names;
+  for (const CandidateColumn* column : of(cause))
+    for (const std::string& name : column->recorded)
+      if (!contains(names, name)) names.push_back(name);
+  return names;
+}
+
+MatrixXd level_columns(const CandidateColumn& text) {
+  MatrixXd columns(text.values.size(), text.levels.size());
+  for (Index level = 0; level < columns.cols(); ++level)
+    columns.col(level) = (text.values.array() == static_cast<double>(level)).cast<double>();
+  return columns;
+}
+
 bool varies_within(Rows values, const Dataset& data) {
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
-    if (!is_constant(values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])))
-      return true;
+    if (!is_constant(of_test(data, e, values))) return true;
   return false;
 }
 
 double usual_range(Rows values, const Dataset& data) {
   std::vector<double> own;
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
-    own.push_back(
-        width_of(values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])));
+    own.push_back(width_of(of_test(data, e, values)));
   std::ranges::sort(own);
   return own[own.size() / 2];
 }
@@ -574,8 +594,8 @@ std::optional<Cause> cause_in(const Candidates& to, const Cause& cause, const Ca
 
 std::string cause_name(const Cause& cause, const Candidates& candidates) {
   std::vector<std::string> names;
-  for (const std::size_t c : cause.columns)
-    names.push_back(candidates.columns[c].name);
+  for (const CandidateColumn* column : candidates.of(cause))
+    names.push_back(column->name);
   return join(names, " x ");
 }
 
@@ -591,14 +611,13 @@ int steps_from_what_is_recorded(const CandidateColumn& derived) {
 
 int complexity(const Cause& cause, const Candidates& candidates) {
   int steps = 2 * static_cast<int>(cause.columns.size() - 1);
-  for (const std::size_t c : cause.columns)
-    if (candidates.columns[c].derived) steps += steps_from_what_is_recorded(candidates.columns[c]);
+  for (const CandidateColumn* column : candidates.of(cause))
+    if (column->derived) steps += steps_from_what_is_recorded(*column);
   return steps;
 }
 
 bool constant_in_experiments(const Cause& cause, const Candidates& candidates) {
-  return std::ranges::none_of(cause.columns,
-                              [&](std::size_t c) { return candidates.columns[c].within; });
+  return std::ranges::none_of(candidates.of(cause), &CandidateColumn::within);
 }
 
 } // namespace frictab::trace

@@ -31,9 +31,7 @@ bool is_local(const PlacedEffect& effect) {
 // sliding, which grows within a test, before the pause, which is constant in it.
 std::vector<const CandidateColumn*> columns_of(const effects::EffectForm& form, const Cause& cause,
                                                const Candidates& candidates) {
-  std::vector<const CandidateColumn*> columns;
-  for (const std::size_t c : cause.columns)
-    columns.push_back(&candidates.columns[c]);
+  std::vector<const CandidateColumn*> columns = candidates.of(cause);
   if (columns.size() == 2 && form.name == "recovery" && !columns[0]->within && columns[1]->within)
     std::swap(columns[0], columns[1]);
   return columns;
@@ -121,7 +119,7 @@ bool too_narrow(const PlacedEffect& effect, double gap) {
 
 // One direction per level against the others; for a pair, multiplied by the number after it.
 std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[cause.columns[0]];
+  const CandidateColumn& x = candidates.first_of(cause);
   const effects::EffectForm& form =
       *effects::find_effect(cause.is_joint() ? "category_slope" : "category");
   VectorXd times = VectorXd::Ones(x.values.size());
@@ -129,12 +127,12 @@ std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candid
     const CandidateColumn& number = candidates.columns[cause.columns[1]];
     times = (number.values.array() - number.spread.median) / number.spread.span();
   }
+  const MatrixXd is = level_columns(x);
   std::vector<GridShape> shapes;
   for (std::size_t level = 0; level < x.levels.size(); ++level) {
     if (x.levels.size() == 2 && level == 1) break; // the mirror image of the first
-    const VectorXd is = (x.values.array() == static_cast<double>(level)).cast<double>();
     shapes.push_back({start_effect(form, cause, candidates, effects::ActsOn::mu, 1),
-                      is.cwiseProduct(times).cast<float>()});
+                      is.col(level).cwiseProduct(times).cast<float>()});
   }
   return shapes;
 }
@@ -267,15 +265,15 @@ bool form_fits(const effects::EffectForm& form, const Cause& cause, const Candid
 
 // Whether both columns vary within tests: between tests a threshold in two columns fits anything.
 bool both_move(const Cause& cause, const Candidates& candidates) {
-  return std::ranges::all_of(cause.columns, [&](std::size_t c) {
-    return candidates.columns[c].within && !candidates.columns[c].derived;
+  return std::ranges::all_of(candidates.of(cause), [](const CandidateColumn* column) {
+    return column->within && !column->derived;
   });
 }
 
 } // namespace
 
 std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[cause.columns[0]];
+  const CandidateColumn& x = candidates.first_of(cause);
   if (!x.levels.empty()) return level_shapes(cause, candidates);
   std::vector<GridShape> shapes;
   for (const effects::EffectForm& form : effects::all_effects()) {

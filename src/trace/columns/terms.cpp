@@ -114,10 +114,7 @@ MatrixXd bends_of(const VectorXd& z) {
 
 // One column per level, minus its share.
 MatrixXd factor_of(const CandidateColumn& column) {
-  const auto levels = static_cast<Index>(column.levels.size());
-  MatrixXd is(column.values.size(), levels);
-  for (Index l = 0; l < levels; ++l)
-    is.col(l) = (column.values.array() == static_cast<double>(l)).cast<double>();
+  MatrixXd is = level_columns(column);
   is.rowwise() -= is.colwise().mean().eval();
   return is / std::max(stats::root_mean_square(is), tuning::smallest_divisor);
 }

@@ -47,10 +47,9 @@ VectorXd scores(const data::Dataset& data, const std::vector<double>& predicted,
   whitener.apply(residual);
   VectorXd score = -0.5 * whitener.log_det();
   for (std::size_t e = 0; e < blocks.experiments(); ++e) {
-    const auto size = static_cast<Index>(blocks.first[e + 1] - blocks.first[e]);
-    const double squares = residual.col(0).segment(blocks.first[e], size).squaredNorm();
-    score(e) -= 0.5 * (tuning::law_score_t_freedom + static_cast<double>(size)) *
-                std::log1p(squares / tuning::law_score_t_freedom);
+    const auto own = blocks.part(residual.col(0), e);
+    score(e) -= 0.5 * (tuning::law_score_t_freedom + static_cast<double>(own.size())) *
+                std::log1p(own.squaredNorm() / tuning::law_score_t_freedom);
   }
   return score;
 }
@@ -106,10 +105,9 @@ private:
     std::set<std::string> needed{all_.candidates().order_column, options.tool_distance};
     const auto need = [&](const std::vector<Cause>& causes) {
       for (const Cause& cause : causes)
-        for (const std::size_t c : cause.columns) {
-          const CandidateColumn& column = all_.candidates().columns[c];
-          needed.insert(column.name);
-          needed.insert(column.recorded.begin(), column.recorded.end());
+        for (const CandidateColumn* column : all_.candidates().of(cause)) {
+          needed.insert(column->name);
+          needed.insert(column->recorded.begin(), column->recorded.end());
         }
     };
     need(all_.last().causes);
@@ -185,12 +183,13 @@ void put(const LeftOut& from, const std::vector<std::size_t>& tests, std::size_t
 
 } // namespace
 
-NestedErrors::Gain NestedErrors::gain(std::size_t weights) const {
+NestedCheck NestedErrors::gain(std::size_t weights) const {
   const VectorXd score_gain = weighted[weights].all.score - weighted[weights].none.score,
                  error_gain =
                      weighted[better_weights(false)].none.relative - weighted[weights].all.relative;
-  if (score_gain.size() < 2) return {};
-  return {score_gain.mean(), std_error(score_gain), error_gain.mean(), std_error(error_gain)};
+  if (score_gain.size() < 2) return {folds};
+  return {folds, error_gain.mean(), std_error(error_gain), score_gain.mean(),
+          std_error(score_gain)};
 }
 
 std::size_t NestedErrors::better_weights(bool with_effects) const {

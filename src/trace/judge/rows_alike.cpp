@@ -22,13 +22,10 @@ std::vector<calibrate::ExperimentSums> sums_by_test(const Campaign& campaign, co
   whitener.apply(jacobian);
   whitener.apply(residual);
   std::vector<calibrate::ExperimentSums> sums;
-  const auto& first = campaign.blocks.first;
-  for (std::size_t e = 0; e + 1 < first.size(); ++e) {
-    const auto begin = static_cast<Index>(first[e]);
-    const auto count = static_cast<Index>(first[e + 1]) - begin;
-    const auto rows = jacobian.middleRows(begin, count);
+  for (std::size_t e = 0; e < campaign.blocks.experiments(); ++e) {
+    const auto rows = campaign.blocks.rows_of(jacobian, e);
     sums.push_back(
-        {rows.transpose() * residual.col(0).segment(begin, count), rows.transpose() * rows});
+        {rows.transpose() * campaign.blocks.part(residual.col(0), e), rows.transpose() * rows});
   }
   return sums;
 }

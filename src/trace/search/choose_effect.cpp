@@ -45,6 +45,12 @@ double clamped_start(double amplitude) {
   return std::clamp(amplitude, -tuning::largest_start_amplitude, tuning::largest_start_amplitude);
 }
 
+void start_at(const stats::SmoothFit& fit, PlacedEffect& effect) {
+  effect.stiffness = fit.stiffness;
+  effects::set_fitted(effect,
+                      {fit.coefficients.data(), fit.coefficients.data() + fit.coefficients.size()});
+}
+
 Option option_of(const Cause& cause, PlacedEffect effect) {
   const auto count = static_cast<Index>(effects::amplitudes_of(effect));
   const MatrixXd penalty =
@@ -81,11 +87,9 @@ void sort_options(Options& options) {
 Rival rival_of(const Search& search, const Campaign& campaign, const Option& option,
                const stats::NoiseModel& noise) {
   PlacedEffect effect = option.effect;
-  if (effect.form->penalty) {
-    effect.stiffness = option.fit.stiffness;
-    std::vector<double> start(option.fit.coefficients.begin(), option.fit.coefficients.end());
-    effects::set_fitted(effect, start);
-  } else if (effects::amplitudes_of(effect) == 1 && !effect.form->categorical)
+  if (effect.form->penalty)
+    start_at(option.fit, effect);
+  else if (effects::amplitudes_of(effect) == 1 && !effect.form->categorical)
     effect.parameters[0] = clamped_start(option.fit.coefficients(0));
   return with_effect(campaign, search.last(), std::move(effect), option.cause, noise,
                      NoiseSearch::kept);
@@ -125,7 +129,7 @@ void drop_distinguishable(const Search& search, const stats::NoiseModel& noise, 
 
 // Whether the cause has a text column, which comes first.
 bool starts_with_text(const Cause& cause, const Candidates& candidates) {
-  return !candidates.columns[cause.columns[0]].levels.empty();
+  return !candidates.first_of(cause).levels.empty();
 }
 
 const char* plain_form(const Cause& cause, bool text) {
@@ -151,7 +155,7 @@ PlacedEffect plain_effect(const Search& search, const Cause& cause) {
 PlacedEffect smooth_effect(const Search& search, const Cause& cause, effects::ActsOn acts_on) {
   const Candidates& candidates = search.candidates();
   const char* form = smooth_form(cause, starts_with_text(cause, candidates),
-                                 candidates.columns[cause.columns[0]].two_values);
+                                 candidates.first_of(cause).two_values);
   return start_effect(*effects::find_effect(form), cause, candidates, acts_on,
                       search.tau_scale_MPa());
 }
@@ -265,9 +269,7 @@ private:
     whitener_.apply(basis);
     const stats::SmoothFit fit = stats::fit_smooth(target_, basis, option.penalty, known_);
     Start start{std::move(option.effect), fit.without - fit.criterion};
-    start.effect.stiffness = fit.stiffness;
-    effects::set_fitted(start.effect,
-                        std::vector<double>(fit.coefficients.begin(), fit.coefficients.end()));
+    start_at(fit, start.effect);
     starts.push_back(std::move(start));
   }
 

@@ -8,7 +8,6 @@
 #include "core/parallel.h"
 #include "data/recordings.h"
 #include "stats/projection.h"
-#include "trace/columns/order_test.h"
 #include "trace/columns/shapes.h"
 #include "trace/columns/terms.h"
 #include "trace/search/order_search.h"
@@ -110,7 +109,7 @@ private:
         (!has_walk() && goes_with_order(cause, AlongOrder::stretches)))
       return false;
     return cause.is_joint() || !constant_in_experiments(cause, s_.candidates()) ||
-           differs_between_tests(s_.candidates().columns[cause.columns[0]]);
+           differs_between_tests(s_.candidates().first_of(cause));
   }
 
   // A walk would explain declared wear, and a column with which friction steps.
@@ -239,7 +238,7 @@ private:
                       static_cast<double>(k + 1);
     MatrixXd per_block(s_.blocks().count(), 0);
     for (const auto& [site, changes] : sites_)
-      stats::append_columns(per_block, functions_on_blocks(waves, changes, s_.first()));
+      stats::append_columns(per_block, functions_on_blocks(waves, changes, s_.blocks()));
     offer_.walk = offered_.size();
     add({}, {}, per_block, 0, false);
   }

@@ -105,8 +105,7 @@ JointModel::JointModel(JointData data)
   parallel_for(own_.size(), [&](std::size_t t) {
     const JointTerm& term = data_.terms[t];
     for (std::size_t c = 0; c < mode_classes; ++c) {
-      const auto x = data_.columns.block(data_.first[c], term.first,
-                                         data_.first[c + 1] - data_.first[c], term.count);
+      const auto x = data_.columns.block(data_.first[c], term.first, data_.count(c), term.count);
       own_[t][c] = x.transpose() * x;
     }
   });
@@ -136,7 +135,7 @@ const JointModel::Cross& JointModel::cross_of(Index first, Index count) const {
   }
   auto cross = std::make_unique<Cross>();
   for (std::size_t c = 0; c < mode_classes; ++c) {
-    const auto rows = data_.columns.middleRows(data_.first[c], data_.first[c + 1] - data_.first[c]);
+    const auto rows = data_.columns.middleRows(data_.first[c], data_.count(c));
     (*cross)[c] = rows.transpose() * rows.middleCols(first, count);
   }
   const std::lock_guard lock(mutex_);
@@ -146,7 +145,7 @@ const JointModel::Cross& JointModel::cross_of(Index first, Index count) const {
 ByClass JointModel::weights(const JointFit& fit) const {
   ByClass weight{};
   for (std::size_t c = 0; c < mode_classes; ++c)
-    if (data_.first[c + 1] > data_.first[c]) weight[c] = 1 / fit.variance[c];
+    if (data_.count(c) > 0) weight[c] = 1 / fit.variance[c];
   return weight;
 }
 
@@ -226,7 +225,7 @@ JointFit JointModel::solve(const std::vector<SizedTerm>& terms, const ByClass& v
   }
   double likelihood = -0.5 * sum_of(weight, fit.squares) - log_sizes - log_root_det(factored);
   for (std::size_t c = 0; c < mode_classes; ++c)
-    likelihood -= 0.5 * static_cast<double>(data_.first[c + 1] - data_.first[c]) *
+    likelihood -= 0.5 * static_cast<double>(data_.count(c)) *
                   std::log(std::max(variance[c], tuning::smallest_divisor));
   for (Index i = data_.law; i < coefficients; ++i)
     likelihood -= 0.5 * penalty(i) * fit.coefficients(i) * fit.coefficients(i);
@@ -238,7 +237,7 @@ ByClass JointModel::estimated_noise(const JointFit& fit) const {
   ByClass variance = fit.variance;
   double before = 0; // variance of the previous class
   for (std::size_t c = 0; c < mode_classes; ++c) {
-    const auto rows = static_cast<double>(data_.first[c + 1] - data_.first[c]);
+    const auto rows = static_cast<double>(data_.count(c));
     if (rows == 0) continue;
     const double free = rows - fit.used[c];
     variance[c] =
@@ -255,8 +254,7 @@ JointFit JointModel::fit(const std::vector<SizedTerm>& terms, const ByClass& sta
   ByClass variance = start;
   for (std::size_t c = 0; c < mode_classes; ++c)
     if (!(variance[c] > 0))
-      variance[c] = moments.squares[c] /
-                        std::max(1.0, static_cast<double>(data_.first[c + 1] - data_.first[c])) +
+      variance[c] = moments.squares[c] / std::max(1.0, static_cast<double>(data_.count(c))) +
                     tuning::smallest_class_variance;
   for (int round = 0; round < rounds; ++round)
     variance = estimated_noise(solve(terms, variance, moments));
@@ -283,6 +281,7 @@ struct JointModel::Beside {
 struct JointModel::OfTerm {
   std::array<MatrixXd, mode_classes> cross; // X' Z
   MatrixXd turned; // X' W Z K, so that Z K Z' W X is the part of X that the fit explains
+  std::array<MatrixXd, mode_classes> own; // X~' X~, where X~ is the part that it does not explain
 };
 
 ByClass JointModel::counted(const Beside& with, const JointTerm& term) {
@@ -294,8 +293,7 @@ ByClass JointModel::counted(const Beside& with, const JointTerm& term) {
 JointModel::Beside JointModel::beside(const JointFit& fit) const {
   Beside out{fit, weights(fit), {}, columns_of(fit), products_of(fit)};
   for (std::size_t c = 0; c < mode_classes; ++c)
-    out.free[c] =
-        std::max(static_cast<double>(data_.first[c + 1] - data_.first[c]) - fit.used[c], 0.0);
+    out.free[c] = std::max(static_cast<double>(data_.count(c)) - fit.used[c], 0.0);
   return out;
 }
 
@@ -313,18 +311,12 @@ JointModel::OfTerm JointModel::of_term(const Beside& beside, std::size_t term) c
     if (beside.weight[c] > 0) weighted += beside.weight[c] * out.cross[c];
   }
   out.turned = weighted * beside.fit.inverse;
-  return out;
-}
-
-std::array<MatrixXd, mode_classes> JointModel::own_products(const Beside& beside, const OfTerm& of,
-                                                            std::size_t term) const {
-  std::array<MatrixXd, mode_classes> own;
   for (std::size_t c = 0; c < mode_classes; ++c) {
-    const MatrixXd both = of.cross[c] * of.turned.transpose();
-    own[c] = own_[term][c] - both - both.transpose() +
-             of.turned * beside.product[c] * of.turned.transpose();
+    const MatrixXd both = out.cross[c] * out.turned.transpose();
+    out.own[c] = own_[term][c] - both - both.transpose() +
+                 out.turned * beside.product[c] * out.turned.transpose();
   }
-  return own;
+  return out;
 }
 
 namespace {
@@ -429,52 +421,45 @@ struct TermOnResponses {
 
 } // namespace
 
-// Finds the likeliest size on a grid.
+// Finds the likeliest size of each term on a grid. `counts_all`: also structure that a term leaves
+// to others.
 template <class Grid>
-JointModel::Ratio JointModel::likeliest(const Beside& with, const Left& left,
-                                        const Moments& moments, std::size_t term, ByClass weight,
-                                        const Grid& grid) const {
-  const JointTerm& at = data_.terms[term];
-  const OfTerm of = of_term(with, term);
-  const auto own = own_products(with, of, term);
-  TermOnResponses one{at, weight, with.free, own, {}, {}};
-  one.squares.resize(1, mode_classes);
-  for (std::size_t c = 0; c < mode_classes; ++c) {
-    const auto column = static_cast<Index>(c);
-    one.along[c] = (moments.along.col(column).segment(at.first, at.count) -
-                    of.cross[c] * with.fit.coefficients - of.turned * left[c])
-                       .transpose();
-    one.squares(0, column) = with.fit.squares[c];
-    if (!(with.fit.squares[c] > 0)) weight[c] = 0; // no residual in that class
-  }
-  one.add_up();
-  const auto best = one.likeliest(grid);
-  return {best.gain(0), best.size.front()};
-}
-
-JointModel::Left JointModel::left_along(const Beside& with, const Moments& moments) const {
-  Left left;
+std::vector<JointModel::Ratio> JointModel::likeliest(const JointFit& fit, const Moments& moments,
+                                                     const std::vector<std::size_t>& terms,
+                                                     bool counts_all, const Grid& grid) const {
+  const Beside with = beside(fit);
+  std::array<VectorXd, mode_classes> left; // Z' r of the residual r
   for (std::size_t c = 0; c < mode_classes; ++c)
-    left[c] = moments.along.col(c)(with.fit.columns) - with.product[c] * with.fit.coefficients;
-  return left;
+    left[c] = moments.along.col(c)(fit.columns) - with.product[c] * fit.coefficients;
+  std::vector<Ratio> all;
+  for (const std::size_t term : terms) {
+    const JointTerm& at = data_.terms[term];
+    const OfTerm of = of_term(with, term);
+    ByClass weight = counts_all ? with.weight : counted(with, at);
+    TermOnResponses one{at, weight, with.free, of.own, {}, {}};
+    one.squares.resize(1, mode_classes);
+    for (std::size_t c = 0; c < mode_classes; ++c) {
+      one.along[c] = (moments.along.col(c).segment(at.first, at.count) -
+                      of.cross[c] * fit.coefficients - of.turned * left[c])
+                         .transpose();
+      one.squares(0, c) = fit.squares[c];
+      if (!(fit.squares[c] > 0)) weight[c] = 0; // no residual in that class
+    }
+    one.add_up();
+    const auto best = one.likeliest(grid);
+    all.push_back({best.gain(0), best.size.front()});
+  }
+  return all;
 }
 
 std::vector<JointModel::Ratio> JointModel::ratios(const JointFit& fit, const Moments& moments,
                                                   const std::vector<std::size_t>& terms) const {
-  const Beside with = beside(fit);
-  const Left left = left_along(with, moments);
-  std::vector<Ratio> all;
-  for (const std::size_t term : terms)
-    all.push_back(likeliest(with, left, moments, term, counted(with, data_.terms[term]),
-                            tuning::coarse_term_sizes));
-  return all;
+  return likeliest(fit, moments, terms, false, tuning::coarse_term_sizes);
 }
 
 JointModel::Ratio JointModel::fine_ratio(const JointFit& fit, const Moments& moments,
                                          std::size_t term) const {
-  const Beside with = beside(fit);
-  return likeliest(with, left_along(with, moments), moments, term, with.weight,
-                   tuning::fine_term_sizes);
+  return likeliest(fit, moments, {term}, true, tuning::fine_term_sizes).front();
 }
 
 std::vector<JointModel::Information>
@@ -482,12 +467,12 @@ JointModel::information(const JointFit& fit, const std::vector<std::size_t>& ter
   const Beside with = beside(fit);
   std::vector<Information> all;
   for (const std::size_t term : terms) {
-    const auto own = own_products(with, of_term(with, term), term);
+    const OfTerm of = of_term(with, term);
     const Index straight = data_.terms[term].straight;
     Information& sum = all.emplace_back();
     for (std::size_t c = 0; c < mode_classes; ++c) {
       sum.alone += with.weight[c] * own_[term][c].diagonal().head(straight).mean();
-      sum.beside += with.weight[c] * own[c].diagonal().head(straight).mean();
+      sum.beside += with.weight[c] * of.own[c].diagonal().head(straight).mean();
     }
   }
   return all;
@@ -515,11 +500,10 @@ MatrixXd JointModel::ratios_of(const JointFit& fit, const MatrixXd& responses,
   parallel_for(terms.size(), [&](std::size_t i) {
     const JointTerm& term = data_.terms[terms[i]];
     const OfTerm of = of_term(with, terms[i]);
-    const auto own = own_products(with, of, terms[i]);
     const ByClass weight = counted(with, term);
     for (Index from = 0; from < responses.cols(); from += at_once) {
       const Index count = std::min(at_once, responses.cols() - from);
-      TermOnResponses some{term, weight, with.free, own, {}, squares.middleRows(from, count)};
+      TermOnResponses some{term, weight, with.free, of.own, {}, squares.middleRows(from, count)};
       for (std::size_t c = 0; c < mode_classes; ++c) {
         const Index begin = data_.first[c], rows = data_.first[c + 1] - begin;
         some.along[c] = responses.block(begin, from, rows, count).transpose() *

@@ -55,6 +55,8 @@ struct JointData {
   std::array<Index, mode_classes + 1> first{};
   std::vector<std::size_t> test;
 
+  // Number of modes of a class.
+  Index count(std::size_t mode_class) const { return first[mode_class + 1] - first[mode_class]; }
   // Keeps only the rows of some tests.
   JointData part(const std::vector<char>& keep_test) const;
   // Keeps only some terms, renumbered in that order.
@@ -142,22 +144,16 @@ private:
   Cross products_of(const JointFit& fit) const; // Z' Z
   ByClass weights(const JointFit& fit) const;
   ByClass estimated_noise(const JointFit& fit) const;
-  // Intermediate results for adding terms to a fit: those of the fit, of one term, and of the
-  // residual of a response (Z' r).
+  // Intermediate results for adding terms to a fit: those of the fit, and of one term.
   struct Beside;
   struct OfTerm;
-  using Left = std::array<VectorXd, mode_classes>;
   Beside beside(const JointFit& fit) const;
   static ByClass counted(const Beside& beside, const JointTerm& term); // weights in a ratio
   OfTerm of_term(const Beside& beside, std::size_t term) const;
-  Left left_along(const Beside& beside, const Moments& moments) const;
   template <class Grid>
-  Ratio likeliest(const Beside& beside, const Left& left, const Moments& moments, std::size_t term,
-                  ByClass weight, const Grid& grid) const;
-  // X~' X~ by class, where X~ is the part of a term's columns X that the fit's columns do not
-  // explain.
-  std::array<MatrixXd, mode_classes> own_products(const Beside& beside, const OfTerm& of,
-                                                  std::size_t term) const;
+  std::vector<Ratio> likeliest(const JointFit& fit, const Moments& moments,
+                               const std::vector<std::size_t>& terms, bool counts_all,
+                               const Grid& grid) const;
 
   JointData data_;
   Moments of_data_;

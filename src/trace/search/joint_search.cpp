@@ -287,16 +287,16 @@ private:
     const MatrixXd z = data.columns(Eigen::all, fit.columns);
     MatrixXd weighted = flips;
     for (std::size_t c = 0; c < mode_classes; ++c)
-      weighted.middleRows(data.first[c], data.first[c + 1] - data.first[c]) /= fit.variance[c];
+      weighted.middleRows(data.first[c], data.count(c)) /= fit.variance[c];
     flips -= z * (fit.inverse * (z.transpose() * weighted)).eval();
     for (std::size_t c = 0; c < mode_classes; ++c) {
       const Index begin = data.first[c], rows = data.first[c + 1] - begin;
       if (rows == 0) continue;
       const double size = residual.segment(begin, rows).norm();
-      for (Index f = 0; f < flips.cols(); ++f)
-        flips.col(f).segment(begin, rows) *=
-            size /
-            std::max(flips.col(f).segment(begin, rows).norm(), tuning::smallest_norm_of_flip);
+      for (Index f = 0; f < flips.cols(); ++f) {
+        auto own = flips.col(f).segment(begin, rows);
+        own *= size / std::max(own.norm(), tuning::smallest_norm_of_flip);
+      }
     }
     return flips;
   }
@@ -497,8 +497,7 @@ private:
     double free = 0;
     for (std::size_t c = 0; c < mode_classes; ++c)
       if (model_->squares(term, c) > 0)
-        free += static_cast<double>(model_->data().first[c + 1] - model_->data().first[c]) -
-                fit.used[c];
+        free += static_cast<double>(model_->data().count(c)) - fit.used[c];
     return std::max(free, 1.0);
   }
 

@@ -67,21 +67,13 @@ LawOnBlocks::LawOnBlocks(const models::Law& law, const models::Conventions& conv
   bound_ = std::make_unique<expr::BoundProgram>(*program_, count_, bound);
 }
 
-VectorXd LawOnBlocks::predict(std::span<const double> parameters) const {
+VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd* jacobian) const {
   VectorXd tau(count_);
-  bound_->sweep(parameters, false, [&](const expr::BoundProgram::Block& block) {
+  if (jacobian) jacobian->setZero(count_, parameters.size());
+  bound_->sweep(parameters, jacobian, [&](const expr::BoundProgram::Block& block) {
     std::copy_n(block.value, block.count, tau.data() + block.first);
-  });
-  return tau;
-}
-
-VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd& jacobian) const {
-  VectorXd tau(count_);
-  jacobian.setZero(count_, parameters.size());
-  bound_->sweep(parameters, true, [&](const expr::BoundProgram::Block& block) {
-    std::copy_n(block.value, block.count, tau.data() + block.first);
-    for (std::size_t p = 0; p < block.derivative.size(); ++p)
-      std::copy_n(block.derivative[p], block.count, jacobian.col(p).data() + block.first);
+    for (std::size_t p = 0; jacobian && p < block.derivative.size(); ++p)
+      std::copy_n(block.derivative[p], block.count, jacobian->col(p).data() + block.first);
   });
   return tau;
 }
@@ -108,7 +100,7 @@ public:
   }
 
   stats::NormalEquations normal_equations(std::span<const double> parameters) override {
-    const VectorXd tau = law_.predict(parameters, raw_);
+    const VectorXd tau = law_.predict(parameters, &raw_);
     MatrixXd all(tau.size(), raw_.cols() + 1); // residual and derivatives
     all.col(0) = measured_ - tau;
     all.rightCols(raw_.cols()) = raw_;
@@ -184,7 +176,7 @@ BlockFit fit_blocks(const LawOnBlocks& law, const VectorXd& measured,
   stats::LevenbergMarquardtFit found =
       stats::levenberg_marquardt(squares, ranges, std::move(start), options);
   BlockFit fit{std::move(found.parameters), {}, {}};
-  fit.predicted = law.predict(fit.parameters, fit.jacobian);
+  fit.predicted = law.predict(fit.parameters, &fit.jacobian);
   return fit;
 }
 

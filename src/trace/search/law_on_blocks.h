@@ -28,8 +28,7 @@ public:
               const BlockColumns& columns, double smooth_MPa = 0);
 
   const std::vector<models::Parameter>& parameters() const { return parameters_; }
-  VectorXd predict(std::span<const double> parameters) const;
-  VectorXd predict(std::span<const double> parameters, MatrixXd& jacobian) const;
+  VectorXd predict(std::span<const double> parameters, MatrixXd* jacobian = nullptr) const;
 
 private:
   std::vector<models::Parameter> parameters_;

@@ -34,19 +34,15 @@ void take_parameters(Rival& rival) {
 }
 
 VectorXd by_experiment(const VectorXd& whitened, const stats::Whitener& whitener,
-                       std::span<const std::size_t> first) {
-  VectorXd value(first.size() - 1);
-  for (Index e = 0; e < value.size(); ++e) {
-    const auto begin = static_cast<Index>(first[e]);
-    const auto end = static_cast<Index>(first[e + 1]);
-    value(e) = -0.5 * (whitened.segment(begin, end - begin).squaredNorm() + whitener.log_det()(e));
-  }
+                       const stats::Blocks& blocks) {
+  VectorXd value(blocks.experiments());
+  for (Index e = 0; e < value.size(); ++e)
+    value(e) = -0.5 * (blocks.part(whitened, e).squaredNorm() + whitener.log_det()(e));
   return value;
 }
 
 bool on_limit(const std::vector<PlacedEffect>& effects) {
-  return std::ranges::any_of(effects,
-                             [](const PlacedEffect& e) { return e.acts_on == effects::ActsOn::m; });
+  return contains(effects, effects::ActsOn::m, &PlacedEffect::acts_on);
 }
 
 } // namespace
@@ -80,8 +76,7 @@ Penalty penalties(const Campaign& campaign, const Rival& rival) {
   Penalty all{penalty_of(rival), {}};
   const Index own = campaign.own.centre.size();
   const auto of_the_law = [&](const Cause& cause) {
-    return std::ranges::any_of(
-        cause.columns, [&](std::size_t c) { return campaign.candidates.columns[c].in_law; });
+    return std::ranges::any_of(campaign.candidates.of(cause), &CandidateColumn::in_law);
   };
   if (own == 0 || std::ranges::none_of(rival.causes, of_the_law)) return all;
   const auto count = static_cast<Index>(rival.parameters.size());
@@ -118,15 +113,14 @@ void evaluate(Rival& rival, const Campaign& campaign) {
   const stats::Whitener whitener(rival.noise, rival.predicted, campaign.blocks, campaign.nuisance);
   MatrixXd residual = campaign.measured - rival.predicted;
   whitener.apply(residual);
-  rival.log_likelihood = by_experiment(residual.col(0), whitener, campaign.blocks.first);
+  rival.log_likelihood = by_experiment(residual.col(0), whitener, campaign.blocks);
   rival.total = rival.log_likelihood.sum();
   rival.freedom = freedom_of(rival, whitener);
   double cost = tuning::parameter_cost * rival.freedom;
   for (const Cause& cause : rival.causes)
     cost += tuning::rival_step_cost * complexity(cause, campaign.candidates);
   for (std::size_t i = 0; i < rival.effects.size(); ++i)
-    cost +=
-        implausibility(rival.effects[i], campaign.candidates.columns[rival.causes[i].columns[0]]);
+    cost += implausibility(rival.effects[i], campaign.candidates.first_of(rival.causes[i]));
   rival.penalised =
       is_possible(rival, campaign) ? rival.total - cost : -std::numeric_limits<double>::infinity();
 }

@@ -31,15 +31,12 @@ MatrixXd trained_directions(const std::vector<std::string>& inputs, const BlockC
       u = u.array().log().matrix();
     if (stats::standardise(u)) z.push_back(std::move(u));
   }
-  std::vector<VectorXd> all;
+  MatrixXd directions(predicted.size(), 0);
   for (std::size_t i = 0; i < z.size(); ++i) {
-    all.push_back(predicted.cwiseProduct(z[i]));
+    stats::append_columns(directions, predicted.cwiseProduct(z[i]));
     for (std::size_t j = i; j < z.size(); ++j)
-      all.push_back(predicted.cwiseProduct(z[i]).cwiseProduct(z[j]));
+      stats::append_columns(directions, predicted.cwiseProduct(z[i]).cwiseProduct(z[j]));
   }
-  MatrixXd directions(predicted.size(), all.size());
-  for (std::size_t i = 0; i < all.size(); ++i)
-    directions.col(i) = all[i];
   return directions;
 }
 
@@ -79,26 +76,16 @@ MatrixXd hat_functions(const VectorXd& x) {
   return columns;
 }
 
-MatrixXd level_functions(const VectorXd& x, std::size_t levels) {
-  MatrixXd columns(x.size(), levels);
-  for (std::size_t level = 0; level < levels; ++level)
-    columns.col(level) = (x.array() == static_cast<double>(level)).cast<double>().matrix();
-  return columns;
-}
-
 MatrixXd any_form(const Cause& cause, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[cause.columns[0]];
-  if (!cause.is_joint())
-    return x.levels.empty() ? hat_functions(x.values) : level_functions(x.values, x.levels.size());
+  const CandidateColumn& x = candidates.first_of(cause);
+  if (!cause.is_joint()) return x.levels.empty() ? hat_functions(x.values) : level_columns(x);
   MatrixXd levels = MatrixXd::Ones(x.values.size(), 1);
   VectorXd product = levels.col(0);
-  for (const std::size_t c : cause.columns) {
-    const CandidateColumn& one = candidates.columns[c];
-    if (one.levels.empty())
-      product.array() *= one.values.array() - one.values.mean();
+  for (const CandidateColumn* one : candidates.of(cause))
+    if (one->levels.empty())
+      product.array() *= one->values.array() - one->values.mean();
     else
-      levels = level_functions(one.values, one.levels.size());
-  }
+      levels = level_columns(*one);
   MatrixXd all;
   for (Index l = 0; l < levels.cols(); ++l)
     stats::append_columns(all, levels.col(l).asDiagonal() * hat_functions(product));
@@ -200,7 +187,7 @@ Search::Search(const TraceInput& in, const stats::NoiseModel* earlier) {
   const Model& model = in.fit.model;
   const LawOnBlocks law(campaign.law, model.conventions, candidates().by_symbol);
   MatrixXd jacobian;
-  const VectorXd predicted = law.predict(model.parameters, jacobian);
+  const VectorXd predicted = law.predict(model.parameters, &jacobian);
   const VectorXd residual = campaign.measured - predicted;
   const stats::NoiseData data{residual, predicted, blocks(), jacobian, trained()};
   const stats::NoiseModel noise = earlier ? *earlier : fit_campaign_noise(campaign, data);

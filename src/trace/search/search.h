@@ -22,6 +22,8 @@ struct Finding {
   std::vector<Rival> others; // best rival of each other cause, best first
   std::vector<bool> in_set;  // of `others`
   bool between = false;      // constant within tests
+
+  const Cause& cause() const { return rival.causes.back(); }
 };
 
 // A term that correlates with the residual and was not found.
