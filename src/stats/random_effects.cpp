@@ -101,6 +101,38 @@ std::vector<Estimate> in_one_group(Estimates estimates) {
   return all;
 }
 
+constexpr std::size_t most_candidates = 100;
+
+std::vector<std::size_t> furthest(Estimates all) {
+  const RandomEffects summary = random_effects(all);
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double variance =
+        all[i].std_error * all[i].std_error + summary.between_sd * summary.between_sd;
+    order.emplace_back(-std::abs(all[i].value - summary.mean) / std::sqrt(variance), i);
+  }
+  const std::size_t n = std::min(order.size(), most_candidates);
+  std::partial_sort(order.begin(), order.begin() + n, order.end());
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < n; ++i)
+    indices.push_back(order[i].second);
+  return indices;
+}
+
+Outlier against_others(Estimates all, std::size_t i) {
+  std::vector<Estimate> rest(all.begin(), all.end());
+  rest.erase(rest.begin() + i);
+  Outlier one{all[i], random_effects(rest), 1};
+  const RandomEffects& others = one.others;
+  const double degrees = static_cast<double>(rest.size()) - 1;
+  const double mean_error = (others.interval.high - others.mean) / t_975(degrees);
+  const double variance = all[i].std_error * all[i].std_error +
+                          others.between_sd * others.between_sd + mean_error * mean_error;
+  const double t = std::abs(all[i].value - others.mean) / std::sqrt(variance);
+  one.p_value = std::min(1.0, 2 * gsl_cdf_tdist_Q(t, degrees) * static_cast<double>(all.size()));
+  return one;
+}
+
 } // namespace
 
 double between_variance(Estimates estimates) {
@@ -141,42 +173,6 @@ RandomEffects random_effects(Estimates estimates) {
   out.predicted = around(out.mean, t_975(degrees - 1) * std::sqrt(variance + mean_variance));
   return out;
 }
-
-namespace {
-
-constexpr std::size_t most_candidates = 100;
-
-std::vector<std::size_t> furthest(Estimates all) {
-  const RandomEffects summary = random_effects(all);
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const double variance =
-        all[i].std_error * all[i].std_error + summary.between_sd * summary.between_sd;
-    order.emplace_back(-std::abs(all[i].value - summary.mean) / std::sqrt(variance), i);
-  }
-  const std::size_t n = std::min(order.size(), most_candidates);
-  std::partial_sort(order.begin(), order.begin() + n, order.end());
-  std::vector<std::size_t> indices;
-  for (std::size_t i = 0; i < n; ++i)
-    indices.push_back(order[i].second);
-  return indices;
-}
-
-Outlier against_others(Estimates all, std::size_t i) {
-  std::vector<Estimate> rest(all.begin(), all.end());
-  rest.erase(rest.begin() + i);
-  Outlier one{all[i], random_effects(rest), 1};
-  const RandomEffects& others = one.others;
-  const double degrees = static_cast<double>(rest.size()) - 1;
-  const double mean_error = (others.interval.high - others.mean) / t_975(degrees);
-  const double variance = all[i].std_error * all[i].std_error +
-                          others.between_sd * others.between_sd + mean_error * mean_error;
-  const double t = std::abs(all[i].value - others.mean) / std::sqrt(variance);
-  one.p_value = std::min(1.0, 2 * gsl_cdf_tdist_Q(t, degrees) * static_cast<double>(all.size()));
-  return one;
-}
-
-} // namespace
 
 std::vector<Outlier> outliers(Estimates estimates) {
   std::vector<Outlier> found;

@@ -10,7 +10,6 @@
 #include "calibrate/band.h"
 #include "calibrate/comparison.h"
 #include "calibrate/experiment_errors.h"
-#include "calibrate/input_columns.h"
 #include "calibrate/metrics.h"
 #include "core/no_value.h"
 #include "core/progress.h"
@@ -72,11 +71,6 @@ Trace what_was_tried(const Found& found) {
   return trace;
 }
 
-calibrate::Metrics errors_of(const TraceInput& in, const data::Dataset& data,
-                             const std::vector<double>& predicted) {
-  return calibrate::metrics(data, predicted, in.bootstrap, in.seed);
-}
-
 // Judges on the validation tests like all other laws, however few; without any, on left-out
 // training tests.
 void judge(calibrate::ModelFit& fit, const TraceInput& in, const Delivery& delivery) {
@@ -101,7 +95,7 @@ void judge(calibrate::ModelFit& fit, const TraceInput& in, const Delivery& deliv
           calibrate::error_of(in.training.experiments[e], true, delivery.unseen_sums[e], no_value));
   } else {
     const std::vector<double> unseen = calibrate::predict(fit.model, in.validation);
-    fit.validation = errors_of(in, in.validation, unseen);
+    fit.validation = calibrate::metrics(in.validation, unseen, in.bootstrap, in.seed);
     fit.band = calibrate::check_band(fit.model, unseen, in.validation);
   }
 }
@@ -114,20 +108,11 @@ calibrate::ModelFit fit_of(const Found& found, const Delivery& delivery,
   calibrate::ModelFit fit;
   if (rival.effects.empty() && !found.order.found) return fit;
   fit.model = found.search.model_of(rival);
-  fit.std_error = uncertainty.std_error;
-  fit.model.covariance = calibrate::row_by_row(calibrate::known_covariance(uncertainty));
-  fit.remarks = uncertainty.remarks;
-  fit.std_error_method = "cluster sandwich by experiment";
   fit.termination = rival.weights.gain > 0
                         ? "generalised least squares under the noise model of the trace"
                         : "least squares, which predicts left-out experiments better here than "
                           "the noise model's weights";
-  const models::AssembledLaw law(fit.model);
-  const auto [columns, trained] = calibrate::predict_with_columns(law, law.inputs, in.training);
-  fit.data_range = columns.ranges();
-  fit.training = errors_of(in, in.training, trained);
-  fit.model.experiment_gains = calibrate::gains_of_new_experiments(
-      calibrate::experiment_gains(in.training, trained), fit.model.parameters.size());
+  add_fitted_tests(fit, uncertainty, in.training, in);
   judge(fit, in, delivery);
   if (in.all) fit.on_all = refit_traced(found, delivery, *in.all);
   return fit;
@@ -254,12 +239,10 @@ Trace trace_in_order(const TraceInput& in) {
 data::Dataset in_order_of_names(const data::Dataset& data) {
   std::vector<std::size_t> order(data.experiments.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-    return data.experiments[a] < data.experiments[b];
-  });
-  data::Dataset sorted = data.subset(order);
   std::ranges::stable_sort(
-      sorted.columns, [](const data::Column& a, const data::Column& b) { return a.name < b.name; });
+      order, {}, [&](std::size_t e) -> const std::string& { return data.experiments[e]; });
+  data::Dataset sorted = data.subset(order);
+  std::ranges::stable_sort(sorted.columns, {}, &data::Column::name);
   return sorted;
 }
 

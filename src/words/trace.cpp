@@ -367,17 +367,9 @@ Section trace(const Trace& t, Detail detail) {
 }
 
 const char* site_text(effects::ActsOn acts_on) {
-  switch (acts_on) {
-  case effects::ActsOn::mu:
-    return "on mu";
-  case effects::ActsOn::m:
-    return "on the limit";
-  case effects::ActsOn::mu_m:
-    return "on mu and the limit";
-  case effects::ActsOn::tau:
-    break;
-  }
-  return "added to tau_R";
+  constexpr const char* texts[] = {"on mu", "on the limit", "added to tau_R",
+                                   "on mu and the limit"};
+  return texts[static_cast<std::size_t>(acts_on)];
 }
 
 std::string cause_text(const TracedEffect& effect) {

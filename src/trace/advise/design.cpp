@@ -12,7 +12,7 @@
 
 #include "stats/projection.h"
 #include "trace/advise/candidate_tests.h"
-#include "trace/columns/factor_band.h"
+#include "trace/columns/shapes.h"
 #include "trace/judge/gains.h"
 #include "trace/tuning.h"
 
@@ -291,32 +291,6 @@ bool are_of_same_columns(const Candidates& candidates, const Cause& a, const Cau
   return std::ranges::is_permutation(candidates.recorded_of(a), candidates.recorded_of(b));
 }
 
-} // namespace
-
-Design design_for(const Search& search, const Finding& finding) {
-  std::vector<const Rival*> rivals{&finding.rival};
-  for (std::size_t i = 0; i < finding.others.size(); ++i)
-    if (const Cause& own = finding.cause(), &other = finding.others[i].causes.back();
-        finding.in_set[i] && !includes(other, own) &&
-        !are_of_same_columns(search.candidates(), own, other))
-      rivals.push_back(&finding.others[i]);
-  return rivals.size() > 1 ? design_tests(search, rivals, tuning::two_sided_std_errors) : Design{};
-}
-
-Design design_for_lead(const Search& search, const effects::PlacedEffect& effect,
-                       const Cause& cause, double threshold) {
-  const Rival& last = search.last();
-  const Rival with =
-      with_effect(search.campaign(), last, effect, cause, last.noise, NoiseSearch::kept);
-  Design design = design_tests(search, {&with}, threshold);
-  const double short_of =
-      tests_for(search.input().options.alpha) - static_cast<double>(search.blocks().experiments());
-  if (!design.tests.empty()) design.tests_needed = std::max(design.tests_needed, short_of);
-  return worthwhile(std::move(design));
-}
-
-namespace {
-
 // The two values of a setting that are furthest apart, and the difference of a test's gain between
 // them: by a line through all tests or, for text, by the means of levels.
 struct Ends {
@@ -342,6 +316,28 @@ Ends ends_by_level(const Setting& setting, const VectorXd& x, const VectorXd& ga
 }
 
 } // namespace
+
+Design design_for(const Search& search, const Finding& finding) {
+  std::vector<const Rival*> rivals{&finding.rival};
+  for (std::size_t i = 0; i < finding.others.size(); ++i)
+    if (const Cause& own = finding.cause(), &other = finding.others[i].causes.back();
+        finding.in_set[i] && !includes(other, own) &&
+        !are_of_same_columns(search.candidates(), own, other))
+      rivals.push_back(&finding.others[i]);
+  return rivals.size() > 1 ? design_tests(search, rivals, tuning::two_sided_std_errors) : Design{};
+}
+
+Design design_for_lead(const Search& search, const effects::PlacedEffect& effect,
+                       const Cause& cause, double threshold) {
+  const Rival& last = search.last();
+  const Rival with =
+      with_effect(search.campaign(), last, effect, cause, last.noise, NoiseSearch::kept);
+  Design design = design_tests(search, {&with}, threshold);
+  const double short_of =
+      tests_for(search.input().options.alpha) - static_cast<double>(search.blocks().experiments());
+  if (!design.tests.empty()) design.tests_needed = std::max(design.tests_needed, short_of);
+  return worthwhile(std::move(design));
+}
 
 Design design_in_turn(const Search& search, const Cause& cause, std::optional<double> scatter) {
   Design design;

@@ -5,7 +5,7 @@
 
 #include "core/columns.h"
 #include "effects/extended_law.h"
-#include "trace/columns/factor_band.h"
+#include "trace/columns/shapes.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {

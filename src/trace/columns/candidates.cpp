@@ -180,12 +180,16 @@ private:
         order = &column;
         best = rank;
       }
-    if (!order || order_has_gaps(*order) || orders_nothing(*order)) return;
+    if (!order) return;
+    if (const std::size_t empty = count_empty(order->values); empty > 0)
+      return refuse_order(*order,
+                          fmt::format("{} of {} rows without a value", thousands(empty),
+                                      thousands(training_.rows())),
+                          "fill them in, or name another column");
+    if (const std::string why = why_no_order(*order); !why.empty())
+      return refuse_order(*order, why, "a number that counts the tests, or when each was made");
     const data::TestDates dates = data::sort_dates(order->levels); // time stamps are text
-    if (!dates.fault.empty()) {
-      not_an_order(*order, dates.fault, "write dates as 2024-09-01");
-      return;
-    }
+    if (!dates.fault.empty()) return refuse_order(*order, dates.fault, "write dates as 2024-09-01");
     std::vector<double> values;
     for (std::size_t e = 0; e < training_.experiments.size(); ++e) {
       const double value = order->values[training_.first_row[e]];
@@ -220,93 +224,75 @@ private:
     return tests;
   }
 
-  bool orders_nothing(const Column& column) {
+  // Reason why the values of a column order no tests; empty: they do.
+  std::string why_no_order(const Column& column) const {
     const std::size_t values = values_of_tests(column, training_);
     const auto has_digit = [](const std::string& text) {
       return text.find_first_of("0123456789") != std::string::npos;
     };
-    std::string why;
-    if (data::is_measured(column.name))
-      why = "it is what was measured";
-    else if (!std::ranges::all_of(column.levels, has_digit))
-      why = fmt::format("'{}' is neither a number nor a time stamp",
-                        *std::ranges::find_if_not(column.levels, has_digit));
-    else if (values < 3)
-      why = values == 1 ? "every test begins with the same value"
-                        : "the tests begin with two values only";
-    if (why.empty()) return false;
-    not_an_order(column, why, "a number that counts the tests, or when each was made");
-    return true;
+    if (data::is_measured(column.name)) return "it is what was measured";
+    if (const auto text = std::ranges::find_if_not(column.levels, has_digit);
+        text != column.levels.end())
+      return fmt::format("'{}' is neither a number nor a time stamp", *text);
+    if (values >= 3) return "";
+    return values == 1 ? "every test begins with the same value"
+                       : "the tests begin with two values only";
   }
 
   // Throws if the job names the column; else notes that the column is not used.
-  void not_an_order(const Column& column, const std::string& why, const std::string& hint) {
+  void refuse_order(const Column& column, const std::string& why, const std::string& hint) {
     const std::string text = fmt::format("{}, the order of tests: {}", column.name, why);
     if (column.name == options_.order) throw InputError(options_.order_place, text, hint);
     found_.notes.push_back(text + ": not used");
-  }
-
-  bool order_has_gaps(const Column& order) {
-    const std::size_t empty = count_empty(order.values);
-    if (empty == 0) return false;
-    not_an_order(
-        order,
-        fmt::format("{} of {} rows without a value", thousands(empty), thousands(training_.rows())),
-        "fill them in, or name another column");
-    return true;
   }
 
   bool allowed(const Column& column) {
     if (data::is_measured(column.name) || column.name == data::origin_column ||
         column.role == data::Role::test || ignored(column.name))
       return false;
+    // Sources of the measured stress are reported when the file is read; channels and outcomes
+    // become leads.
     if (!data::may_be_searched(column.role) && !data::find_quantity(column.name))
-      return left_out_by_role(column);
+      return column.role == data::Role::response &&
+             skip(fmt::format("{} belongs to the measured friction ({}){}", column.name, column.why,
+                              not_searched));
     if (column.name == found_.order_column) {
       if (column.name != "run_order" && column.levels.empty())
         add_column(column.name, {column.name}, false, column.values);
       return false;
     }
-    if (data::find_derived(effects::symbol_of(column.name))) {
-      found_.notes.push_back(column.name + " has the name of a history that frictab computes "
-                                           "itself: the column is left out; another name lets it "
-                                           "be tried");
-      return false;
-    }
+    if (data::find_derived(effects::symbol_of(column.name)))
+      return skip(column.name + " has the name of a history that frictab computes "
+                                "itself: the column is left out; another name lets it "
+                                "be tried");
     if (is_constant(column.values)) {
       found_.constant.push_back(column.name);
       return false;
     }
     const auto in_validation = validation_columns_.find(column.name);
-    if (in_validation == validation_columns_.end()) {
-      found_.notes.push_back(column.name + " is not in the validation data: left out");
-      return false;
-    }
-    return !has_empty_cells(column, *in_validation->second);
+    if (in_validation == validation_columns_.end())
+      return skip(column.name + " is not in the validation data: left out");
+    return is_filled(column, *in_validation->second);
   }
 
-  // Sources of the measured stress are reported when the file is read; channels and outcomes become
-  // leads.
-  bool left_out_by_role(const Column& column) {
-    if (column.role == data::Role::response)
-      found_.notes.push_back(fmt::format("{} belongs to the measured friction ({}){}", column.name,
-                                         column.why, not_searched));
+  // Notes why a column is not searched.
+  bool skip(std::string why) {
+    found_.notes.push_back(std::move(why));
     return false;
   }
 
   // Skips columns with empty cells: no values are invented, and rows are not dropped for a column
   // that may be irrelevant to friction.
-  bool has_empty_cells(const Column& training, const Column& validation) {
+  bool is_filled(const Column& training, const Column& validation) {
     std::size_t empty = count_empty(training.values), rows = training_.rows();
     const std::size_t in_validation = count_empty(validation.values);
-    if (empty + in_validation == 0) return false;
+    if (empty + in_validation == 0) return true;
     if (!are_among(validation_, training_)) {
       empty += in_validation;
       rows += validation_.rows();
     }
-    found_.notes.push_back(fmt::format("{}: {} of {} rows without a value{}", training.name,
-                                       thousands(empty), thousands(rows), not_searched));
-    return true;
+    return skip(fmt::format("{}: {} of {} rows without a value{}", training.name, thousands(empty),
+                            thousands(rows), not_searched));
   }
 
   bool is_order(const std::string& name) const {
@@ -436,6 +422,24 @@ bool may_act_with_others(const CandidateColumn& column) {
           column.name == "load_ratio" || column.name == "temperature_rise");
 }
 
+// Whether two columns are nearly collinear: they are one quantity, and their product is a parabola.
+bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
+  return a.levels.empty() && b.levels.empty() &&
+         likeness(a.values, b.values) > tuning::near_collinear_r2;
+}
+
+// Whether the columns act together as something other than one of them alone.
+bool may_act_together(const CandidateColumn& a, const CandidateColumn& b) {
+  return may_act_with_others(a) && may_act_with_others(b) &&
+         (a.levels.empty() || b.levels.empty()) && !run_alike(a, b);
+}
+
+int steps_from_what_is_recorded(const CandidateColumn& derived) {
+  const data::Continuation& how = data::find_derived(derived.name)->continuation;
+  if (how.always) return 1;
+  return how.rule == data::Continuation::none ? 3 : 2;
+}
+
 } // namespace
 
 std::vector<const CandidateColumn*> Candidates::of(const Cause& cause) const {
@@ -519,22 +523,6 @@ Candidates find_candidates(const Dataset& training, const Dataset& validation,
   return found;
 }
 
-namespace {
-
-// Whether two columns are nearly collinear: they are one quantity, and their product is a parabola.
-bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
-  return a.levels.empty() && b.levels.empty() &&
-         likeness(a.values, b.values) > tuning::near_collinear_r2;
-}
-
-// Whether the columns act together as something other than one of them alone.
-bool may_act_together(const CandidateColumn& a, const CandidateColumn& b) {
-  return may_act_with_others(a) && may_act_with_others(b) &&
-         (a.levels.empty() || b.levels.empty()) && !run_alike(a, b);
-}
-
-} // namespace
-
 std::vector<Cause> all_causes(const Candidates& candidates) {
   std::vector<Cause> all;
   const auto& columns = candidates.columns;
@@ -598,16 +586,6 @@ std::string cause_name(const Cause& cause, const Candidates& candidates) {
     names.push_back(column->name);
   return join(names, " x ");
 }
-
-namespace {
-
-int steps_from_what_is_recorded(const CandidateColumn& derived) {
-  const data::Continuation& how = data::find_derived(derived.name)->continuation;
-  if (how.always) return 1;
-  return how.rule == data::Continuation::none ? 3 : 2;
-}
-
-} // namespace
 
 int complexity(const Cause& cause, const Candidates& candidates) {
   int steps = 2 * static_cast<int>(cause.columns.size() - 1);

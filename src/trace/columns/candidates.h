@@ -48,6 +48,9 @@ inline constexpr const char* not_searched = ": not searched";
 struct Cause {
   std::vector<std::size_t> columns; // a text column first, then ascending
   bool is_joint() const { return columns.size() > 1; }
+  bool is_product_with(const Cause& single) const {
+    return is_joint() && !single.is_joint() && contains(columns, single.columns[0]);
+  }
   auto operator<=>(const Cause&) const = default;
 };
 

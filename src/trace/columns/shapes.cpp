@@ -43,34 +43,6 @@ double gap_of(const std::string& column, const Candidates& candidates) {
   return 0;
 }
 
-} // namespace
-
-PlacedEffect start_effect(const effects::EffectForm& form, const Cause& cause,
-                          const Candidates& candidates, effects::ActsOn acts_on,
-                          double tau_scale_MPa) {
-  PlacedEffect effect;
-  effect.form = &form;
-  effect.acts_on = acts_on;
-  effect.tau_scale_MPa = tau_scale_MPa;
-  effect.pressure_MPa = candidates.lowest_pressure_MPa;
-  std::vector<effects::Spread> spreads;
-  std::vector<std::span<const double>> tested;
-  for (const CandidateColumn* column : columns_of(form, cause, candidates)) {
-    effect.inputs.push_back(
-        {column->name, column->levels, column->spread.minimum, column->spread.maximum});
-    spreads.push_back(column->spread);
-    tested.emplace_back(column->tested);
-  }
-  effects::set_knots(effect, tested);
-  if (form.parameters_of)
-    effect.parameters.assign(effects::parameters_of(effect).size(), 0.0);
-  else
-    effect.parameters = effects::start_values(form, spreads);
-  return effect;
-}
-
-namespace {
-
 bool is_angle(const std::string& name) {
   return name.ends_with("_deg") || name.find("angle") != std::string::npos;
 }
@@ -174,13 +146,6 @@ void keep_different(std::vector<GridShape>& shapes) {
   shapes = std::move(kept);
 }
 
-std::vector<const double*> inputs_on(const PlacedEffect& effect, const BlockColumns& columns) {
-  std::vector<const double*> data;
-  for (const effects::EffectInput& input : effect.inputs)
-    data.push_back(columns.at(effects::symbol_of(input.column)).data());
-  return data;
-}
-
 // Factors of one form along its grid. Compiling a program takes as long as running it over
 // thousands of blocks, so it is compiled once: along a grid only its argument values change.
 class GridOfForm {
@@ -220,38 +185,6 @@ private:
   std::unique_ptr<expr::BoundProgram> bound_;
 };
 
-} // namespace
-
-MatrixXd roughness_of(const PlacedEffect& effect) {
-  const std::vector<double> rows = effect.form->penalty(effect);
-  const auto size = static_cast<Index>(effects::amplitudes_of(effect));
-  return Eigen::Map<const MatrixXd>(rows.data(), size, size); // symmetric
-}
-
-VectorXd factor_on(const PlacedEffect& effect, const BlockColumns& columns) {
-  const std::vector<const double*> data = inputs_on(effect, columns);
-  VectorXd factor(columns.begin()->second.size());
-  effects::factor_program(effect).evaluate(factor.size(), data, effects::fitted_values(effect),
-                                           factor.data());
-  return factor;
-}
-
-MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns) {
-  const expr::Program program = effects::factor_program(effect);
-  const std::vector<const double*> data = inputs_on(effect, columns);
-  const Index count = columns.at(effects::symbol_of(effect.inputs[0].column)).size();
-  MatrixXd basis(count, effects::amplitudes_of(effect));
-  expr::BoundProgram(program, count, data)
-      .sweep(effects::fitted_values(effect), true, [&](const expr::BoundProgram::Block& block) {
-        for (Index a = 0; a < basis.cols(); ++a)
-          for (std::size_t i = 0; i < block.count; ++i)
-            basis(block.first + i, a) = block.derivative[a][i];
-      });
-  return basis;
-}
-
-namespace {
-
 // Whether the form makes sense for the cause: logarithms need positive values, ...
 bool form_fits(const effects::EffectForm& form, const Cause& cause, const Candidates& candidates) {
   const auto columns = columns_of(form, cause, candidates);
@@ -269,55 +202,6 @@ bool both_move(const Cause& cause, const Candidates& candidates) {
     return column->within && !column->derived;
   });
 }
-
-} // namespace
-
-std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.first_of(cause);
-  if (!x.levels.empty()) return level_shapes(cause, candidates);
-  std::vector<GridShape> shapes;
-  for (const effects::EffectForm& form : effects::all_effects()) {
-    if (form.parameters_of || !form_fits(form, cause, candidates)) continue;
-    if (form.name == "threshold2" && !both_move(cause, candidates)) continue;
-    PlacedEffect effect = start_effect(form, cause, candidates, effects::ActsOn::mu, 1);
-    std::vector<effects::Spread> spreads;
-    for (const CandidateColumn* column : columns_of(form, cause, candidates))
-      spreads.push_back(column->spread);
-    GridOfForm along(candidates.by_symbol);
-    for (const auto& values : effects::shapes_to_try(form, spreads)) {
-      std::copy(values.begin(), values.end(), effect.parameters.begin() + 1);
-      if (too_narrow(effect, x.gap)) continue;
-      shapes.push_back({effect, along.direction(effect)});
-    }
-  }
-  keep_different(shapes);
-  return shapes;
-}
-
-void bound_shapes(models::Law& extended, std::size_t own, std::span<const PlacedEffect> effects,
-                  const Candidates& candidates) {
-  std::size_t next = own;
-  for (const PlacedEffect& effect : effects) {
-    const std::vector<models::Parameter> fitted = effects::fitted_parameters(effect);
-    for (std::size_t p = effects::amplitudes_of(effect); p < fitted.size(); ++p) {
-      const effects::EffectInput* of = effects::input_of(fitted[p], effect);
-      if (!of) continue; // keeps the form's own bounds
-      const effects::EffectInput& input = *of;
-      models::Parameter& parameter = extended.parameters[next + p];
-      const double span = input.high - input.low;
-      const double gap =
-          is_local(effect) ? tuning::narrowest_share_of_gap * gap_of(input.column, candidates) : 0;
-      const bool width = parameter.lower > 0;
-      parameter.lower =
-          width ? std::max(span / tuning::spans_over_narrowest_width, gap) : input.low;
-      parameter.upper = width ? tuning::widest_width_in_spans * span : input.high;
-      parameter.start = std::clamp(parameter.start, parameter.lower, parameter.upper);
-    }
-    next += fitted.size();
-  }
-}
-
-namespace {
 
 // Range of an effect's factor over its whole domain, and at tested values.
 struct FactorRange {
@@ -394,6 +278,110 @@ FactorRange factor_range(const effects::PlacedEffect& effect, const CandidateCol
 
 } // namespace
 
+PlacedEffect start_effect(const effects::EffectForm& form, const Cause& cause,
+                          const Candidates& candidates, effects::ActsOn acts_on,
+                          double tau_scale_MPa) {
+  PlacedEffect effect;
+  effect.form = &form;
+  effect.acts_on = acts_on;
+  effect.tau_scale_MPa = tau_scale_MPa;
+  effect.pressure_MPa = candidates.lowest_pressure_MPa;
+  std::vector<effects::Spread> spreads;
+  std::vector<std::span<const double>> tested;
+  for (const CandidateColumn* column : columns_of(form, cause, candidates)) {
+    effect.inputs.push_back(
+        {column->name, column->levels, column->spread.minimum, column->spread.maximum});
+    spreads.push_back(column->spread);
+    tested.emplace_back(column->tested);
+  }
+  effects::set_knots(effect, tested);
+  if (form.parameters_of)
+    effect.parameters.assign(effects::parameters_of(effect).size(), 0.0);
+  else
+    effect.parameters = effects::start_values(form, spreads);
+  return effect;
+}
+
+std::vector<const double*> inputs_on(const PlacedEffect& effect, const BlockColumns& columns) {
+  std::vector<const double*> data;
+  for (const effects::EffectInput& input : effect.inputs)
+    data.push_back(columns.at(effects::symbol_of(input.column)).data());
+  return data;
+}
+
+MatrixXd roughness_of(const PlacedEffect& effect) {
+  const std::vector<double> rows = effect.form->penalty(effect);
+  const auto size = static_cast<Index>(effects::amplitudes_of(effect));
+  return Eigen::Map<const MatrixXd>(rows.data(), size, size); // symmetric
+}
+
+VectorXd factor_on(const PlacedEffect& effect, const BlockColumns& columns) {
+  const std::vector<const double*> data = inputs_on(effect, columns);
+  VectorXd factor(columns.begin()->second.size());
+  effects::factor_program(effect).evaluate(factor.size(), data, effects::fitted_values(effect),
+                                           factor.data());
+  return factor;
+}
+
+MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns) {
+  const expr::Program program = effects::factor_program(effect);
+  const std::vector<const double*> data = inputs_on(effect, columns);
+  const Index count = columns.at(effects::symbol_of(effect.inputs[0].column)).size();
+  MatrixXd basis(count, effects::amplitudes_of(effect));
+  expr::BoundProgram(program, count, data)
+      .sweep(effects::fitted_values(effect), true, [&](const expr::BoundProgram::Block& block) {
+        for (Index a = 0; a < basis.cols(); ++a)
+          for (std::size_t i = 0; i < block.count; ++i)
+            basis(block.first + i, a) = block.derivative[a][i];
+      });
+  return basis;
+}
+
+std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidates) {
+  const CandidateColumn& x = candidates.first_of(cause);
+  if (!x.levels.empty()) return level_shapes(cause, candidates);
+  std::vector<GridShape> shapes;
+  for (const effects::EffectForm& form : effects::all_effects()) {
+    if (form.parameters_of || !form_fits(form, cause, candidates)) continue;
+    if (form.name == "threshold2" && !both_move(cause, candidates)) continue;
+    PlacedEffect effect = start_effect(form, cause, candidates, effects::ActsOn::mu, 1);
+    std::vector<effects::Spread> spreads;
+    for (const CandidateColumn* column : columns_of(form, cause, candidates))
+      spreads.push_back(column->spread);
+    GridOfForm along(candidates.by_symbol);
+    for (const auto& values : effects::shapes_to_try(form, spreads)) {
+      std::copy(values.begin(), values.end(), effect.parameters.begin() + 1);
+      if (too_narrow(effect, x.gap)) continue;
+      shapes.push_back({effect, along.direction(effect)});
+    }
+  }
+  keep_different(shapes);
+  return shapes;
+}
+
+void bound_shapes(models::Law& extended, std::size_t own, std::span<const PlacedEffect> effects,
+                  const Candidates& candidates) {
+  std::size_t next = own;
+  for (const PlacedEffect& effect : effects) {
+    const std::vector<models::Parameter> fitted = effects::fitted_parameters(effect);
+    for (std::size_t p = effects::amplitudes_of(effect); p < fitted.size(); ++p) {
+      const effects::EffectInput* of = effects::input_of(fitted[p], effect);
+      if (!of) continue; // keeps the form's own bounds
+      const effects::EffectInput& input = *of;
+      models::Parameter& parameter = extended.parameters[next + p];
+      const double span = input.high - input.low;
+      const double gap =
+          is_local(effect) ? tuning::narrowest_share_of_gap * gap_of(input.column, candidates) : 0;
+      const bool width = parameter.lower > 0;
+      parameter.lower =
+          width ? std::max(span / tuning::spans_over_narrowest_width, gap) : input.low;
+      parameter.upper = width ? tuning::widest_width_in_spans * span : input.high;
+      parameter.start = std::clamp(parameter.start, parameter.lower, parameter.upper);
+    }
+    next += fitted.size();
+  }
+}
+
 // Two kinds of effect can fit at the tested values as well as the true one: large changes that
 // cancel there, and humps between those values. Both are penalised.
 double implausibility(const effects::PlacedEffect& effect, const CandidateColumn& column) {
@@ -404,6 +392,46 @@ double implausibility(const effects::PlacedEffect& effect, const CandidateColumn
       (range.high - range.low - tested) / std::max(tested, tuning::smallest_tested_range);
   return tuning::large_change_cost * range.largest * range.largest +
          tuning::hump_cost * std::clamp(beyond - tuning::tolerated_hump, 0.0, tuning::largest_hump);
+}
+
+double derivative_step(double parameter) {
+  return tuning::step_share_of_parameter *
+         std::max(std::abs(parameter), tuning::smallest_stepped_size);
+}
+
+FactorOnRows factor_on_rows(const effects::PlacedEffect& effect,
+                            std::span<const double* const> columns, Index rows) {
+  const expr::Program program = effects::factor_program(effect);
+  std::vector<double> at = effects::fitted_values(effect);
+  const auto factor = [&] {
+    VectorXd out(rows);
+    program.evaluate(rows, columns, at, out.data());
+    return out;
+  };
+  FactorOnRows found{factor(), MatrixXd(rows, at.size())};
+  for (std::size_t p = 0; p < at.size(); ++p) {
+    const double step = derivative_step(at[p]), kept = at[p];
+    at[p] = kept + step;
+    const VectorXd up = factor();
+    at[p] = kept - step;
+    found.slope.col(p) = (up - factor()) / (2 * step);
+    at[p] = kept;
+  }
+  return found;
+}
+
+VectorXd std_errors(const MatrixXd& slope, const MatrixXd& covariance) {
+  VectorXd errors(slope.rows());
+  // (A parameter that does not act in a row may have an unknown error.)
+  for (Index i = 0; i < slope.rows(); ++i) {
+    double variance = 0;
+    for (Index a = 0; a < slope.cols(); ++a)
+      for (Index b = 0; b < slope.cols(); ++b)
+        if (slope(i, a) != 0 && slope(i, b) != 0)
+          variance += slope(i, a) * covariance(a, b) * slope(i, b);
+    errors(i) = std::sqrt(variance < 0 ? 0 : variance);
+  }
+  return errors;
 }
 
 } // namespace frictab::trace

@@ -1,4 +1,5 @@
-// Shapes that an effect of a cause may have.
+// Shapes that an effect of a cause may have; the factor of an effect over rows, and its
+// uncertainty.
 #pragma once
 
 #include <span>
@@ -21,6 +22,10 @@ std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidate
 // amplitudes, at any values of these; for others at the effect's own values.
 MatrixXd amplitude_basis(const effects::PlacedEffect& effect, const BlockColumns& columns);
 
+// Returns the columns of the effect's inputs, in their order.
+std::vector<const double*> inputs_on(const effects::PlacedEffect& effect,
+                                     const BlockColumns& columns);
+
 // Returns the effect's factor, per block.
 VectorXd factor_on(const effects::PlacedEffect& effect, const BlockColumns& columns);
 
@@ -42,5 +47,22 @@ void bound_shapes(models::Law& extended, std::size_t own_parameters,
 // 50 %), and for humps between tested values. `column`: the one that the effect follows (for a
 // pair, the first).
 double implausibility(const effects::PlacedEffect& effect, const CandidateColumn& column);
+
+// Step of a parameter by which derivatives are differences.
+double derivative_step(double parameter);
+
+struct FactorOnRows {
+  VectorXd factor; // 1: no effect
+  MatrixXd slope;  // rows x fitted parameters: its derivatives
+};
+
+// Evaluates the factor. `columns`: those of the effect's inputs, in their order.
+FactorOnRows factor_on_rows(const effects::PlacedEffect& effect,
+                            std::span<const double* const> columns, Index rows);
+
+// Standard errors of quantities with these derivatives, to first order: sqrt(g' C g) per row, where
+// C is the covariance of the parameters. NaN where a parameter with a non-zero derivative has no
+// known error.
+VectorXd std_errors(const MatrixXd& slope, const MatrixXd& covariance);
 
 } // namespace frictab::trace

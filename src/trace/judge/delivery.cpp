@@ -12,7 +12,6 @@
 #include "calibrate/experiment_errors.h"
 #include "calibrate/metrics.h"
 #include "trace/judge/rows_alike.h"
-#include "trace/search/joint_choice.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
@@ -113,11 +112,11 @@ private:
     return nested_mae(errors.without[at]) - nested_mae(errors.all);
   }
 
+  // Whether a finding is part of the product of another, for which it is kept.
   bool is_parent(std::size_t finding) const {
-    std::vector<std::vector<std::size_t>> columns;
-    for (const std::size_t f : d_.findings)
-      columns.push_back(f_.findings[f].cause().columns);
-    return is_in_product(f_.findings[finding].cause().columns, columns);
+    return std::ranges::any_of(d_.findings, [&](std::size_t other) {
+      return f_.findings[other].cause().is_product_with(f_.findings[finding].cause());
+    });
   }
 
   // Removes effects without which left-out tests are predicted as well, the worst first.

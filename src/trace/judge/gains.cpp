@@ -24,6 +24,97 @@ double squares_left(const VectorXd& y, const MatrixXd& columns) {
   return std::max((y - q * (q.transpose() * y)).squaredNorm(), tuning::smallest_divisor);
 }
 
+// Mean square of the measured rows about a straight line through each block: the noise averaged
+// away in block means.
+double within_blocks(const data::Dataset& training, const stats::Blocks& blocks) {
+  const auto tau = training.values("tau_R_MPa");
+  double sum = 0;
+  for (std::size_t b = 0; b < blocks.count(); ++b) {
+    const std::size_t begin = blocks.first_row[b], end = blocks.first_row[b + 1];
+    const auto n = static_cast<double>(end - begin);
+    if (end - begin < 2) continue;
+    double my = 0, mx = (n - 1) / 2, xy = 0, xx = 0, yy = 0;
+    for (std::size_t i = begin; i < end; ++i)
+      my += tau[i] / n;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double dx = static_cast<double>(i - begin) - mx, dy = tau[i] - my;
+      xy += dx * dy;
+      xx += dx * dx;
+      yy += dy * dy;
+    }
+    // A line through two rows leaves nothing, so their mean is used.
+    sum += end - begin == 2 ? yy : std::max(yy - xy * xy / xx, 0.0) * (n - 1) / (n - 2);
+  }
+  if (training.condensed) // the means scatter less than rows, and lack the scatter within them
+    return (std::accumulate(training.condensed->within_MPa2.begin(),
+                            training.condensed->within_MPa2.end(), 0.0) +
+            sum * static_cast<double>(training.source_rows()) /
+                static_cast<double>(training.rows())) /
+           static_cast<double>(training.source_rows());
+  return sum / static_cast<double>(training.rows());
+}
+
+// Excess kurtosis, at least 0. The variance of heavy-tailed values is less certain, as if there
+// were fewer of them: their degrees of freedom are divided by 1 + kurtosis/2.
+double excess_kurtosis(const VectorXd& values) {
+  const Eigen::ArrayXd squares = (values.array() - values.mean()).square();
+  const double variance = squares.mean();
+  return variance > 0 ? std::max(0.0, squares.square().mean() / (variance * variance) - 3) : 0;
+}
+
+// Mean over experiments of the variance of a residual, by the noise model fitted to it.
+double modelled_variance(const Search& search, const Rival& last) {
+  const VectorXd residual = search.campaign().measured - last.predicted;
+  const MatrixXd& nuisance = search.campaign().nuisance;
+  const stats::NoiseModel noise = refit_campaign_noise(
+      search.campaign(), {residual, last.predicted, search.blocks(), last.jacobian, nuisance},
+      last.noise);
+  return stats::Whitener(noise, last.predicted, search.blocks()).variance().mean() +
+         within_blocks(search.input().training, search.blocks());
+}
+
+void add_floor(Trace& trace, const Search& search, const Rival& last) {
+  const data::Dataset& training = search.input().training;
+  // Upper bound of the noise: the RMSE of a law, corrected for the fitted parameters. (With few
+  // experiments the likelihood may accept any scatter; and under the noise model's weights a law
+  // that lacks something within tests may predict tests as a whole far worse than the calibrated
+  // law.)
+  const calibrate::Metrics &after = trace.after.training, &before = trace.as_calibrated.training;
+  const calibrate::Metrics& least = before.rmse_MPa < after.rmse_MPa ? before : after;
+  const double experiments = static_cast<double>(training.experiments.size());
+  const double share_left = std::max(tuning::smallest_freedom_left, 1 - last.freedom / experiments);
+  const double rmse =
+      std::min(std::sqrt(modelled_variance(search, last)), least.rmse_MPa / std::sqrt(share_left));
+  trace.noise_floor.method =
+      "noise model: scatter between experiments, slow and white noise within, "
+      "by restricted maximum likelihood; what no law goes below if nothing else is missing";
+  trace.noise_floor.part = "training";
+  trace.noise_floor.rmse_MPa = rmse;
+  trace.noise_floor.mae_MPa = least.rmse_MPa > 0 ? rmse * least.mae_MPa / least.rmse_MPa : 0;
+  trace.noise_floor.n_rows = training.source_rows();
+  trace.noise_floor.n_experiments = training.experiments.size();
+}
+
+// Scatter among repeated tests, pooled; 0 if fewer than three can be compared.
+struct Repeats {
+  double scatter = 0, degrees = 0;
+};
+Repeats scatter_of_repeats(const data::Dataset& data, const VectorXd& gain) {
+  Repeats repeats;
+  double sum = 0;
+  for (const auto& group : calibrate::replicate_groups(data)) {
+    double mean = 0;
+    for (const std::size_t e : group)
+      mean += gain(e) / static_cast<double>(group.size());
+    for (const std::size_t e : group)
+      sum += std::pow(gain(e) - mean, 2);
+    repeats.degrees += static_cast<double>(group.size() - 1);
+  }
+  if (repeats.degrees >= tuning::fewest_degrees_of_repeats)
+    repeats.scatter = std::sqrt(sum / repeats.degrees);
+  return repeats;
+}
+
 } // namespace
 
 TestGains test_gains(const data::Dataset& data, std::span<const double> predicted) {
@@ -123,101 +214,6 @@ ValidationShift validation_shift_of(const Search& search, const Rival& rival) {
   apart.interval = {mean * apart.interval.low, mean * apart.interval.high};
   return apart;
 }
-
-namespace {
-
-// Mean square of the measured rows about a straight line through each block: the noise averaged
-// away in block means.
-double within_blocks(const data::Dataset& training, const stats::Blocks& blocks) {
-  const auto tau = training.values("tau_R_MPa");
-  double sum = 0;
-  for (std::size_t b = 0; b < blocks.count(); ++b) {
-    const std::size_t begin = blocks.first_row[b], end = blocks.first_row[b + 1];
-    const auto n = static_cast<double>(end - begin);
-    if (end - begin < 2) continue;
-    double my = 0, mx = (n - 1) / 2, xy = 0, xx = 0, yy = 0;
-    for (std::size_t i = begin; i < end; ++i)
-      my += tau[i] / n;
-    for (std::size_t i = begin; i < end; ++i) {
-      const double dx = static_cast<double>(i - begin) - mx, dy = tau[i] - my;
-      xy += dx * dy;
-      xx += dx * dx;
-      yy += dy * dy;
-    }
-    // A line through two rows leaves nothing, so their mean is used.
-    sum += end - begin == 2 ? yy : std::max(yy - xy * xy / xx, 0.0) * (n - 1) / (n - 2);
-  }
-  if (training.condensed) // the means scatter less than rows, and lack the scatter within them
-    return (std::accumulate(training.condensed->within_MPa2.begin(),
-                            training.condensed->within_MPa2.end(), 0.0) +
-            sum * static_cast<double>(training.source_rows()) /
-                static_cast<double>(training.rows())) /
-           static_cast<double>(training.source_rows());
-  return sum / static_cast<double>(training.rows());
-}
-
-// Excess kurtosis, at least 0. The variance of heavy-tailed values is less certain, as if there
-// were fewer of them: their degrees of freedom are divided by 1 + kurtosis/2.
-double excess_kurtosis(const VectorXd& values) {
-  const Eigen::ArrayXd squares = (values.array() - values.mean()).square();
-  const double variance = squares.mean();
-  return variance > 0 ? std::max(0.0, squares.square().mean() / (variance * variance) - 3) : 0;
-}
-
-// Mean over experiments of the variance of a residual, by the noise model fitted to it.
-double modelled_variance(const Search& search, const Rival& last) {
-  const VectorXd residual = search.campaign().measured - last.predicted;
-  const MatrixXd& nuisance = search.campaign().nuisance;
-  const stats::NoiseModel noise = refit_campaign_noise(
-      search.campaign(), {residual, last.predicted, search.blocks(), last.jacobian, nuisance},
-      last.noise);
-  return stats::Whitener(noise, last.predicted, search.blocks()).variance().mean() +
-         within_blocks(search.input().training, search.blocks());
-}
-
-void add_floor(Trace& trace, const Search& search, const Rival& last) {
-  const data::Dataset& training = search.input().training;
-  // Upper bound of the noise: the RMSE of a law, corrected for the fitted parameters. (With few
-  // experiments the likelihood may accept any scatter; and under the noise model's weights a law
-  // that lacks something within tests may predict tests as a whole far worse than the calibrated
-  // law.)
-  const calibrate::Metrics &after = trace.after.training, &before = trace.as_calibrated.training;
-  const calibrate::Metrics& least = before.rmse_MPa < after.rmse_MPa ? before : after;
-  const double experiments = static_cast<double>(training.experiments.size());
-  const double share_left = std::max(tuning::smallest_freedom_left, 1 - last.freedom / experiments);
-  const double rmse =
-      std::min(std::sqrt(modelled_variance(search, last)), least.rmse_MPa / std::sqrt(share_left));
-  trace.noise_floor.method =
-      "noise model: scatter between experiments, slow and white noise within, "
-      "by restricted maximum likelihood; what no law goes below if nothing else is missing";
-  trace.noise_floor.part = "training";
-  trace.noise_floor.rmse_MPa = rmse;
-  trace.noise_floor.mae_MPa = least.rmse_MPa > 0 ? rmse * least.mae_MPa / least.rmse_MPa : 0;
-  trace.noise_floor.n_rows = training.source_rows();
-  trace.noise_floor.n_experiments = training.experiments.size();
-}
-
-// Scatter among repeated tests, pooled; 0 if fewer than three can be compared.
-struct Repeats {
-  double scatter = 0, degrees = 0;
-};
-Repeats scatter_of_repeats(const data::Dataset& data, const VectorXd& gain) {
-  Repeats repeats;
-  double sum = 0;
-  for (const auto& group : calibrate::replicate_groups(data)) {
-    double mean = 0;
-    for (const std::size_t e : group)
-      mean += gain(e) / static_cast<double>(group.size());
-    for (const std::size_t e : group)
-      sum += std::pow(gain(e) - mean, 2);
-    repeats.degrees += static_cast<double>(group.size() - 1);
-  }
-  if (repeats.degrees >= tuning::fewest_degrees_of_repeats)
-    repeats.scatter = std::sqrt(sum / repeats.degrees);
-  return repeats;
-}
-
-} // namespace
 
 void add_scatter(Trace& trace, const Search& search, const Rival& last) {
   add_floor(trace, search, last);

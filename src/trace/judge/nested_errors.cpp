@@ -54,6 +54,18 @@ VectorXd scores(const data::Dataset& data, const std::vector<double>& predicted,
   return score;
 }
 
+void put(const LeftOut& from, const std::vector<std::size_t>& tests, std::size_t count,
+         LeftOut& to) {
+  to.sums.resize(count);
+  to.relative.conservativeResize(count);
+  to.score.conservativeResize(count);
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    to.sums[tests[i]] = from.sums[i];
+    to.relative(tests[i]) = from.relative(i);
+    to.score(tests[i]) = from.score(i);
+  }
+}
+
 } // namespace
 
 // Errors of one fold, in the order of its tests.
@@ -167,22 +179,6 @@ private:
   std::vector<Cause> causes_; // of with_, numbered as on all tests
 };
 
-namespace {
-
-void put(const LeftOut& from, const std::vector<std::size_t>& tests, std::size_t count,
-         LeftOut& to) {
-  to.sums.resize(count);
-  to.relative.conservativeResize(count);
-  to.score.conservativeResize(count);
-  for (std::size_t i = 0; i < tests.size(); ++i) {
-    to.sums[tests[i]] = from.sums[i];
-    to.relative(tests[i]) = from.relative(i);
-    to.score(tests[i]) = from.score(i);
-  }
-}
-
-} // namespace
-
 NestedCheck NestedErrors::gain(std::size_t weights) const {
   const VectorXd score_gain = weighted[weights].all.score - weighted[weights].none.score,
                  error_gain =
@@ -203,12 +199,10 @@ NestedJudge::NestedJudge(const Found& found)
     : tests_(found.search.blocks().experiments()), folds_(found.folds.size()) {
   Progress progress("fitting without some tests", folds_.size());
   parallel_for(folds_.size(), [&](std::size_t f) {
-    folds_[f] = std::make_unique<FoldJudge>(found.search, found.folds[f]);
+    folds_[f] = std::make_shared<FoldJudge>(found.search, found.folds[f]);
     progress.tick();
   });
 }
-
-NestedJudge::~NestedJudge() = default;
 
 NestedErrors NestedJudge::errors(const Rival& law) const {
   NestedErrors all;

@@ -49,13 +49,12 @@ class FoldJudge;
 class NestedJudge {
 public:
   explicit NestedJudge(const Found& found);
-  ~NestedJudge();
   // Errors of a law with some of the effects of the search, and without each of these.
   NestedErrors errors(const Rival& law) const;
 
 private:
   std::size_t tests_;
-  std::vector<std::unique_ptr<FoldJudge>> folds_;
+  std::vector<std::shared_ptr<FoldJudge>> folds_;
 };
 
 } // namespace frictab::trace

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "effects/extended_law.h"
-#include "trace/columns/factor_band.h"
+#include "trace/columns/shapes.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
@@ -30,15 +30,6 @@ std::vector<calibrate::ExperimentSums> sums_by_test(const Campaign& campaign, co
   return sums;
 }
 
-} // namespace
-
-calibrate::Uncertainty uncertainty_of(const Campaign& campaign, const Rival& rival) {
-  return calibrate::cluster_sandwich(bounded_law(campaign, rival).parameters, rival.parameters,
-                                     sums_by_test(campaign, rival), penalty_of(rival));
-}
-
-namespace {
-
 double largest_ratio(const VectorXd& sizes, const VectorXd& errors) {
   double most = 0;
   for (Index i = 0; i < sizes.size(); ++i) {
@@ -53,10 +44,8 @@ double largest_ratio(const VectorXd& sizes, const VectorXd& errors) {
 // and then has a large error.
 double certainty(const Campaign& campaign, const effects::PlacedEffect& effect,
                  const MatrixXd& covariance) {
-  std::vector<const double*> columns;
-  for (const effects::EffectInput& input : effect.inputs)
-    columns.push_back(campaign.candidates.by_symbol.at(effects::symbol_of(input.column)).data());
-  FactorOnRows on = factor_on_rows(effect, columns, campaign.blocks.count());
+  FactorOnRows on = factor_on_rows(effect, inputs_on(effect, campaign.candidates.by_symbol),
+                                   campaign.blocks.count());
   const double from_none = largest_ratio(on.factor.array() - 1, std_errors(on.slope, covariance));
   on.factor.array() -= on.factor.mean();
   on.slope.rowwise() -= on.slope.colwise().mean().eval();
@@ -82,6 +71,11 @@ LeastCertain least_certain(const Campaign& campaign, const Rival& rival) {
 }
 
 } // namespace
+
+calibrate::Uncertainty uncertainty_of(const Campaign& campaign, const Rival& rival) {
+  return calibrate::cluster_sandwich(bounded_law(campaign, rival).parameters, rival.parameters,
+                                     sums_by_test(campaign, rival), penalty_of(rival));
+}
 
 FittedAlike fit_rows_alike(const Campaign& campaign, const Rival& rival) {
   const auto alike = [&](const Rival& one) {

@@ -143,49 +143,6 @@ const char* smooth_form(const Cause& cause, bool text, bool two_values) {
   return text ? "category" : "spline";
 }
 
-} // namespace
-
-PlacedEffect plain_effect(const Search& search, const Cause& cause) {
-  const char* form = plain_form(cause, starts_with_text(cause, search.candidates()));
-  const bool both = search.sensitivities()[on_both].size() > 0;
-  return start_effect(*effects::find_effect(form), cause, search.candidates(),
-                      sites[both ? on_both : on_mu], search.tau_scale_MPa());
-}
-
-PlacedEffect smooth_effect(const Search& search, const Cause& cause, effects::ActsOn acts_on) {
-  const Candidates& candidates = search.candidates();
-  const char* form = smooth_form(cause, starts_with_text(cause, candidates),
-                                 candidates.first_of(cause).two_values);
-  return start_effect(*effects::find_effect(form), cause, candidates, acts_on,
-                      search.tau_scale_MPa());
-}
-
-std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>& suspects) {
-  Options options;
-  for (const Suspect& suspect : suspects)
-    options.push_back(option_of(suspect.cause, suspect.effect));
-  // Fits one noise model for all options, with the first one's effect included; otherwise that
-  // effect would count as noise.
-  const Cause& first = suspects.front().cause;
-  const stats::NoiseModel noise =
-      with_effect(search.campaign(), search.last(), plain_effect(search, first), first,
-                  search.last().noise, NoiseSearch::again)
-          .noise;
-  fit_options(search, noise, options);
-  sort_options(options);
-  Options best; // best option of each cause
-  for (Option& option : options)
-    if (!contains(best, option.cause, &Option::cause) && best.size() < tuning::shortlisted_causes)
-      best.push_back(std::move(option));
-  if (search.campaign().selection) drop_distinguishable(search, noise, best);
-  std::vector<Rival> rivals = rivals_of(search, search.campaign(), best, noise);
-  for (std::size_t i = 0; i < best.size(); ++i)
-    rivals[i].criterion = best[i].criterion;
-  return rivals;
-}
-
-namespace {
-
 // Residual of the law without the effect `index`, everything else as fitted: the signal that any
 // other form of that effect has to explain.
 VectorXd to_explain(const Search& search, const Rival& winner, std::size_t index) {
@@ -317,6 +274,44 @@ void keep_promising(double share, std::size_t index, std::vector<Start>& starts,
 }
 
 } // namespace
+
+PlacedEffect plain_effect(const Search& search, const Cause& cause) {
+  const char* form = plain_form(cause, starts_with_text(cause, search.candidates()));
+  return start_effect(*effects::find_effect(form), cause, search.candidates(),
+                      sites[searched_site(search.sensitivities())], search.tau_scale_MPa());
+}
+
+PlacedEffect smooth_effect(const Search& search, const Cause& cause, effects::ActsOn acts_on) {
+  const Candidates& candidates = search.candidates();
+  const char* form = smooth_form(cause, starts_with_text(cause, candidates),
+                                 candidates.first_of(cause).two_values);
+  return start_effect(*effects::find_effect(form), cause, candidates, acts_on,
+                      search.tau_scale_MPa());
+}
+
+std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>& suspects) {
+  Options options;
+  for (const Suspect& suspect : suspects)
+    options.push_back(option_of(suspect.cause, suspect.effect));
+  // Fits one noise model for all options, with the first one's effect included; otherwise that
+  // effect would count as noise.
+  const Cause& first = suspects.front().cause;
+  const stats::NoiseModel noise =
+      with_effect(search.campaign(), search.last(), plain_effect(search, first), first,
+                  search.last().noise, NoiseSearch::again)
+          .noise;
+  fit_options(search, noise, options);
+  sort_options(options);
+  Options best; // best option of each cause
+  for (Option& option : options)
+    if (!contains(best, option.cause, &Option::cause) && best.size() < tuning::shortlisted_causes)
+      best.push_back(std::move(option));
+  if (search.campaign().selection) drop_distinguishable(search, noise, best);
+  std::vector<Rival> rivals = rivals_of(search, search.campaign(), best, noise);
+  for (std::size_t i = 0; i < best.size(); ++i)
+    rivals[i].criterion = best[i].criterion;
+  return rivals;
+}
 
 std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::size_t index) {
   if (search.sensitivities()[site_of(winner.effects[index])].size() == 0)

@@ -84,7 +84,7 @@ private:
   // an effect is searched; others are used only where their derivatives differ.
   void find_sites() {
     const Sensitivities& all = s_.sensitivities();
-    const std::size_t first = all[on_both].size() > 0 ? on_both : on_mu;
+    const std::size_t first = searched_site(all);
     const auto relative = [&](std::size_t site) {
       return VectorXd(all[site].cwiseQuotient(floor_));
     };

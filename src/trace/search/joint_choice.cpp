@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/random.h"
+#include "trace/columns/candidates.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
@@ -135,11 +136,12 @@ private:
     }
   }
 
+  // Whether a term is part of the product of another, for which it is kept.
   bool is_parent(const std::vector<JointStep>& steps, std::size_t i) const {
-    std::vector<std::vector<std::size_t>> columns;
-    for (const JointStep& step : steps)
-      columns.push_back(o_.terms[step.term].columns);
-    return is_in_product(columns[i], columns);
+    const auto cause_of = [&](const JointStep& step) { return Cause{o_.terms[step.term].columns}; };
+    return std::ranges::any_of(steps, [&](const JointStep& other) {
+      return cause_of(other).is_product_with(cause_of(steps[i]));
+    });
   }
 
   const JointData& data_; // not weighted, as left-out tests are judged without weights
@@ -191,13 +193,6 @@ std::vector<std::size_t> folds_of_settings(const std::vector<std::size_t>& units
 }
 
 } // namespace
-
-bool is_in_product(const std::vector<std::size_t>& columns,
-                   const std::vector<std::vector<std::size_t>>& of_all) {
-  return columns.size() == 1 && std::ranges::any_of(of_all, [&](const auto& other) {
-           return other.size() > 1 && contains(other, columns[0]);
-         });
-}
 
 double std_error(const VectorXd& per_test) {
   const auto n = static_cast<double>(per_test.size());

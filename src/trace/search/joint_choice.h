@@ -35,10 +35,6 @@ JointChoice choose_jointly(const JointData& data, const Modes& modes, const Join
                            const JointSettings& settings, const JointPath& path,
                            const MatrixXd& states);
 
-// Whether a column is part of one of the products in `of_all`, in which case it is kept for them.
-bool is_in_product(const std::vector<std::size_t>& columns,
-                   const std::vector<std::vector<std::size_t>>& of_all);
-
 // Standard error of the mean over tests.
 double std_error(const VectorXd& per_test);
 

@@ -40,6 +40,104 @@ double log_root_det(const Eigen::LLT<MatrixXd>& factored) {
   return factored.matrixLLT().diagonal().array().log().sum();
 }
 
+// A term added to a fit, for several responses (residuals r of the fit), one row each.
+struct TermOnResponses {
+  const JointTerm& term;
+  const ByClass &weight, &free;
+  const std::array<MatrixXd, mode_classes>& own; // X~' X~
+  std::array<MatrixXd, mode_classes> along;      // r' X~
+  Eigen::ArrayXXd squares;                       // r' r, a column per class
+  MatrixXd score = {}, normal = {};              // r' W X~, X~' W X~
+
+  void add_up() {
+    score = MatrixXd::Zero(squares.rows(), term.count);
+    normal = MatrixXd::Zero(term.count, term.count);
+    for (std::size_t c = 0; c < mode_classes; ++c)
+      if (weight[c] > 0) {
+        score += weight[c] * along[c];
+        normal += weight[c] * own[c];
+      }
+  }
+
+  TermOnResponses some(const std::vector<Index>& rows) const {
+    TermOnResponses few{term, weight, free, own, {}, squares(rows, Eigen::all)};
+    for (std::size_t c = 0; c < mode_classes; ++c)
+      few.along[c] = along[c](rows, Eigen::all);
+    few.score = score(rows, Eigen::all);
+    few.normal = normal;
+    return few;
+  }
+
+  struct Likeliest {
+    Eigen::ArrayXd gain; // 0: no size gains
+    std::vector<TermSize> size;
+
+    void consider(TermSize tried, const std::vector<Index>& rows, const Eigen::ArrayXd& gains) {
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (const double one = gains(i); one > gain(rows[i])) {
+          gain(rows[i]) = one;
+          size[rows[i]] = tried;
+        }
+    }
+  };
+
+  // Finds the likeliest size on a grid, per response: first that of the straight part alone, then
+  // that of the bent part without the straight one and with its likeliest size.
+  template <std::size_t count> Likeliest likeliest(const double (&grid)[count]) const {
+    const Index responses = squares.rows();
+    std::vector<Index> all(responses);
+    std::iota(all.begin(), all.end(), 0);
+    Likeliest best{Eigen::ArrayXd::Zero(responses), std::vector<TermSize>(all.size())};
+    std::vector<std::vector<Index>> by_straight(count); // responses for which it is likeliest
+    by_straight[0] = all;
+    if (term.straight > 0) {
+      Eigen::ArrayXXd gain(responses, count - 1);
+      for (std::size_t s = 1; s < count; ++s) {
+        gain.col(s - 1) = gains({grid[s], 0});
+        best.consider({grid[s], 0}, all, gain.col(s - 1));
+      }
+      for (const Index r : all) {
+        Index at = 0;
+        gain.row(r).maxCoeff(&at);
+        by_straight[at + 1].push_back(r);
+      }
+    }
+    for (std::size_t s = 0; s < count && term.count > term.straight; ++s) {
+      if (by_straight[s].empty()) continue;
+      const TermOnResponses few = some(by_straight[s]);
+      for (std::size_t b = 1; b < count; ++b)
+        best.consider({grid[s], grid[b]}, by_straight[s], few.gains({grid[s], grid[b]}));
+    }
+    return best;
+  }
+
+  // Gain of log likelihood by a size, with the noise estimated together with the term, per
+  // response. Columns with spread 0 are excluded.
+  Eigen::ArrayXd gains(TermSize size) const {
+    const Index begin = size.straight > 0 ? 0 : term.straight,
+                count = (size.bent > 0 ? term.count : term.straight) - begin;
+    const VectorXd spread = spread_of(term, size).segment(begin, count);
+    const Eigen::LLT<MatrixXd> factored =
+        information_of(normal.block(begin, begin, count, count), spread);
+    const MatrixXd inverse = spread.asDiagonal() * factored.solve(MatrixXd(spread.asDiagonal()));
+    const MatrixXd coefficients = score.middleCols(begin, count) * inverse;
+    Eigen::ArrayXd gain = Eigen::ArrayXd::Constant(squares.rows(), -log_root_det(factored));
+    for (Index j = 0; j < count; ++j)
+      gain -= 0.5 / (spread(j) * spread(j)) * coefficients.col(j).array().square();
+    for (std::size_t c = 0; c < mode_classes; ++c) {
+      if (!(weight[c] > 0)) continue;
+      const auto before = squares.col(c);
+      const MatrixXd turned = coefficients * own[c].block(begin, begin, count, count);
+      Eigen::ArrayXd left = before;
+      for (Index j = 0; j < count; ++j)
+        left += coefficients.col(j).array() *
+                (turned.col(j).array() - 2 * along[c].col(begin + j).array());
+      gain -= 0.5 * free[c] * (left / before).max(tuning::smallest_share_left).log();
+    }
+    return gain;
+  }
+};
+
 } // namespace
 
 bool JointFit::has(std::size_t term) const {
@@ -318,108 +416,6 @@ JointModel::OfTerm JointModel::of_term(const Beside& beside, std::size_t term) c
   }
   return out;
 }
-
-namespace {
-
-// A term added to a fit, for several responses (residuals r of the fit), one row each.
-struct TermOnResponses {
-  const JointTerm& term;
-  const ByClass &weight, &free;
-  const std::array<MatrixXd, mode_classes>& own; // X~' X~
-  std::array<MatrixXd, mode_classes> along;      // r' X~
-  Eigen::ArrayXXd squares;                       // r' r, a column per class
-  MatrixXd score = {}, normal = {};              // r' W X~, X~' W X~
-
-  void add_up() {
-    score = MatrixXd::Zero(squares.rows(), term.count);
-    normal = MatrixXd::Zero(term.count, term.count);
-    for (std::size_t c = 0; c < mode_classes; ++c)
-      if (weight[c] > 0) {
-        score += weight[c] * along[c];
-        normal += weight[c] * own[c];
-      }
-  }
-
-  TermOnResponses some(const std::vector<Index>& rows) const {
-    TermOnResponses few{term, weight, free, own, {}, squares(rows, Eigen::all)};
-    for (std::size_t c = 0; c < mode_classes; ++c)
-      few.along[c] = along[c](rows, Eigen::all);
-    few.score = score(rows, Eigen::all);
-    few.normal = normal;
-    return few;
-  }
-
-  struct Likeliest {
-    Eigen::ArrayXd gain; // 0: no size gains
-    std::vector<TermSize> size;
-
-    void consider(TermSize tried, const std::vector<Index>& rows, const Eigen::ArrayXd& gains) {
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        if (const double one = gains(i); one > gain(rows[i])) {
-          gain(rows[i]) = one;
-          size[rows[i]] = tried;
-        }
-    }
-  };
-
-  // Finds the likeliest size on a grid, per response: first that of the straight part alone, then
-  // that of the bent part without the straight one and with its likeliest size.
-  template <std::size_t count> Likeliest likeliest(const double (&grid)[count]) const {
-    const Index responses = squares.rows();
-    std::vector<Index> all(responses);
-    std::iota(all.begin(), all.end(), 0);
-    Likeliest best{Eigen::ArrayXd::Zero(responses), std::vector<TermSize>(all.size())};
-    std::vector<std::vector<Index>> by_straight(count); // responses for which it is likeliest
-    by_straight[0] = all;
-    if (term.straight > 0) {
-      Eigen::ArrayXXd gain(responses, count - 1);
-      for (std::size_t s = 1; s < count; ++s) {
-        gain.col(s - 1) = gains({grid[s], 0});
-        best.consider({grid[s], 0}, all, gain.col(s - 1));
-      }
-      for (const Index r : all) {
-        Index at = 0;
-        gain.row(r).maxCoeff(&at);
-        by_straight[at + 1].push_back(r);
-      }
-    }
-    for (std::size_t s = 0; s < count && term.count > term.straight; ++s) {
-      if (by_straight[s].empty()) continue;
-      const TermOnResponses few = some(by_straight[s]);
-      for (std::size_t b = 1; b < count; ++b)
-        best.consider({grid[s], grid[b]}, by_straight[s], few.gains({grid[s], grid[b]}));
-    }
-    return best;
-  }
-
-  // Gain of log likelihood by a size, with the noise estimated together with the term, per
-  // response. Columns with spread 0 are excluded.
-  Eigen::ArrayXd gains(TermSize size) const {
-    const Index begin = size.straight > 0 ? 0 : term.straight,
-                count = (size.bent > 0 ? term.count : term.straight) - begin;
-    const VectorXd spread = spread_of(term, size).segment(begin, count);
-    const Eigen::LLT<MatrixXd> factored =
-        information_of(normal.block(begin, begin, count, count), spread);
-    const MatrixXd inverse = spread.asDiagonal() * factored.solve(MatrixXd(spread.asDiagonal()));
-    const MatrixXd coefficients = score.middleCols(begin, count) * inverse;
-    Eigen::ArrayXd gain = Eigen::ArrayXd::Constant(squares.rows(), -log_root_det(factored));
-    for (Index j = 0; j < count; ++j)
-      gain -= 0.5 / (spread(j) * spread(j)) * coefficients.col(j).array().square();
-    for (std::size_t c = 0; c < mode_classes; ++c) {
-      if (!(weight[c] > 0)) continue;
-      const auto before = squares.col(c);
-      const MatrixXd turned = coefficients * own[c].block(begin, begin, count, count);
-      Eigen::ArrayXd left = before;
-      for (Index j = 0; j < count; ++j)
-        left += coefficients.col(j).array() *
-                (turned.col(j).array() - 2 * along[c].col(begin + j).array());
-      gain -= 0.5 * free[c] * (left / before).max(tuning::smallest_share_left).log();
-    }
-    return gain;
-  }
-};
-
-} // namespace
 
 // Finds the likeliest size of each term on a grid. `counts_all`: also structure that a term leaves
 // to others.

@@ -341,12 +341,12 @@ private:
     JointFit next = walker.taken(fit, path, take);
     for (std::size_t i = 0; i < take; ++i)
       if (const std::size_t term = path.terms[i].term; !holds(next, term)) {
-        path_.unsure.push_back({term, path.ratios[i], p, {}});
+        path_.unsure.push_back({term, p, {}});
         path_.record.unsure.push_back(o_.terms[term].cause);
         return true;
       }
     for (std::size_t i = 0; i < take; ++i)
-      path_.steps.push_back({path.terms[i].term, path.ratios[i], p, {}});
+      path_.steps.push_back({path.terms[i].term, p, {}});
     path_.record.lengths[round] += take;
     path_.record.footings[round].push_back(footing);
     path_.fit = std::move(next);
@@ -624,7 +624,7 @@ JointPath walk_again(const JointModel& part, const JointOffer& offer, const Join
       const Footing& footing = footings[std::min(taken, footings.size() - 1)];
       const Ahead next = walker.ahead(path.fit, part.of_data(), footing, round, 1, true);
       if (next.terms.empty()) break;
-      path.steps.push_back({next.terms[0].term, next.ratios[0], 1, {}});
+      path.steps.push_back({next.terms[0].term, 1, {}});
       path.fit = walker.taken(path.fit, next, 1);
     }
   return path;

@@ -68,7 +68,6 @@ struct JointSettings {
 
 struct JointStep {
   std::size_t term = 0;
-  double ratio = 0;              // log likelihood ratio when it entered
   double p_value = 1;            // over everything that was tried in that step
   std::vector<std::size_t> near; // terms that would explain almost as much in its place, best first
 };

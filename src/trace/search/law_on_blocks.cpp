@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <unordered_map>
 
 #include "stats/gram.h"
@@ -16,69 +15,26 @@ using expr::Expr;
 
 namespace {
 
-// Rounds off every minimum that depends on parameters.
-class Smoother {
-public:
-  Smoother(double width, const std::vector<std::string>& parameters)
-      : width_(width), parameters_(parameters.begin(), parameters.end()) {}
-
-  Expr operator()(const Expr& formula) {
-    inside_out(formula, [this](const Expr& e) { done_.emplace(e.id(), smoothed(e)); });
-    return done_.at(formula.id());
-  }
-
-private:
-  Expr smoothed(const Expr& e) const {
-    if (e.operands().empty()) return e;
+// Rounds off every minimum that depends on parameters, over this width.
+Expr smoothed(const Expr& formula, double width, const std::vector<std::string>& parameters) {
+  const auto depends = [&](const Expr& e) {
+    return std::ranges::any_of(expr::symbols(e),
+                               [&](const std::string& s) { return contains(parameters, s); });
+  };
+  std::unordered_map<const Expr::Node*, Expr> done;
+  inside_out(formula, [&](const Expr& e) {
     std::vector<Expr> operands;
     for (const Expr& operand : e.operands())
-      operands.push_back(done_.at(operand.id()));
-    const bool smooth = e.op() == expr::Op::minimum && depends(e);
-    return smooth ? rounded(operands[0], operands[1]) : rebuild(e.op(), operands);
-  }
-  bool depends(const Expr& e) const {
-    const auto used = expr::symbols(e);
-    return std::ranges::any_of(used,
-                               [&](const std::string& s) { return parameters_.count(s) > 0; });
-  }
-  Expr rounded(const Expr& a, const Expr& b) const {
-    const Expr d = a - b;
-    return 0.5 * (a + b - sqrt(d * d + width_ * width_));
-  }
-  double width_;
-  std::set<std::string> parameters_;
-  std::unordered_map<const Expr::Node*, Expr> done_;
-};
-
-} // namespace
-
-LawOnBlocks::LawOnBlocks(const models::Law& law, const models::Conventions& conventions,
-                         const BlockColumns& columns, double smooth_MPa)
-    : parameters_(law.parameters) {
-  const auto names = models::inputs(law, conventions);
-  const auto scalars = models::parameter_names(law);
-  Expr formula = models::tau_formula(law, conventions);
-  if (smooth_MPa > 0) formula = Smoother(smooth_MPa, scalars)(formula);
-  program_ = std::make_unique<expr::Program>(formula, names, scalars);
-  std::vector<const double*> bound;
-  for (const std::string& name : names)
-    bound.push_back(columns.at(name).data());
-  count_ = columns.begin()->second.size();
-  bound_ = std::make_unique<expr::BoundProgram>(*program_, count_, bound);
-}
-
-VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd* jacobian) const {
-  VectorXd tau(count_);
-  if (jacobian) jacobian->setZero(count_, parameters.size());
-  bound_->sweep(parameters, jacobian, [&](const expr::BoundProgram::Block& block) {
-    std::copy_n(block.value, block.count, tau.data() + block.first);
-    for (std::size_t p = 0; jacobian && p < block.derivative.size(); ++p)
-      std::copy_n(block.derivative[p], block.count, jacobian->col(p).data() + block.first);
+      operands.push_back(done.at(operand.id()));
+    if (e.op() != expr::Op::minimum || !depends(e)) {
+      done.emplace(e.id(), operands.empty() ? e : rebuild(e.op(), operands));
+      return;
+    }
+    const Expr d = operands[0] - operands[1];
+    done.emplace(e.id(), 0.5 * (operands[0] + operands[1] - sqrt(d * d + width * width)));
   });
-  return tau;
+  return done.at(formula.id());
 }
-
-namespace {
 
 // Above this number of blocks, a step is first tried without derivatives, which saves those of
 // rejected steps.
@@ -146,6 +102,32 @@ private:
 };
 
 } // namespace
+
+LawOnBlocks::LawOnBlocks(const models::Law& law, const models::Conventions& conventions,
+                         const BlockColumns& columns, double smooth_MPa)
+    : parameters_(law.parameters) {
+  const auto names = models::inputs(law, conventions);
+  const auto scalars = models::parameter_names(law);
+  Expr formula = models::tau_formula(law, conventions);
+  if (smooth_MPa > 0) formula = smoothed(formula, smooth_MPa, scalars);
+  program_ = std::make_unique<expr::Program>(formula, names, scalars);
+  std::vector<const double*> bound;
+  for (const std::string& name : names)
+    bound.push_back(columns.at(name).data());
+  count_ = columns.begin()->second.size();
+  bound_ = std::make_unique<expr::BoundProgram>(*program_, count_, bound);
+}
+
+VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd* jacobian) const {
+  VectorXd tau(count_);
+  if (jacobian) jacobian->setZero(count_, parameters.size());
+  bound_->sweep(parameters, jacobian, [&](const expr::BoundProgram::Block& block) {
+    std::copy_n(block.value, block.count, tau.data() + block.first);
+    for (std::size_t p = 0; jacobian && p < block.derivative.size(); ++p)
+      std::copy_n(block.derivative[p], block.count, jacobian->col(p).data() + block.first);
+  });
+  return tau;
+}
 
 BlockFit fit_blocks(const LawOnBlocks& law, const VectorXd& measured,
                     const stats::Whitener& whitener, std::vector<double> start,

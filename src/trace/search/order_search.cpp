@@ -1,7 +1,6 @@
 // Tests, nuisance functions and size of structure along the order of tests.
 #include "trace/search/order_search.h"
 
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <numbers>
@@ -33,8 +32,8 @@ double wave(std::size_t rank, int number, std::size_t count) {
 }
 
 // Statistics of one column of scores, in a given order.
-std::array<double, 3> structure(const VectorXd& z, const MatrixXd& waves) {
-  std::array<double, 3> s{};
+Eigen::Vector3d structure(const VectorXd& z, const MatrixXd& waves) {
+  Eigen::Vector3d s = Eigen::Vector3d::Zero();
   double sum = 0, most = 0;
   for (Index i = 0; i < z.size(); ++i) {
     for (Index lag = 1; lag <= std::min(i, tuning::largest_batch_distance); ++lag)
@@ -54,8 +53,7 @@ VectorXd structures(const MatrixXd& z, std::span<const std::size_t> order, const
   for (Index c = 0; c < z.cols(); ++c) {
     for (std::size_t i = 0; i < order.size(); ++i)
       ordered(i) = z(order[i], c);
-    const auto s = structure(ordered, waves);
-    all.segment<3>(3 * c) << s[0], s[1], s[2];
+    all.segment<3>(3 * c) = structure(ordered, waves);
   }
   return all;
 }
@@ -151,6 +149,43 @@ double p_of_steps(const VectorXd& steps, const std::vector<std::size_t>& places,
   return static_cast<double>(as_large) / static_cast<double>(tuning::order_permutations + 1);
 }
 
+// Whether the name denotes a property of the room or the calendar, which changes over time.
+bool is_environment(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto has = [&](const char* word) {
+    const std::string all = "_" + name + "_";
+    return all.find(std::string("_") + word + "_") != std::string::npos;
+  };
+  return std::ranges::any_of(environment, has) ||
+         std::ranges::any_of(of_environment, [&](const char* part) {
+           return name.find(part) != std::string::npos;
+         });
+}
+
+// Whether neighbours by name are more alike than by chance (von Neumann's ratio, one-sided 1 %).
+bool drifts(const VectorXd& x) {
+  const auto n = static_cast<double>(x.size());
+  const double squares = (x.array() - x.mean()).square().sum();
+  const double steps = (x.tail(x.size() - 1) - x.head(x.size() - 1)).squaredNorm();
+  return squares > 0 && steps / squares < 2 - tuning::drift_std_errors * 2 / std::sqrt(n);
+}
+
+// Returns the p-value, and the site at which the order has the strongest structure.
+std::pair<double, std::size_t> test_along_order(const Search& search) {
+  const stats::Whitener weights = search.whitener();
+  std::vector<std::size_t> tried;
+  MatrixXd scores(search.blocks().experiments(), 0);
+  for (std::size_t site = 0; site < sites.size(); ++site) {
+    if (search.sensitivities()[site].size() == 0) continue;
+    stats::append_columns(scores, scores_of(search, weights, site));
+    tried.push_back(site);
+  }
+  const OrderTest test = test_order(scores, search.candidates().order, tuning::order_permutations,
+                                    search.input().seed);
+  return {test.p_value, tried[test.column]};
+}
+
 } // namespace
 
 OrderTest test_order(const MatrixXd& scores, std::vector<std::size_t> order,
@@ -239,54 +274,13 @@ AlongOrder along_order(const Search& search, std::size_t c) {
   const data::Dataset& data = search.input().training;
   if (values_of_tests(*data.find(search.candidates().order_column), data) <= count)
     return AlongOrder::stretches; // a day for each level: days and levels step together
-  const std::size_t site = search.sensitivities()[on_both].size() > 0 ? on_both : on_mu;
+  const std::size_t site = searched_site(search.sensitivities());
   const VectorXd z = scores_of(search, search.whitener(), site)(order);
   const VectorXd steps = z.tail(z.size() - 1) - z.head(z.size() - 1);
   return p_of_steps(steps, changes, search.input().seed) <= search.input().options.alpha
              ? AlongOrder::steps
              : AlongOrder::stretches;
 }
-
-namespace {
-
-// Whether the name denotes a property of the room or the calendar, which changes over time.
-bool is_environment(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto has = [&](const char* word) {
-    const std::string all = "_" + name + "_";
-    return all.find(std::string("_") + word + "_") != std::string::npos;
-  };
-  return std::ranges::any_of(environment, has) ||
-         std::ranges::any_of(of_environment, [&](const char* part) {
-           return name.find(part) != std::string::npos;
-         });
-}
-
-// Whether neighbours by name are more alike than by chance (von Neumann's ratio, one-sided 1 %).
-bool drifts(const VectorXd& x) {
-  const auto n = static_cast<double>(x.size());
-  const double squares = (x.array() - x.mean()).square().sum();
-  const double steps = (x.tail(x.size() - 1) - x.head(x.size() - 1)).squaredNorm();
-  return squares > 0 && steps / squares < 2 - tuning::drift_std_errors * 2 / std::sqrt(n);
-}
-
-// Returns the p-value, and the site at which the order has the strongest structure.
-std::pair<double, std::size_t> test_along_order(const Search& search) {
-  const stats::Whitener weights = search.whitener();
-  std::vector<std::size_t> tried;
-  MatrixXd scores(search.blocks().experiments(), 0);
-  for (std::size_t site = 0; site < sites.size(); ++site) {
-    if (search.sensitivities()[site].size() == 0) continue;
-    stats::append_columns(scores, scores_of(search, weights, site));
-    tried.push_back(site);
-  }
-  const OrderTest test = test_order(scores, search.candidates().order, tuning::order_permutations,
-                                    search.input().seed);
-  return {test.p_value, tried[test.column]};
-}
-
-} // namespace
 
 bool may_stand_for_time(const Found& found, const Cause& cause) {
   const Search& search = found.search;

@@ -19,12 +19,6 @@ using effects::PlacedEffect;
 
 namespace {
 
-void take_fit(Rival& rival, BlockFit fit) {
-  rival.parameters = std::move(fit.parameters);
-  rival.predicted = std::move(fit.predicted);
-  rival.jacobian = std::move(fit.jacobian);
-}
-
 void take_parameters(Rival& rival) {
   for (std::size_t i = 0; i < rival.effects.size(); ++i)
     effects::set_fitted(rival.effects[i],
@@ -44,32 +38,6 @@ VectorXd by_experiment(const VectorXd& whitened, const stats::Whitener& whitener
 bool on_limit(const std::vector<PlacedEffect>& effects) {
   return contains(effects, effects::ActsOn::m, &PlacedEffect::acts_on);
 }
-
-} // namespace
-
-MatrixXd penalty_of(const Rival& rival) {
-  MatrixXd all;
-  const auto count = static_cast<Index>(rival.parameters.size());
-  for (std::size_t i = 0; i < rival.effects.size(); ++i) {
-    const PlacedEffect& effect = rival.effects[i];
-    if (!effect.form->penalty || !(effect.stiffness > 0)) continue;
-    if (all.size() == 0) all = MatrixXd::Zero(count, count);
-    const MatrixXd one = roughness_of(effect);
-    const auto first = static_cast<Index>(first_parameter(rival, i));
-    all.block(first, first, one.rows(), one.cols()) = effect.stiffness * one;
-  }
-  return all;
-}
-
-void tie_parameters(Campaign& campaign, const Rival& base, double share) {
-  const stats::Whitener whitener(base.noise, base.predicted, campaign.blocks);
-  MatrixXd jacobian = base.jacobian;
-  whitener.apply(jacobian);
-  campaign.own = {share * jacobian.transpose() * jacobian,
-                  Eigen::Map<const VectorXd>(base.parameters.data(), base.parameters.size())};
-}
-
-namespace {
 
 // Penalties of smooth effects and on the law's own parameters.
 Penalty penalties(const Campaign& campaign, const Rival& rival) {
@@ -125,30 +93,6 @@ void evaluate(Rival& rival, const Campaign& campaign) {
       is_possible(rival, campaign) ? rival.total - cost : -std::numeric_limits<double>::infinity();
 }
 
-} // namespace
-
-std::vector<double> start_of(const models::Law& extended, std::span<const double> own,
-                             std::size_t count, std::span<const PlacedEffect> effects) {
-  std::vector<double> start(own.begin(), own.begin() + count);
-  for (const PlacedEffect& effect : effects)
-    for (const double value : effects::fitted_values(effect))
-      start.push_back(value);
-  while (start.size() < extended.parameters.size()) // m_limit
-    start.push_back(own.size() > count ? own.back() : extended.parameters[start.size()].start);
-  return start;
-}
-
-models::Law bounded_law(const Campaign& campaign, const Rival& rival) {
-  const std::size_t own = campaign.law.parameters.size();
-  models::Law law = effects::extended_law(campaign.law, campaign.conventions,
-                                          std::span(rival.parameters).first(own), rival.effects,
-                                          campaign.law.name);
-  bound_shapes(law, own, rival.effects, campaign.candidates);
-  return law;
-}
-
-namespace {
-
 // Start values of the law's own parameters, followed by m_limit if an effect acts on the limit.
 std::vector<double> own_parameters(const Campaign& campaign, const Rival& from) {
   const auto own = static_cast<long>(campaign.law.parameters.size());
@@ -195,7 +139,8 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
     rival.predicted = with.predict(rival.parameters);
     const stats::Whitener whitener(rival.noise, rival.predicted, campaign.blocks,
                                    campaign.nuisance);
-    take_fit(rival, fit_blocks(with, campaign.measured, whitener, rival.parameters, penalty, end));
+    static_cast<BlockFit&>(rival) =
+        fit_blocks(with, campaign.measured, whitener, rival.parameters, penalty, end);
   };
   // First with the limit rounded off, otherwise rows below it have no influence on it.
   if (!from_selection && on_limit(rival.effects)) {
@@ -223,7 +168,62 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
   return rival;
 }
 
+// Fits noise to the selected tests if there is a selection, else to all.
+template <class Fit>
+stats::NoiseModel noise_by(const Campaign& campaign, const stats::NoiseData& data, const Fit& fit) {
+  if (!campaign.selection) return fit(data).noise;
+  const auto& rows = campaign.selection->rows;
+  const auto some = [&](const MatrixXd& all) {
+    return all.cols() == 0 ? MatrixXd{} : MatrixXd(all(rows, Eigen::all));
+  };
+  const VectorXd residual = data.residual(rows), tau = data.tau(rows);
+  const MatrixXd fitted = some(data.fitted), nuisance = some(data.nuisance);
+  return fit({residual, tau, campaign.selection->blocks, fitted, nuisance}).noise;
+}
+
 } // namespace
+
+MatrixXd penalty_of(const Rival& rival) {
+  MatrixXd all;
+  const auto count = static_cast<Index>(rival.parameters.size());
+  for (std::size_t i = 0; i < rival.effects.size(); ++i) {
+    const PlacedEffect& effect = rival.effects[i];
+    if (!effect.form->penalty || !(effect.stiffness > 0)) continue;
+    if (all.size() == 0) all = MatrixXd::Zero(count, count);
+    const MatrixXd one = roughness_of(effect);
+    const auto first = static_cast<Index>(first_parameter(rival, i));
+    all.block(first, first, one.rows(), one.cols()) = effect.stiffness * one;
+  }
+  return all;
+}
+
+void tie_parameters(Campaign& campaign, const Rival& base, double share) {
+  const stats::Whitener whitener(base.noise, base.predicted, campaign.blocks);
+  MatrixXd jacobian = base.jacobian;
+  whitener.apply(jacobian);
+  campaign.own = {share * jacobian.transpose() * jacobian,
+                  Eigen::Map<const VectorXd>(base.parameters.data(), base.parameters.size())};
+}
+
+std::vector<double> start_of(const models::Law& extended, std::span<const double> own,
+                             std::size_t count, std::span<const PlacedEffect> effects) {
+  std::vector<double> start(own.begin(), own.begin() + count);
+  for (const PlacedEffect& effect : effects)
+    for (const double value : effects::fitted_values(effect))
+      start.push_back(value);
+  while (start.size() < extended.parameters.size()) // m_limit
+    start.push_back(own.size() > count ? own.back() : extended.parameters[start.size()].start);
+  return start;
+}
+
+models::Law bounded_law(const Campaign& campaign, const Rival& rival) {
+  const std::size_t own = campaign.law.parameters.size();
+  models::Law law = effects::extended_law(campaign.law, campaign.conventions,
+                                          std::span(rival.parameters).first(own), rival.effects,
+                                          campaign.law.name);
+  bound_shapes(law, own, rival.effects, campaign.candidates);
+  return law;
+}
 
 Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
                 std::vector<Cause> causes, std::span<const double> parameters,
@@ -251,23 +251,6 @@ Rival with_effect(const Campaign& campaign, const Rival& from, PlacedEffect effe
   causes.push_back(cause);
   return fit_rival(campaign, from, std::move(effects), std::move(causes), noise, search);
 }
-
-namespace {
-
-// Fits noise to the selected tests if there is a selection, else to all.
-template <class Fit>
-stats::NoiseModel noise_by(const Campaign& campaign, const stats::NoiseData& data, const Fit& fit) {
-  if (!campaign.selection) return fit(data).noise;
-  const auto& rows = campaign.selection->rows;
-  const auto some = [&](const MatrixXd& all) {
-    return all.cols() == 0 ? MatrixXd{} : MatrixXd(all(rows, Eigen::all));
-  };
-  const VectorXd residual = data.residual(rows), tau = data.tau(rows);
-  const MatrixXd fitted = some(data.fitted), nuisance = some(data.nuisance);
-  return fit({residual, tau, campaign.selection->blocks, fitted, nuisance}).noise;
-}
-
-} // namespace
 
 stats::NoiseModel fit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data) {
   return noise_by(campaign, data,
@@ -308,8 +291,8 @@ Rival with_weights(const Campaign& campaign, Rival rival, const stats::NoiseMode
   const LawOnBlocks law(bounded_law(campaign, rival), campaign.conventions,
                         campaign.candidates.by_symbol);
   const stats::Whitener whitener(weights, rival.predicted, campaign.blocks, campaign.nuisance);
-  take_fit(rival, fit_blocks(law, campaign.measured, whitener, rival.parameters,
-                             penalties(campaign, rival), end));
+  static_cast<BlockFit&>(rival) = fit_blocks(law, campaign.measured, whitener, rival.parameters,
+                                             penalties(campaign, rival), end);
   rival.weights = weights;
   take_parameters(rival);
   evaluate(rival, campaign);

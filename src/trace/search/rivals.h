@@ -23,6 +23,11 @@ inline constexpr std::size_t on_mu = 0, on_both = 3;
 // no such site.
 using Sensitivities = std::array<VectorXd, sites.size()>;
 
+// Site at which effects are searched: mu, with the limit where a law has its own.
+inline std::size_t searched_site(const Sensitivities& all) {
+  return all[on_both].size() > 0 ? on_both : on_mu;
+}
+
 // Data and settings that all fits of a campaign share.
 struct Campaign {
   const models::Law& law; // the traced law
@@ -42,17 +47,15 @@ struct Campaign {
 // Returns the campaign of its selected tests; itself where it has no selection.
 Campaign selected(const Campaign& campaign);
 
-// The law with some effects, fitted together with the noise.
-struct Rival {
+// The law with some effects, fitted together with the noise; `parameters` are those of the extended
+// law.
+struct Rival : BlockFit {
   std::vector<effects::PlacedEffect> effects; // with fitted parameters
   std::vector<Cause> causes;                  // one per effect
-  std::vector<double> parameters;             // of the extended law
   std::size_t own = 0; // number of the law's own parameters, which come first
   stats::NoiseModel noise;
   stats::NoiseModel weights; // weights of the fit: the noise model, or equal for all rows
-  VectorXd predicted;
-  MatrixXd jacobian;
-  VectorXd log_likelihood; // per experiment
+  VectorXd log_likelihood;   // per experiment
   double total = 0;
   double freedom = 0; // effective number of parameters; stiff smooths have fewer than knots
   // Total minus the costs of parameters, complexity and implausibility; -infinity where friction

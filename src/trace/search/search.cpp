@@ -172,18 +172,14 @@ Search::Ground::Ground(const TraceInput& in) : input(in), blocks(stats::make_blo
   one_factor = one_factor_at_a_time(state_means(candidates, blocks));
 }
 
-Campaign Search::campaign_on(bool quick) const {
-  const Ground& g = *ground_;
-  return {g.surrogate, g.input.fit.model.conventions,
-          g.blocks,    g.candidates,
-          g.measured,  {},
-          quick,       select_tests(g.blocks, g.candidates, g.input.seed)};
-}
-
 Search::Search(const TraceInput& in, const stats::NoiseModel* earlier) {
   const Progress progress("columns and noise", 0);
   ground_ = std::make_shared<const Ground>(in);
-  Campaign campaign = campaign_on(earlier != nullptr);
+  const Ground& g = *ground_;
+  Campaign campaign{g.surrogate,        in.fit.model.conventions,
+                    g.blocks,           g.candidates,
+                    g.measured,         {},
+                    earlier != nullptr, select_tests(g.blocks, g.candidates, in.seed)};
   const Model& model = in.fit.model;
   const LawOnBlocks law(campaign.law, model.conventions, candidates().by_symbol);
   MatrixXd jacobian;

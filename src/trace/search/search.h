@@ -107,7 +107,6 @@ private:
     double tau_scale_MPa = 1;
     bool one_factor = false;
   };
-  Campaign campaign_on(bool quick) const;
 
   std::shared_ptr<const Ground> ground_;
   std::shared_ptr<const Campaign> campaign_;

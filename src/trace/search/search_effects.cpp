@@ -87,8 +87,9 @@ private:
                Finding& finding) {
     const Rival all = law().last();
     const Cause own = all.causes[index];
+    // A product with a column says more than the column: it is found by itself, or not at all.
     std::erase_if(suspects, [&](const Suspect& other) {
-      return other.cause != own && (is_in(other.cause) || is_product_of(other.cause, own));
+      return other.cause != own && (is_in(other.cause) || other.cause.is_product_with(own));
     });
     if (std::ranges::all_of(suspects, [&](const Suspect& other) { return other.cause == own; })) {
       rename_in_folds(one.cause, own);
@@ -105,11 +106,6 @@ private:
     rename_in_folds(one.cause, cause);
     move_to(cause == own ? all : in_place(rivals.front(), index));
     if (cause != own) move_to(choose_form(law(), law().last(), index).front());
-  }
-
-  // A product with a column says more than the column: it is found by itself, or not at all.
-  static bool is_product_of(const Cause& product, const Cause& cause) {
-    return product.is_joint() && !cause.is_joint() && contains(product.columns, cause.columns[0]);
   }
 
   // Moves the last effect to position `index`.
