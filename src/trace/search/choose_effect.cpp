@@ -80,10 +80,6 @@ void fit_options(const Search& search, const stats::NoiseModel& noise, Options& 
   });
 }
 
-void sort_options(Options& options) {
-  std::ranges::stable_sort(options, {}, &Option::criterion);
-}
-
 Rival rival_of(const Search& search, const Campaign& campaign, const Option& option,
                const stats::NoiseModel& noise) {
   PlacedEffect effect = option.effect;
@@ -168,12 +164,10 @@ public:
     MatrixXd known = search.base().jacobian;
     stats::append_columns(known, search.trained());
     for (std::size_t i = 0; i < winner.effects.size(); ++i) {
-      const VectorXd& sensitivity = search.sensitivities()[site_of(winner.effects[i])];
       // Empty if, with the effects found since, its site no longer changes tau_R anywhere.
+      const VectorXd& sensitivity = search.sensitivities()[site_of(winner.effects[i])];
       if (i != index && sensitivity.size() > 0)
-        stats::append_columns(
-            known, sensitivity.asDiagonal() *
-                       amplitude_basis(winner.effects[i], search.candidates().by_symbol));
+        stats::append_columns(known, basis_of(search, winner.effects[i]));
     }
     whitener_.apply(known);
     known_ = stats::orthonormal(known);
@@ -262,8 +256,7 @@ void keep_promising(double share, std::size_t index, std::vector<Start>& starts,
   const auto promise = [&](std::size_t i) {
     return fits[i].penalised + (1 / share - 1) * fits[i].total;
   };
-  std::ranges::stable_sort(order,
-                           [&](std::size_t a, std::size_t b) { return promise(a) > promise(b); });
+  std::ranges::stable_sort(order, std::greater{}, promise);
   if (order.size() > tuning::most_forms_on_all_tests) order.resize(tuning::most_forms_on_all_tests);
   std::vector<Start> kept;
   for (const std::size_t i : order) {
@@ -301,7 +294,7 @@ std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>
                   search.last().noise, NoiseSearch::again)
           .noise;
   fit_options(search, noise, options);
-  sort_options(options);
+  std::ranges::stable_sort(options, {}, &Option::criterion);
   Options best; // best option of each cause
   for (Option& option : options)
     if (!contains(best, option.cause, &Option::cause) && best.size() < tuning::shortlisted_causes)
