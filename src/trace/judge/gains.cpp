@@ -66,9 +66,9 @@ double excess_kurtosis(const VectorXd& values) {
 double modelled_variance(const Search& search, const Rival& last) {
   const VectorXd residual = search.campaign().measured - last.predicted;
   const MatrixXd& nuisance = search.campaign().nuisance;
-  const stats::NoiseModel noise = refit_campaign_noise(
+  const stats::NoiseModel noise = campaign_noise(
       search.campaign(), {residual, last.predicted, search.blocks(), last.jacobian, nuisance},
-      last.noise);
+      &last.noise);
   return stats::Whitener(noise, last.predicted, search.blocks()).variance().mean() +
          within_blocks(search.input().training, search.blocks());
 }

@@ -25,7 +25,9 @@ public:
                                                 search.tau_scale_MPa())) {}
 
   JointResult find() {
-    const JointData data = offered_data();
+    find_sites();
+    offer_terms();
+    const JointData data = make_data();
     const JointSettings settings = settings_for(data.terms.size());
     const JointPath path = search_jointly(data, offer_, settings);
     JointResult result;
@@ -132,12 +134,6 @@ private:
       ++tests[column.values(s_.first()[e])];
     if (column.levels.empty() || tests.size() < 2) return tests.size() > 1;
     return tests.size() < s_.blocks().experiments();
-  }
-
-  JointData offered_data() {
-    find_sites();
-    offer_terms();
-    return make_data();
   }
 
   void offer_terms() {

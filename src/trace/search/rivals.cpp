@@ -155,7 +155,7 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
     const stats::NoiseData data{residual, rival.predicted, campaign.blocks, rival.jacobian,
                                 campaign.nuisance};
     if (first)
-      rival.noise = refit_campaign_noise(campaign, data, rival.noise);
+      rival.noise = campaign_noise(campaign, data, &rival.noise);
     else if (!campaign.quick)
       rival.noise = stats::refine_noise(data, rival.noise).noise;
     else
@@ -166,19 +166,6 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
   rival.weights = rival.noise;
   evaluate(rival, campaign);
   return rival;
-}
-
-// Fits noise to the selected tests if there is a selection, else to all.
-template <class Fit>
-stats::NoiseModel noise_by(const Campaign& campaign, const stats::NoiseData& data, const Fit& fit) {
-  if (!campaign.selection) return fit(data).noise;
-  const auto& rows = campaign.selection->rows;
-  const auto some = [&](const MatrixXd& all) {
-    return all.cols() == 0 ? MatrixXd{} : MatrixXd(all(rows, Eigen::all));
-  };
-  const VectorXd residual = data.residual(rows), tau = data.tau(rows);
-  const MatrixXd fitted = some(data.fitted), nuisance = some(data.nuisance);
-  return fit({residual, tau, campaign.selection->blocks, fitted, nuisance}).noise;
 }
 
 } // namespace
@@ -252,17 +239,22 @@ Rival with_effect(const Campaign& campaign, const Rival& from, PlacedEffect effe
   return fit_rival(campaign, from, std::move(effects), std::move(causes), noise, search);
 }
 
-stats::NoiseModel fit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data) {
-  return noise_by(campaign, data,
-                  [](const stats::NoiseData& part) { return stats::fit_noise(part); });
-}
-
-stats::NoiseModel refit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data,
-                                       const stats::NoiseModel& earlier) {
-  return noise_by(campaign, data, [&](const stats::NoiseData& part) {
-    return campaign.quick ? stats::refit_noise_coarsely(part, earlier)
-                          : stats::refit_noise(part, earlier);
-  });
+stats::NoiseModel campaign_noise(const Campaign& campaign, const stats::NoiseData& data,
+                                 const stats::NoiseModel* earlier) {
+  const auto fit = [&](const stats::NoiseData& part) {
+    if (!earlier) return stats::fit_noise(part).noise;
+    return (campaign.quick ? stats::refit_noise_coarsely(part, *earlier)
+                           : stats::refit_noise(part, *earlier))
+        .noise;
+  };
+  if (!campaign.selection) return fit(data);
+  const auto& rows = campaign.selection->rows;
+  const auto some = [&](const MatrixXd& all) {
+    return all.cols() == 0 ? MatrixXd{} : MatrixXd(all(rows, Eigen::all));
+  };
+  const VectorXd residual = data.residual(rows), tau = data.tau(rows);
+  const MatrixXd fitted = some(data.fitted), nuisance = some(data.nuisance);
+  return fit({residual, tau, campaign.selection->blocks, fitted, nuisance});
 }
 
 Campaign selected(const Campaign& campaign) {

@@ -87,9 +87,8 @@ Rival with_effect(const Campaign& campaign, const Rival& from, effects::PlacedEf
 
 // Fits the noise of a residual of the campaign's law, to the selected tests where it has a
 // selection: from scratch, or from an earlier fit of a residual that has changed since.
-stats::NoiseModel fit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data);
-stats::NoiseModel refit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data,
-                                       const stats::NoiseModel& earlier);
+stats::NoiseModel campaign_noise(const Campaign& campaign, const stats::NoiseData& data,
+                                 const stats::NoiseModel* earlier = nullptr);
 
 // Penalty matrix of the smooth effects over all parameters, which a fit adds to its normal
 // equations. Empty if no effect is penalised.

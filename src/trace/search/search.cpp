@@ -186,7 +186,7 @@ Search::Search(const TraceInput& in, const stats::NoiseModel* earlier) {
   const VectorXd predicted = law.predict(model.parameters, &jacobian);
   const VectorXd residual = campaign.measured - predicted;
   const stats::NoiseData data{residual, predicted, blocks(), jacobian, trained()};
-  const stats::NoiseModel noise = earlier ? *earlier : fit_campaign_noise(campaign, data);
+  const stats::NoiseModel noise = earlier ? *earlier : campaign_noise(campaign, data);
   base_ = std::make_shared<const Rival>(
       fit_rival(campaign, {}, {}, model.parameters, noise, NoiseSearch::again));
   tie_parameters(campaign, *base_,
