@@ -25,7 +25,7 @@ double from_step_scale(const ParameterRange& range, double moved) {
 // Solves damped and scaled normal equations; independent of the parameters' units.
 VectorXd solve_damped(const NormalEquations& n, const std::vector<Index>& free,
                       const VectorXd& descent, const VectorXd& damping) {
-  const auto size = static_cast<Index>(free.size());
+  const Index size = free.size();
   MatrixXd h(size, size);
   VectorXd g(size), scale(size);
   for (Index a = 0; a < size; ++a)
@@ -109,7 +109,7 @@ private:
     NormalEquations n = problem_.normal_equations(x);
     for (std::size_t i = 0; i < x.size(); ++i)
       if (ranges_[i].by_logarithm) {
-        const auto at = static_cast<Index>(i);
+        const Index at = i;
         n.descent(at) *= x[i];
         n.hessian.row(at) *= x[i];
         n.hessian.col(at) *= x[i];
@@ -122,7 +122,7 @@ private:
   std::vector<Index> free_parameters() const {
     std::vector<Index> free;
     for (std::size_t i = 0; i < x_.size(); ++i) {
-      const auto at = static_cast<Index>(i);
+      const Index at = i;
       const bool low = x_[i] <= ranges_[i].lower && here_.descent(at) < 0;
       const bool high = x_[i] >= ranges_[i].upper && here_.descent(at) > 0;
       if (!low && !high && here_.hessian(at, at) > 0) free.push_back(at);
@@ -134,7 +134,7 @@ private:
   NormalEquations corrected(const std::vector<Index>& free) {
     NormalEquations model = here_;
     if (!options_.learns_curvature) return model;
-    const auto size = static_cast<Index>(free.size());
+    const Index size = free.size();
     MatrixXd h(size, size);
     for (Index a = 0; a < size; ++a)
       for (Index b = 0; b < size; ++b)

@@ -66,7 +66,7 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
     const std::size_t blocks = first[e + 1] - first[e];
     const std::size_t parts = campaign.blocks.count() == 0 ? 1 : std::min(bins, blocks);
     for (std::size_t part = 0; part < parts; ++part) {
-      const auto begin = static_cast<Index>(first[e] + part * blocks / parts);
+      const Index begin = first[e] + part * blocks / parts;
       const auto size = static_cast<Index>(first[e] + (part + 1) * blocks / parts) - begin;
       const VectorXd s = sensitivity.segment(begin, size);
       if (!(s.squaredNorm() > tuning::felt_share_of_squares * sensitivity.squaredNorm() /

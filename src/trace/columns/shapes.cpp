@@ -311,7 +311,7 @@ std::vector<const double*> inputs_on(const PlacedEffect& effect, const BlockColu
 
 MatrixXd roughness_of(const PlacedEffect& effect) {
   const std::vector<double> rows = effect.form->penalty(effect);
-  const auto size = static_cast<Index>(effects::amplitudes_of(effect));
+  const Index size = effects::amplitudes_of(effect);
   return Eigen::Map<const MatrixXd>(rows.data(), size, size); // symmetric
 }
 

@@ -64,7 +64,7 @@ std::vector<double> knots_of(const VectorXd& z) {
 // Values at z of the natural cubic splines that are 1 at one knot and 0 at the others; one column
 // per knot.
 MatrixXd cardinal_splines(const VectorXd& z, const std::vector<double>& knots) {
-  const auto n = static_cast<Index>(knots.size());
+  const Index n = knots.size();
   const auto gap = [&](Index i) { return knots[i + 1] - knots[i]; };
   // Second derivatives at inner knots (Green and Silverman 1994, 2.3.3): R m = Q' f.
   MatrixXd r = MatrixXd::Zero(n - 2, n - 2), q = MatrixXd::Zero(n - 2, n);
@@ -94,7 +94,7 @@ MatrixXd cardinal_splines(const VectorXd& z, const std::vector<double>& knots) {
 MatrixXd bends_of(const VectorXd& z) {
   const std::vector<double> knots = knots_of(z);
   if (knots.size() < 3) return MatrixXd(z.size(), 0);
-  const auto n = static_cast<Index>(knots.size());
+  const Index n = knots.size();
   const std::vector<double> rough = effects::spline_roughness(knots);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
       Eigen::Map<const MatrixXd>(rough.data(), n, n));

@@ -144,7 +144,7 @@ TestGains test_gains(const data::Dataset& data, std::span<const double> predicte
       all += weight;
       means[p] /= weight;
     }
-    const auto at = static_cast<Index>(e);
+    const Index at = e;
     out.gain(at) = sum / all;
     if (parts < tuning::fewest_gain_parts) {
       unknown.push_back(e);

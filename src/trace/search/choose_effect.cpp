@@ -52,7 +52,7 @@ void start_at(const stats::SmoothFit& fit, PlacedEffect& effect) {
 }
 
 Option option_of(const Cause& cause, PlacedEffect effect) {
-  const auto count = static_cast<Index>(effects::amplitudes_of(effect));
+  const Index count = effects::amplitudes_of(effect);
   const MatrixXd penalty =
       effect.form->penalty ? roughness_of(effect)
                            : tuning::penalty_of_plain_amplitudes * MatrixXd::Identity(count, count);

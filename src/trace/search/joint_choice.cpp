@@ -30,7 +30,7 @@ public:
     JointChoice choice;
     take_folds(fold_of, choice);
     if (path_.steps.empty()) return choice;
-    const auto tests = static_cast<Index>(fold_of.size());
+    const Index tests = fold_of.size();
     Errors before(tests, 2), after(tests, 2);
     const JointData weighted = data_.weighted(path_.weights);
     const Progress progress("searching without some tests", choice.folds.size());
@@ -77,7 +77,7 @@ private:
                   Errors& errors) const {
     const VectorXd left = data.residual(fit);
     for (const std::size_t t : out) {
-      const auto at = static_cast<Index>(t);
+      const Index at = t;
       errors(at, 0) = modes_.mean_size(left, t);
       double score = 0;
       const auto& places = modes_.of_test(t);

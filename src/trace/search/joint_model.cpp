@@ -261,7 +261,7 @@ std::vector<JointModel::CrossColumn> JointModel::columns_of(const JointFit& fit)
 }
 
 JointModel::Cross JointModel::products_of(const JointFit& fit) const {
-  const auto count = static_cast<Index>(fit.columns.size());
+  const Index count = fit.columns.size();
   Cross all;
   all.fill(MatrixXd(count, count));
   Index at = 0;
@@ -292,7 +292,7 @@ JointFit JointModel::solve(const std::vector<SizedTerm>& terms, const ByClass& v
   }
   const ByClass weight = weights(fit);
   const std::array<MatrixXd, mode_classes> own = products_of(fit);
-  const auto coefficients = static_cast<Index>(fit.columns.size());
+  const Index coefficients = fit.columns.size();
   MatrixXd normal = MatrixXd::Zero(coefficients, coefficients);
   VectorXd along = VectorXd::Zero(coefficients), penalty(coefficients);
   for (std::size_t c = 0; c < mode_classes; ++c)
@@ -397,7 +397,7 @@ JointModel::Beside JointModel::beside(const JointFit& fit) const {
 
 JointModel::OfTerm JointModel::of_term(const Beside& beside, std::size_t term) const {
   const JointTerm& at = data_.terms[term];
-  const auto count = static_cast<Index>(beside.columns.size());
+  const Index count = beside.columns.size();
   OfTerm out;
   MatrixXd weighted = MatrixXd::Zero(at.count, count);
   for (std::size_t c = 0; c < mode_classes; ++c) {

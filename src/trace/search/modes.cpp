@@ -13,7 +13,7 @@ namespace {
 
 // First row: the mean; other rows: orthonormal cosines.
 MatrixXd waves_of(std::size_t pieces) {
-  const auto n = static_cast<Index>(pieces);
+  const Index n = pieces;
   MatrixXd waves = MatrixXd::Constant(n, n, 1 / static_cast<double>(pieces));
   for (Index k = 1; k < n; ++k)
     for (Index i = 0; i < n; ++i)

@@ -196,7 +196,7 @@ OrderTest test_order(const MatrixXd& scores, std::vector<std::size_t> order,
   for (Index i = 0; i < z.rows(); ++i)
     for (int w = 0; w < tuning::order_test_waves; ++w)
       waves(i, w) = wave(i, w + 1, order.size());
-  const auto all_count = static_cast<Index>(permutations + 1);
+  const Index all_count = permutations + 1;
   MatrixXd all(all_count, 3 * z.cols());
   all.row(0) = structures(z, order, waves); // the true order
   Random random(seed, order_stream);

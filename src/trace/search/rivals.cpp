@@ -47,7 +47,7 @@ Penalty penalties(const Campaign& campaign, const Rival& rival) {
     return std::ranges::any_of(campaign.candidates.of(cause), &CandidateColumn::in_law);
   };
   if (own == 0 || std::ranges::none_of(rival.causes, of_the_law)) return all;
-  const auto count = static_cast<Index>(rival.parameters.size());
+  const Index count = rival.parameters.size();
   if (all.matrix.size() == 0) all.matrix = MatrixXd::Zero(count, count);
   all.centre = VectorXd::Zero(count);
   all.matrix.topLeftCorner(own, own) += campaign.own.matrix;
@@ -57,7 +57,7 @@ Penalty penalties(const Campaign& campaign, const Rival& rival) {
 
 // Effective number of parameters: penalised ones count by their remaining freedom.
 double freedom_of(const Rival& rival, const stats::Whitener& whitener) {
-  const auto count = static_cast<Index>(rival.parameters.size());
+  const Index count = rival.parameters.size();
   const MatrixXd penalty = penalty_of(rival);
   if (penalty.size() == 0) return static_cast<double>(count);
   MatrixXd jacobian = rival.jacobian;
@@ -172,13 +172,13 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
 
 MatrixXd penalty_of(const Rival& rival) {
   MatrixXd all;
-  const auto count = static_cast<Index>(rival.parameters.size());
+  const Index count = rival.parameters.size();
   for (std::size_t i = 0; i < rival.effects.size(); ++i) {
     const PlacedEffect& effect = rival.effects[i];
     if (!effect.form->penalty || !(effect.stiffness > 0)) continue;
     if (all.size() == 0) all = MatrixXd::Zero(count, count);
     const MatrixXd one = roughness_of(effect);
-    const auto first = static_cast<Index>(first_parameter(rival, i));
+    const Index first = first_parameter(rival, i);
     all.block(first, first, one.rows(), one.cols()) = effect.stiffness * one;
   }
   return all;

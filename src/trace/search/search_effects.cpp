@@ -118,10 +118,7 @@ private:
                      NoiseSearch::again);
   }
 
-  bool is_in(const Cause& cause) const {
-    const std::vector<Cause>& in = law().last().causes;
-    return contains(in, cause);
-  }
+  bool is_in(const Cause& cause) const { return contains(law().last().causes, cause); }
 
   // Renames a cause in folds that have found the same one, because it would have been replaced
   // there too.
