@@ -23,19 +23,19 @@ double median_rows(const Blocks& blocks) {
   std::vector<double> all;
   for (std::size_t b = 0; b < blocks.count(); ++b)
     all.push_back(blocks.rows(b));
-  std::nth_element(all.begin(), all.begin() + static_cast<long>(all.size() / 2), all.end());
+  std::nth_element(all.begin(), all.begin() + all.size() / 2, all.end());
   return all[all.size() / 2];
 }
 
 Eigen::VectorXd block_positions(const Blocks& blocks) {
-  Eigen::VectorXd at(static_cast<Index>(blocks.count()));
+  Eigen::VectorXd at(blocks.count());
   const auto& row = blocks.first_row;
   for (std::size_t e = 0; e < blocks.experiments(); ++e) {
     const double begin = static_cast<double>(row[blocks.first[e]]);
     const double length = static_cast<double>(row[blocks.first[e + 1]]) - begin;
     for (std::size_t b = blocks.first[e]; b < blocks.first[e + 1]; ++b) {
       const double middle = 0.5 * static_cast<double>(row[b] + row[b + 1]);
-      at(static_cast<Index>(b)) = (middle - begin) / length - 0.5;
+      at(b) = (middle - begin) / length - 0.5;
     }
   }
   return at;
@@ -44,31 +44,26 @@ Eigen::VectorXd block_positions(const Blocks& blocks) {
 } // namespace
 
 double Blocks::rows(std::size_t block) const {
-  const auto begin = static_cast<long>(first_row[block]),
-             end = static_cast<long>(first_row[block + 1]);
+  const std::size_t begin = first_row[block], end = first_row[block + 1];
   if (weights.empty()) return static_cast<double>(end - begin);
   return std::accumulate(weights.begin() + begin, weights.begin() + end, 0.0);
 }
 
 Eigen::VectorXd Blocks::mean(std::span<const double> per_row) const {
-  Eigen::VectorXd means(static_cast<Index>(count()));
+  Eigen::VectorXd means(count());
   for (std::size_t b = 0; b < count(); ++b) {
     double sum = 0;
     for (std::size_t i = first_row[b]; i < first_row[b + 1]; ++i)
       sum += weights.empty() ? per_row[i] : weights[i] * per_row[i];
-    means(static_cast<Index>(b)) = sum / rows(b);
+    means(b) = sum / rows(b);
   }
   return means;
 }
 
 Eigen::MatrixXd Blocks::experiment_means(const Eigen::MatrixXd& per_block) const {
-  Eigen::MatrixXd means(static_cast<Index>(experiments()), per_block.cols());
+  Eigen::MatrixXd means(experiments(), per_block.cols());
   for (std::size_t e = 0; e < experiments(); ++e)
-    means.row(static_cast<Index>(e)) =
-        per_block
-            .middleRows(static_cast<Index>(first[e]), static_cast<Index>(first[e + 1] - first[e]))
-            .colwise()
-            .mean();
+    means.row(e) = rows_of(per_block, e).colwise().mean();
   return means;
 }
 

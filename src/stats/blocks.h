@@ -27,6 +27,13 @@ struct Blocks {
   std::size_t count() const { return first.back(); }
   std::size_t experiments() const { return first.size() - 1; }
   double rows(std::size_t block) const;
+  // Returns the part of a vector over blocks, or of the rows of a matrix, of one experiment.
+  template <class Vector> auto part(Vector&& vector, std::size_t experiment) const {
+    return vector.segment(first[experiment], first[experiment + 1] - first[experiment]);
+  }
+  template <class Matrix> auto rows_of(Matrix&& matrix, std::size_t experiment) const {
+    return matrix.middleRows(first[experiment], first[experiment + 1] - first[experiment]);
+  }
   // Returns the mean of the rows of each block.
   Eigen::VectorXd mean(std::span<const double> per_row) const;
   // Returns the mean of the blocks of each experiment.

@@ -25,7 +25,7 @@ double from_step_scale(const ParameterRange& range, double moved) {
 // Solves damped and scaled normal equations; independent of the parameters' units.
 VectorXd solve_damped(const NormalEquations& n, const std::vector<Index>& free,
                       const VectorXd& descent, const VectorXd& damping) {
-  const auto size = static_cast<Index>(free.size());
+  const Index size = free.size();
   MatrixXd h(size, size);
   VectorXd g(size), scale(size);
   for (Index a = 0; a < size; ++a)
@@ -109,7 +109,7 @@ private:
     NormalEquations n = problem_.normal_equations(x);
     for (std::size_t i = 0; i < x.size(); ++i)
       if (ranges_[i].by_logarithm) {
-        const auto at = static_cast<Index>(i);
+        const Index at = i;
         n.descent(at) *= x[i];
         n.hessian.row(at) *= x[i];
         n.hessian.col(at) *= x[i];
@@ -122,7 +122,7 @@ private:
   std::vector<Index> free_parameters() const {
     std::vector<Index> free;
     for (std::size_t i = 0; i < x_.size(); ++i) {
-      const auto at = static_cast<Index>(i);
+      const Index at = i;
       const bool low = x_[i] <= ranges_[i].lower && here_.descent(at) < 0;
       const bool high = x_[i] >= ranges_[i].upper && here_.descent(at) > 0;
       if (!low && !high && here_.hessian(at, at) > 0) free.push_back(at);
@@ -134,7 +134,7 @@ private:
   NormalEquations corrected(const std::vector<Index>& free) {
     NormalEquations model = here_;
     if (!options_.learns_curvature) return model;
-    const auto size = static_cast<Index>(free.size());
+    const Index size = free.size();
     MatrixXd h(size, size);
     for (Index a = 0; a < size; ++a)
       for (Index b = 0; b < size; ++b)
@@ -198,7 +198,7 @@ private:
         const double here = to_step_scale(ranges_[i], x_[i]),
                      low = to_step_scale(ranges_[i], ranges_[i].lower),
                      high = to_step_scale(ranges_[i], ranges_[i].upper);
-        const double wanted = here + part(static_cast<Index>(a));
+        const double wanted = here + part(a);
         if (!options_.clamps_at_bounds && (wanted < low || wanted > high))
           step(free[a]) = std::clamp(wanted, low, high) - here;
         else
@@ -206,14 +206,14 @@ private:
       }
       if (inside.size() == free.size()) {
         for (std::size_t a = 0; a < free.size(); ++a)
-          step(free[a]) = part(static_cast<Index>(a));
+          step(free[a]) = part(a);
         break;
       }
       free = std::move(inside);
     }
     Trial trial{x_, step.dot(model.descent) - 0.5 * step.dot(model.hessian * step), {}};
     for (std::size_t i = 0; i < x_.size(); ++i)
-      if (const double move = step(static_cast<Index>(i)); move != 0)
+      if (const double move = step(i); move != 0)
         trial.to[i] = from_step_scale(ranges_[i], to_step_scale(ranges_[i], x_[i]) + move);
     return trial;
   }

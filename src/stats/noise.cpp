@@ -58,7 +58,7 @@ Whitener::Whitener(const NoiseModel& noise, const VectorXd& tau, const Blocks& b
   VectorXd white(tau.size());
   const double usual = blocks.usual_rows, white2 = noise.white * noise.white;
   for (Index b = 0; b < white.size(); ++b)
-    white(b) = white2 * usual / blocks.rows(static_cast<std::size_t>(b));
+    white(b) = white2 * usual / blocks.rows(b);
   MatrixXd effects(tau.size(), 2);
   effects.col(0) = noise.gain * tau;
   effects.col(1) = noise.slope * tau.cwiseProduct(blocks.position);
@@ -67,12 +67,11 @@ Whitener::Whitener(const NoiseModel& noise, const VectorXd& tau, const Blocks& b
       (effects.rowwise().squaredNorm().array() + d.square() * (slow + white.array())).matrix();
   gain_.resize(blocks.count());
   scale_.resize(blocks.count());
-  log_det_.resize(static_cast<Index>(blocks.experiments()));
+  log_det_.resize(blocks.experiments());
   for (std::size_t e = 0; e < blocks.experiments(); ++e) {
-    const auto count = static_cast<Index>(blocks.first[e + 1] - blocks.first[e]);
-    parts_.push_back({static_cast<Index>(blocks.first[e]), count,
-                      std::exp(-1 / (static_cast<double>(count) * noise.length))});
-    log_det_(static_cast<Index>(e)) = make_filter(parts_.back(), white, slow);
+    const Index first = blocks.first[e], count = blocks.first[e + 1] - blocks.first[e];
+    parts_.push_back({first, count, std::exp(-1 / (static_cast<double>(count) * noise.length))});
+    log_det_(e) = make_filter(parts_.back(), white, slow);
   }
   filter(effects);
   for (std::size_t e = 0; e < parts_.size(); ++e) {
@@ -80,8 +79,7 @@ Whitener::Whitener(const NoiseModel& noise, const VectorXd& tau, const Blocks& b
     const TestEffects both = test_effects(effects.middleRows(part.first, part.size));
     q_.push_back(both.q);
     qc_.emplace_back(both.q * both.c.asDiagonal());
-    log_det_(static_cast<Index>(e)) +=
-        both.log_det - 2 * shrink_.segment(part.first, part.size).array().log().sum();
+    log_det_(e) += both.log_det - 2 * shrink_.segment(part.first, part.size).array().log().sum();
   }
   if (nuisance.cols() == 0) return;
   MatrixXd whitened = nuisance;
@@ -94,8 +92,8 @@ double Whitener::make_filter(const Part& part, const VectorXd& white, double slo
   for (Index i = part.first; i < part.first + part.size; ++i) {
     const double innovation = predicted + white(i);
     const double gain = predicted / innovation;
-    gain_[static_cast<std::size_t>(i)] = gain;
-    scale_[static_cast<std::size_t>(i)] = 1 / std::sqrt(innovation);
+    gain_[i] = gain;
+    scale_[i] = 1 / std::sqrt(innovation);
     log_det += std::log(innovation);
     predicted = part.rho * part.rho * predicted * (1 - gain) + slow * (1 - part.rho * part.rho);
   }

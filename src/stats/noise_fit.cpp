@@ -42,9 +42,7 @@ std::vector<BlockShape> shapes_of(const Blocks& blocks) {
       share.push_back(blocks.usual_rows / blocks.rows(b));
     const auto [shape, is_new] = known.emplace(std::move(share), shapes.size());
     if (is_new)
-      shapes.push_back(
-          {Eigen::Map<const VectorXd>(shape->first.data(), static_cast<Index>(shape->first.size())),
-           {}});
+      shapes.push_back({Eigen::Map<const VectorXd>(shape->first.data(), shape->first.size()), {}});
     shapes[shape->second].experiments.push_back(e);
   }
   return shapes;
@@ -89,11 +87,8 @@ public:
     columns.col(fitted_ + 1) = data.tau.array() / d;
     columns.col(fitted_ + 2) = data.tau.array() * data.blocks.position.array() / d;
     log_d_ = d.log().sum();
-    for (std::size_t e = 0; e < data.blocks.experiments(); ++e) {
-      const auto begin = static_cast<Index>(data.blocks.first[e]);
-      columns_.emplace_back(
-          columns.middleRows(begin, static_cast<Index>(data.blocks.first[e + 1]) - begin));
-    }
+    for (std::size_t e = 0; e < data.blocks.experiments(); ++e)
+      columns_.emplace_back(data.blocks.rows_of(columns, e));
   }
 
   // Without the constant.
@@ -101,7 +96,7 @@ public:
     const double slow = noise.slow * noise.slow, white = noise.white * noise.white;
     const Index own = fitted_ + 1;
     MatrixXd normal = MatrixXd::Zero(own, own); // lower triangle only
-    MatrixXd random(own, 2 * static_cast<Index>(columns_.size()));
+    MatrixXd random(own, 2 * columns_.size());
     Index next = 0;
     double log_det = 0;
     for (const Turned& turned : at_length(noise.length)) {
@@ -209,7 +204,7 @@ private:
 class NoiseFitter {
 public:
   NoiseFitter(const NoiseData& data, double growth)
-      : searched_(data.slope ? 4 : 3), base_(base_of(data, growth)), likelihood_(data, base_) {
+      : base_(base_of(data, growth)), likelihood_(data, base_) {
     const double left =
         std::sqrt(data.residual.squaredNorm() / static_cast<double>(data.residual.size()));
     size_ = std::max(left / base_.scale, 1e-12);
@@ -225,7 +220,7 @@ public:
     for (const int way : {-1, 1}) {
       NoiseFit here = from;
       for (int l = middle + way; l >= 0 && l < static_cast<int>(slow_lengths.size()); l += way) {
-        here = fit(slow_lengths[static_cast<std::size_t>(l)], logs(here.noise), close);
+        here = fit(slow_lengths[l], logs(here.noise), close);
         consider(here, best);
       }
     }
@@ -234,10 +229,9 @@ public:
 
   // Starts from an earlier fit, at its length and the two neighbouring ones, and from scratch.
   NoiseFit around(const NoiseModel& earlier) const {
-    const auto at =
-        std::min_element(slow_lengths.begin(), slow_lengths.end(), [&](double a, double b) {
-          return std::abs(std::log(a / earlier.length)) < std::abs(std::log(b / earlier.length));
-        });
+    const auto at = std::ranges::min_element(slow_lengths, [&](double a, double b) {
+      return std::abs(std::log(a / earlier.length)) < std::abs(std::log(b / earlier.length));
+    });
     NoiseFit best = fit(*at, logs(earlier), close);
     consider(fit(*at, usual, far), best);
     const NoiseFit from = best;
@@ -259,6 +253,7 @@ public:
 private:
   using Logs = std::vector<double>;
   // Logarithms of gain, slow, white, slope.
+  static constexpr std::size_t searched = 4;
   const Logs usual = {-0.5, -1, -1, -1.5}, mostly_slow = {-2.5, -0.5, -1, -2.5};
   static constexpr double far = 0.5, close = 0.1;     // first steps
   static constexpr double tight = 1e-9, loose = 1e-2; // in log likelihood
@@ -280,7 +275,7 @@ private:
     NoiseModel noise = base_;
     noise.length = length;
     double* values[] = {&noise.gain, &noise.slow, &noise.white, &noise.slope};
-    for (std::size_t i = 0; i < searched_; ++i)
+    for (std::size_t i = 0; i < searched; ++i)
       *values[i] = size_ * std::exp(x[i]);
     return noise;
   }
@@ -293,14 +288,13 @@ private:
   }
 
   NoiseFit fit(double length, Logs start, double first_step, double tolerance = tight) const {
-    start.resize(searched_);
     const LogMinimum least =
         least_criterion([&](std::span<const double> x,
                             std::span<double>) { return likelihood_.criterion(model(x, length)); },
                         std::move(start),
-                        {.low = Logs(searched_, least_log - 0.01),
-                         .high = Logs(searched_, most_log + 0.01),
-                         .prior = {Logs(searched_, 0.0), prior_precision},
+                        {.low = Logs(searched, least_log - 0.01),
+                         .high = Logs(searched, most_log + 0.01),
+                         .prior = {Logs(searched, 0.0), prior_precision},
                          .first_step = first_step,
                          .tolerance = tolerance,
                          .log_tolerance = std::max(10 * tolerance, 1e-6),
@@ -308,7 +302,6 @@ private:
     return {model(least.logs, length), -least.criterion - likelihood_.constant()};
   }
 
-  std::size_t searched_; // number of optimised logarithms; the slope is the last
   NoiseModel base_;
   Likelihood likelihood_;
   double size_; // of the residual, relative to the stress

@@ -25,9 +25,6 @@ struct NoiseData {
   const Blocks& blocks;
   const Eigen::MatrixXd& fitted;   // directions of the parameters that were fitted
   const Eigen::MatrixXd& nuisance; // further directions that count as fitted; may have no columns
-  // false: experiments have no slope of their own. For a screening, which tests only structure
-  // shared by experiments: a free slope in each would hide a slope that all of them share.
-  bool slope = true;
 };
 
 struct NoiseFit {

@@ -59,7 +59,7 @@ double scoring_step(Estimates all, double variance) {
 
 bool has_pairs(Estimates all) {
   const std::vector<Sums> groups = sums_of(all, 1);
-  return std::any_of(groups.begin(), groups.end(), [](const Sums& s) { return s.count > 1; });
+  return std::ranges::any_of(groups, [](const Sums& s) { return s.count > 1; });
 }
 
 // Plain variance about the group means, from which the scoring starts.
@@ -99,6 +99,38 @@ std::vector<Estimate> in_one_group(Estimates estimates) {
   for (Estimate& one : all)
     one.group = 0;
   return all;
+}
+
+constexpr std::size_t most_candidates = 100;
+
+std::vector<std::size_t> furthest(Estimates all) {
+  const RandomEffects summary = random_effects(all);
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double variance =
+        all[i].std_error * all[i].std_error + summary.between_sd * summary.between_sd;
+    order.emplace_back(-std::abs(all[i].value - summary.mean) / std::sqrt(variance), i);
+  }
+  const std::size_t n = std::min(order.size(), most_candidates);
+  std::partial_sort(order.begin(), order.begin() + n, order.end());
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < n; ++i)
+    indices.push_back(order[i].second);
+  return indices;
+}
+
+Outlier against_others(Estimates all, std::size_t i) {
+  std::vector<Estimate> rest(all.begin(), all.end());
+  rest.erase(rest.begin() + i);
+  Outlier one{all[i], random_effects(rest), 1};
+  const RandomEffects& others = one.others;
+  const double degrees = static_cast<double>(rest.size()) - 1;
+  const double mean_error = (others.interval.high - others.mean) / t_975(degrees);
+  const double variance = all[i].std_error * all[i].std_error +
+                          others.between_sd * others.between_sd + mean_error * mean_error;
+  const double t = std::abs(all[i].value - others.mean) / std::sqrt(variance);
+  one.p_value = std::min(1.0, 2 * gsl_cdf_tdist_Q(t, degrees) * static_cast<double>(all.size()));
+  return one;
 }
 
 } // namespace
@@ -141,42 +173,6 @@ RandomEffects random_effects(Estimates estimates) {
   out.predicted = around(out.mean, t_975(degrees - 1) * std::sqrt(variance + mean_variance));
   return out;
 }
-
-namespace {
-
-constexpr std::size_t most_candidates = 100;
-
-std::vector<std::size_t> furthest(Estimates all) {
-  const RandomEffects summary = random_effects(all);
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const double variance =
-        all[i].std_error * all[i].std_error + summary.between_sd * summary.between_sd;
-    order.emplace_back(-std::abs(all[i].value - summary.mean) / std::sqrt(variance), i);
-  }
-  const std::size_t n = std::min(order.size(), most_candidates);
-  std::partial_sort(order.begin(), order.begin() + static_cast<long>(n), order.end());
-  std::vector<std::size_t> indices;
-  for (std::size_t i = 0; i < n; ++i)
-    indices.push_back(order[i].second);
-  return indices;
-}
-
-Outlier against_others(Estimates all, std::size_t i) {
-  std::vector<Estimate> rest(all.begin(), all.end());
-  rest.erase(rest.begin() + static_cast<long>(i));
-  Outlier one{all[i], random_effects(rest), 1};
-  const RandomEffects& others = one.others;
-  const double degrees = static_cast<double>(rest.size()) - 1;
-  const double mean_error = (others.interval.high - others.mean) / t_975(degrees);
-  const double variance = all[i].std_error * all[i].std_error +
-                          others.between_sd * others.between_sd + mean_error * mean_error;
-  const double t = std::abs(all[i].value - others.mean) / std::sqrt(variance);
-  one.p_value = std::min(1.0, 2 * gsl_cdf_tdist_Q(t, degrees) * static_cast<double>(all.size()));
-  return one;
-}
-
-} // namespace
 
 std::vector<Outlier> outliers(Estimates estimates) {
   std::vector<Outlier> found;

@@ -73,7 +73,7 @@ std::vector<ErrorSums> by_recording(std::span<const ErrorSums> sums) {
 
 void resample(std::uint64_t seed, std::size_t index, std::span<double> times) {
   Random random(seed, 0x6d65747269630000 + index);
-  std::fill(times.begin(), times.end(), 0.0);
+  std::ranges::fill(times, 0.0);
   for (std::size_t e = 0; e < times.size(); ++e)
     ++times[random.below(times.size())];
 }
@@ -105,7 +105,7 @@ double standard_error(std::span<const double> influence, std::span<const double>
 }
 
 double quantile_of(std::vector<double>& values, double share) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const double x = share * static_cast<double>(values.size() - 1);
   const auto i = static_cast<std::size_t>(x);
   const double next = values[std::min(i + 1, values.size() - 1)];

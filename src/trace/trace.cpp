@@ -10,7 +10,6 @@
 #include "calibrate/band.h"
 #include "calibrate/comparison.h"
 #include "calibrate/experiment_errors.h"
-#include "calibrate/input_columns.h"
 #include "calibrate/metrics.h"
 #include "core/no_value.h"
 #include "core/progress.h"
@@ -21,9 +20,9 @@
 #include "trace/advise/leads.h"
 #include "trace/columns/aliases.h"
 #include "trace/judge/delivery.h"
+#include "trace/judge/gains.h"
 #include "trace/judge/refit_traced.h"
-#include "trace/judge/scatter.h"
-#include "trace/judge/uncertainty.h"
+#include "trace/judge/rows_alike.h"
 #include "trace/judge/verdict.h"
 #include "trace/search/order_search.h"
 #include "trace/tuning.h"
@@ -63,7 +62,7 @@ Trace what_was_tried(const Found& found) {
   trace.n_flips = found.leftover.flips;
   trace.smallest_seen = found.leftover.smallest_seen;
   for (const Seen& seen : found.leftover.seen) {
-    const CandidateColumn& column = search.candidates().columns[seen.cause.columns[0]];
+    const CandidateColumn& column = search.candidates().first_of(seen.cause);
     const double size = seen.identifiable ? seen.size : 0;
     if (!seen.identifiable) trace.not_identifiable.push_back(column.name);
     trace.detectable.push_back({column.name, column.derived ? column.name : "", effects::ActsOn::mu,
@@ -72,36 +71,31 @@ Trace what_was_tried(const Found& found) {
   return trace;
 }
 
-calibrate::Metrics errors_of(const TraceInput& in, const data::Dataset& data,
-                             const std::vector<double>& predicted) {
-  return calibrate::metrics(data, predicted, in.bootstrap, in.seed);
-}
-
 // Judges on the validation tests like all other laws, however few; without any, on left-out
 // training tests.
 void judge(calibrate::ModelFit& fit, const TraceInput& in, const Delivery& delivery) {
   if (!in.searched.empty()) {
     std::vector<stats::ErrorSums> sums;
     for (std::size_t i = 0; i < in.searched.size(); ++i) {
-      sums.push_back(delivery.unseen[in.searched[i]]);
+      sums.push_back(delivery.unseen_sums[in.searched[i]]);
       fit.unseen.push_back(
           calibrate::error_of(in.validation.experiments[i], true, sums.back(), no_value));
     }
     fit.validation = calibrate::metrics(sums, in.bootstrap, in.seed);
     for (std::size_t e = 0; e < in.training.experiments.size(); ++e)
       fit.over_all.push_back(
-          calibrate::error_of(in.training.experiments[e], true, delivery.unseen[e], no_value));
+          calibrate::error_of(in.training.experiments[e], true, delivery.unseen_sums[e], no_value));
     fit.band = calibrate::check_band(fit.model, {}, in.training.subset({}));
   } else if (in.validation.experiments.empty()) {
     fit.validation = delivery.after.validation;
     fit.band = calibrate::check_band(fit.model, {}, in.validation);
-    if (delivery.nested.folds == 0) fit.unseen = in.fit.unseen;
+    if (delivery.left_out.folds == 0) fit.unseen = in.fit.unseen;
     for (std::size_t e = 0; fit.unseen.size() < in.training.experiments.size(); ++e)
       fit.unseen.push_back(
-          calibrate::error_of(in.training.experiments[e], true, delivery.unseen[e], no_value));
+          calibrate::error_of(in.training.experiments[e], true, delivery.unseen_sums[e], no_value));
   } else {
     const std::vector<double> unseen = calibrate::predict(fit.model, in.validation);
-    fit.validation = errors_of(in, in.validation, unseen);
+    fit.validation = calibrate::metrics(in.validation, unseen, in.bootstrap, in.seed);
     fit.band = calibrate::check_band(fit.model, unseen, in.validation);
   }
 }
@@ -114,20 +108,11 @@ calibrate::ModelFit fit_of(const Found& found, const Delivery& delivery,
   calibrate::ModelFit fit;
   if (rival.effects.empty() && !found.order.found) return fit;
   fit.model = found.search.model_of(rival);
-  fit.std_error = uncertainty.std_error;
-  fit.model.covariance = calibrate::row_by_row(calibrate::known_covariance(uncertainty));
-  fit.remarks = uncertainty.remarks;
-  fit.std_error_method = "cluster sandwich by experiment";
   fit.termination = rival.weights.gain > 0
                         ? "generalised least squares under the noise model of the trace"
                         : "least squares, which predicts left-out experiments better here than "
                           "the noise model's weights";
-  const models::AssembledLaw law(fit.model);
-  const auto [columns, trained] = calibrate::predict_with_columns(law, law.inputs, in.training);
-  fit.data_range = columns.ranges();
-  fit.training = errors_of(in, in.training, trained);
-  fit.model.experiment_gains = calibrate::gains_of_new_experiments(
-      calibrate::experiment_gains(in.training, trained), fit.model.parameters.size());
+  add_fitted_tests(fit, uncertainty, in.training, in);
   judge(fit, in, delivery);
   if (in.all) fit.on_all = refit_traced(found, delivery, *in.all);
   return fit;
@@ -147,15 +132,14 @@ std::vector<TracedParameter> parameters_of(const effects::PlacedEffect& placed,
                       fit.model.law->parameters[first + p].unit, uncertainty.why_none[first + p]});
   const std::vector<models::Parameter> all = effects::parameters_of(placed);
   for (std::size_t p = 0; p < all.size(); ++p)
-    if (std::none_of(fitted.begin(), fitted.end(),
-                     [&](const models::Parameter& one) { return one.name == all[p].name; }))
+    if (!contains(fitted, all[p].name, &models::Parameter::name))
       traced.push_back(
           {all[p].name, placed.parameters[p], no_value, effects::unit_of(all[p], placed), ""});
   return traced;
 }
 
 std::vector<Alternative> alternatives_of(const Finding& finding, const Candidates& candidates) {
-  const std::string name = cause_name(finding.rival.causes.back(), candidates);
+  const std::string name = cause_name(finding.cause(), candidates);
   std::vector<Alternative> alternatives;
   for (std::size_t i = 0; i < std::min(finding.others.size(), alternatives_shown); ++i) {
     const Rival& other = finding.others[i];
@@ -179,7 +163,7 @@ std::vector<TracedEffect> effects_of(const Found& found, const Delivery& deliver
   std::vector<TracedEffect> traced;
   for (std::size_t i = 0; i < rival.effects.size(); ++i) {
     const Finding& finding = found.findings[delivery.findings[i]];
-    const Cause& cause = finding.rival.causes.back();
+    const Cause& cause = finding.cause();
     TracedEffect& effect = traced.emplace_back();
     effect.placed = rival.effects[i];
     const Lead names = lead_of(rival.causes[i], search.candidates());
@@ -187,16 +171,15 @@ std::vector<TracedEffect> effects_of(const Found& found, const Delivery& deliver
     effect.derived = names.derived;
     effect.between = finding.between;
     effect.p_value = finding.p_value;
-    const std::size_t parameter = first_parameter(rival, i);
-    effect.parameters = parameters_of(effect.placed, fit, uncertainty, parameter);
+    effect.parameters = parameters_of(effect.placed, fit, uncertainty, first_parameter(rival, i));
     effect.alternatives = alternatives_of(finding, search.candidates());
     effect.design = design_for(search, finding);
     effect.order_confounded = may_stand_for_time(found, cause);
     if (effect.order_confounded && effect.design.tests.empty())
       effect.design = design_in_turn(search, cause);
     effect.gain_MPa = delivery.gain_MPa[i];
-    effect.curve = effect_curve(search.campaign(), rival, search.sensitivities(), i, parameter,
-                                uncertainty.covariance);
+    effect.curve =
+        effect_curve(search.campaign(), rival, search.sensitivities(), i, uncertainty.covariance);
   }
   return traced;
 }
@@ -215,7 +198,7 @@ Delivered search_and_deliver(const TraceInput& in) {
   std::vector<Cause> barred;
   std::vector<std::string> rejected;
   for (const auto& [index, against] : delivery.against) {
-    barred.push_back(found.findings[index].rival.causes.back());
+    barred.push_back(found.findings[index].cause());
     rejected.push_back(rejection(found.search.candidates(), barred.back(),
                                  found.findings[index].p_value, against.why));
   }
@@ -237,15 +220,10 @@ Trace trace_in_order(const TraceInput& in) {
   trace.extended = fit_of(found, delivery, uncertainty);
   trace.extended_model = trace.extended.model.law ? trace.extended.model.name() : "";
   trace.effects = effects_of(found, delivery, trace.extended, uncertainty);
-  trace.unseen = delivery.unseen_by;
+  static_cast<BeforeAndAfter&>(trace) = delivery;
   trace.as_calibrated = {in.fit.training, in.fit.validation};
-  trace.before = delivery.before;
-  trace.after = delivery.after;
   if (found.order.found && trace.effects.empty() && in.searched.empty())
     trace.after = {trace.extended.training, trace.extended.validation};
-  trace.improvement = delivery.improvement;
-  trace.over_calibrated = delivery.over_calibrated;
-  trace.nested = delivery.check;
   trace.validation_searched = !in.searched.empty();
   if (!trace.validation_searched)
     trace.validation_shift = validation_shift_of(found.search, delivery.rival);
@@ -261,12 +239,10 @@ Trace trace_in_order(const TraceInput& in) {
 data::Dataset in_order_of_names(const data::Dataset& data) {
   std::vector<std::size_t> order(data.experiments.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return data.experiments[a] < data.experiments[b];
-  });
+  std::ranges::stable_sort(
+      order, {}, [&](std::size_t e) -> const std::string& { return data.experiments[e]; });
   data::Dataset sorted = data.subset(order);
-  std::stable_sort(sorted.columns.begin(), sorted.columns.end(),
-                   [](const data::Column& a, const data::Column& b) { return a.name < b.name; });
+  std::ranges::stable_sort(sorted.columns, {}, &data::Column::name);
   return sorted;
 }
 
@@ -285,17 +261,9 @@ double tests_for(double alpha) {
 }
 
 const char* verdict_name(Verdict verdict) {
-  switch (verdict) {
-  case Verdict::effect_added:
-    return "effect_added";
-  case Verdict::nothing_missing:
-    return "nothing_missing";
-  case Verdict::nothing_found:
-    return "nothing_found";
-  case Verdict::unexplained_structure:
-    break;
-  }
-  return "unexplained_structure";
+  constexpr const char* names[] = {"effect_added", "nothing_missing", "nothing_found",
+                                   "unexplained_structure"};
+  return names[static_cast<std::size_t>(verdict)];
 }
 
 Trace trace(const TraceInput& input) {
@@ -313,9 +281,8 @@ Trace trace(const TraceInput& input) {
   const data::Dataset sorted = in_order_of_names(both);
   std::vector<std::size_t> places;
   for (std::size_t e = both.experiments.size() - few; e < both.experiments.size(); ++e)
-    places.push_back(static_cast<std::size_t>(
-        std::find(sorted.experiments.begin(), sorted.experiments.end(), both.experiments[e]) -
-        sorted.experiments.begin()));
+    places.push_back(std::ranges::find(sorted.experiments, both.experiments[e]) -
+                     sorted.experiments.begin());
   return run(sorted, std::move(places));
 }
 

@@ -2,40 +2,20 @@
 // quantity it follows, in which form, and how much better the law predicts with that effect.
 //
 // Rooms, each of which knows only those before it (docs/tracing.md explains the method):
-//   columns   what an effect may follow (a Cause): columns, histories and pairs of them
-//     candidates       the list of them; test_dates: the order of tests from time stamps
-//     shapes, terms    forms of an effect of a cause; curves, factors and products as columns
-//     factor_band      the factor of an effect over rows, with its uncertainty
-//     order_test       whether test means have structure along the order of tests
-//     aliases          columns that the design confounds with a state of the law
-//   search    what the residual of the law follows more than by chance
-//     law_on_blocks    a law on blocks: predictions, derivatives, weighted fits
-//     selection        200 tests that represent a larger campaign
-//     rivals           a law with some effects, fitted with the noise (a Rival); plausibility
-//     directions       derivatives of tau_R: by fitted parameters, by an effect's factor
-//     search           its state
-//     search_effects   the recipe: one search, then structure along the order of tests
-//     joint            response, law and terms of a campaign; findings as causes
-//     modes            tests as means and cosines
-//     joint_model      one penalised mixed model with all terms
-//     joint_search     terms that the residual follows more than by chance
-//     joint_choice     terms that improve predictions of left-out tests
-//     choose_effect    the cause among those near a finding, and its form
-//     order_search     structure along the order of tests
-//   judge     what a finding is worth on tests that the search has not seen
-//     nested_errors    errors on tests that neither a search nor a fit has seen
-//     delivery         findings that are delivered with the law; rows_alike: under equal weights
-//     refit_traced     the law with the effects, fitted again to all experiments
-//     uncertainty      standard errors of its parameters
-//     gains, scatter   how far tests as a whole lie from a law; unexplained scatter
-//     verdict          the verdict and its sentences
-//   advise    what to look at and which tests to run next
-//     leads            effects that may exist; followers: columns that may follow from friction
-//     design           tests that would settle a question, among candidate_tests
-//     effect_curve     curves for plots
-// trace.cpp sorts the data by name, searches, judges, delivers, reports. trace_file and trace_text
-// give the results as JSON and in words; tuning.h has the constants of all these steps, with the
-// reasons for their values.
+//   columns   what an effect may follow (a Cause) and the shapes that it may have; columns that the
+//             design confounds with a state of the law
+//   search    what the residual of the law follows more than by chance. search_effects is the
+//   recipe:
+//             all terms at once (joint_model: one mixed model; joint_search: terms that enter;
+//             joint_choice: those that predict left-out tests; joint: of a campaign), the cause and
+//             form of each (choose_effect, by rivals), structure along the order (order_search)
+//   judge     what a finding is worth on tests that the search has not seen (nested_errors), which
+//             of them are delivered (delivery), what scatter is left, the verdict
+//   advise    other effects that may exist (leads), the tests that would settle them (design),
+//   curves
+// trace.cpp sorts the data by name, searches, judges, delivers, reports. trace_file converts
+// results to JSON; tuning.h has the constants of all these steps, with the reasons for their
+// values.
 #pragma once
 
 #include <optional>
@@ -187,27 +167,30 @@ struct TraceErrors {
   calibrate::Metrics validation;
 };
 
-struct Trace {
-  std::string model;          // the law that was traced
-  std::string extended_model; // name of the law with effects; empty: none was added
-  Verdict verdict = Verdict::nothing_found;
-  std::vector<TracedEffect> effects;
-  // `validation` holds errors on unseen tests: the validation tests, or training tests left out by
-  // the nested search where there are few validation tests.
-  TraceErrors as_calibrated; // by the calibration stage; `validation` is always on those tests
-  TraceErrors before;        // the same law, fitted with the same weights as `after`
-  TraceErrors after;
-  // validation | nested_cross_validation | leave_one_out: nothing was found | nothing: one test, so
-  // errors of the fit
+// Errors without and with the effects.
+struct BeforeAndAfter {
+  // Origin of `validation` in the errors below: validation | nested_cross_validation: training
+  // tests left out by the nested search, where there are few validation tests | leave_one_out:
+  // nothing was found | nothing: one test, so errors of the fit.
   std::string unseen = "validation";
-  // few validation tests: searched together with the training tests
-  bool validation_searched = false;
+  TraceErrors before; // the same law, fitted with the same weights as `after`
+  TraceErrors after;
   calibrate::Difference improvement; // MAE on unseen tests before minus after, paired by experiment
   // The same compared with the calibrated law, which effects must also beat: where a law lacks
   // something, the weights of the trace may cost more than the effects gain. On validation tests
   // only.
   std::optional<calibrate::Difference> over_calibrated;
   NestedCheck nested;
+};
+
+struct Trace : BeforeAndAfter {
+  std::string model;          // the law that was traced
+  std::string extended_model; // name of the law with effects; empty: none was added
+  Verdict verdict = Verdict::nothing_found;
+  std::vector<TracedEffect> effects;
+  TraceErrors as_calibrated; // by the calibration stage; `validation` is always on those tests
+  // few validation tests: searched together with the training tests
+  bool validation_searched = false;
   ValidationShift validation_shift;
   std::vector<Lead> leads;              // strongest first
   std::vector<Alias> cannot_tell;       // by column

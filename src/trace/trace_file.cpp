@@ -61,7 +61,7 @@ void describe_input(Fields& f, effects::EffectInput& input) {
 void check_placed(const effects::PlacedEffect& p, const std::string& file) {
   const auto ascend = [](const std::vector<double>& knots) {
     return !knots.empty() &&
-           std::adjacent_find(knots.begin(), knots.end(), std::greater_equal<>()) == knots.end();
+           std::ranges::adjacent_find(knots, std::greater_equal<>()) == knots.end();
   };
   bool fits = p.inputs.size() == p.form->columns;
   for (std::size_t i = 0; fits && i < p.form->knots.size() && i < p.inputs.size(); ++i)

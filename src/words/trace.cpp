@@ -103,6 +103,17 @@ std::string design_sentence(const trace::Design& d) {
   return text;
 }
 
+// Numbers of equal tests that follow each other.
+std::vector<std::size_t> runs_of(const std::vector<std::vector<std::string>>& tests) {
+  std::vector<std::size_t> runs;
+  for (std::size_t t = 0; t < tests.size(); ++t)
+    if (t > 0 && tests[t] == tests[t - 1])
+      ++runs.back();
+    else
+      runs.push_back(1);
+  return runs;
+}
+
 // The proposed tests: the number of equal ones, then what they vary.
 void add_design(Section& section, const trace::Design& d) {
   if (d.tests.empty()) return;
@@ -110,14 +121,12 @@ void add_design(Section& section, const trace::Design& d) {
   Table table{"Tests that settle it", {{"tests", true}}, {}};
   for (const std::string& column : d.columns)
     table.columns.push_back({column, true});
-  for (std::size_t t = 0; t < d.tests.size();) {
-    std::size_t alike = t + 1;
-    while (alike < d.tests.size() && d.tests[alike] == d.tests[t])
-      ++alike;
-    Row row{{std::to_string(alike - t)}};
+  std::size_t t = 0;
+  for (const std::size_t alike : runs_of(d.tests)) {
+    Row row{{std::to_string(alike)}};
     row.cells.insert(row.cells.end(), d.tests[t].begin(), d.tests[t].end());
     table.rows.push_back(std::move(row));
-    t = alike;
+    t += alike;
   }
   section.add(std::move(table));
 }
@@ -125,10 +134,10 @@ void add_design(Section& section, const trace::Design& d) {
 // Whether another effect is a product with the effect's only column.
 bool is_in_product(const TracedEffect& e, const Trace& t) {
   return e.placed.inputs.size() == 1 &&
-         std::any_of(t.effects.begin(), t.effects.end(), [&](const TracedEffect& other) {
+         std::ranges::any_of(t.effects, [&](const TracedEffect& other) {
            const auto& inputs = other.placed.inputs;
            return inputs.size() > 1 &&
-                  std::any_of(inputs.begin(), inputs.end(), [&](const effects::EffectInput& one) {
+                  std::ranges::any_of(inputs, [&](const effects::EffectInput& one) {
                     return one.column == e.placed.inputs[0].column;
                   });
          });
@@ -242,9 +251,8 @@ std::string effect_in_product(const std::string& name, const char* verb) {
 
 // The first lead that tests can settle; empty: none, or it is among those not confirmed.
 std::string suspect(const Trace& t) {
-  const auto lead = std::find_if(t.leads.begin(), t.leads.end(), [](const Lead& one) {
-    return !one.significant && !one.design.tests.empty();
-  });
+  const auto lead = std::ranges::find_if(
+      t.leads, [](const Lead& one) { return !one.significant && !one.design.tests.empty(); });
   if (lead == t.leads.end()) return "";
   const std::string product = effect_in_product(lead_name(*lead), "changes with");
   return "suspected, not proven: " + (product.empty() ? lead_name(*lead) : product);
@@ -359,17 +367,9 @@ Section trace(const Trace& t, Detail detail) {
 }
 
 const char* site_text(effects::ActsOn acts_on) {
-  switch (acts_on) {
-  case effects::ActsOn::mu:
-    return "on mu";
-  case effects::ActsOn::m:
-    return "on the limit";
-  case effects::ActsOn::mu_m:
-    return "on mu and the limit";
-  case effects::ActsOn::tau:
-    break;
-  }
-  return "added to tau_R";
+  constexpr const char* texts[] = {"on mu", "on the limit", "added to tau_R",
+                                   "on mu and the limit"};
+  return texts[static_cast<std::size_t>(acts_on)];
 }
 
 std::string cause_text(const TracedEffect& effect) {
@@ -411,12 +411,11 @@ std::string tests_in_short(const trace::Design& d) {
   if (in_turn)
     return fmt::format("{} tests {} and {} in turn", d.tests.size(), settings(0), settings(1));
   std::vector<std::string> groups;
-  for (std::size_t t = 0, alike = 0; t < d.tests.size(); t += alike) {
-    alike = 1;
-    while (t + alike < d.tests.size() && d.tests[t + alike] == d.tests[t])
-      ++alike;
+  std::size_t t = 0;
+  for (const std::size_t alike : runs_of(d.tests)) {
     groups.push_back((groups.empty() ? count_of(alike, "test") : std::to_string(alike)) + " " +
                      settings(t));
+    t += alike;
   }
   return join(groups, "; ");
 }

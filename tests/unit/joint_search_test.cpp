@@ -87,11 +87,7 @@ struct Campaign {
   trace::JointOffer offer() const {
     trace::JointOffer all;
     for (std::size_t c = 0; c < candidates.columns.size(); ++c) {
-      all.cause.push_back(c);
-      all.columns.push_back({c});
-      all.first.push_back(1);
-      all.sharp.push_back(0);
-      all.along_order.push_back(0);
+      all.terms.push_back({c, {c}, true});
       all.in_law.push_back(0);
     }
     return all;

@@ -10,7 +10,7 @@
 #include "stats/noise_fit.h"
 #include "stats/reml.h"
 #include "support/blocks.h"
-#include "trace/columns/order_test.h"
+#include "trace/search/order_search.h"
 
 namespace frictab::trace_noise_test {
 
@@ -279,17 +279,20 @@ TEST(NoiseModel, RestrictedLikelihoodIsNotFooledByFittedParameters) {
   EXPECT_NEAR(restricted, 1, 0.25);
 }
 
+const std::vector<std::size_t> by_name = [] {
+  std::vector<std::size_t> order(81);
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}();
+
 TEST(OrderOfTests, WhiteScoresHaveNoStructure) {
   int small = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Random random(seed, 3);
     VectorXd scores(81);
-    std::vector<double> order;
-    for (Index e = 0; e < 81; ++e) {
-      scores(e) = random.normal();
-      order.push_back(static_cast<double>(e));
-    }
-    if (test_order(scores, order, 199, seed).p_value <= 0.05) ++small;
+    for (double& score : scores)
+      score = random.normal();
+    if (test_order(scores, by_name, 199, seed).p_value <= 0.05) ++small;
   }
   // Binomial, 200 trials at 0.05: 99.9 % lie below 21.
   EXPECT_LE(small, 20);
@@ -299,11 +302,10 @@ TEST(OrderOfTests, DriftAndBatchesAreSeenInAnyFileOrder) {
   for (const bool batch : {false, true}) {
     Random random(7, batch);
     VectorXd scores(81);
-    std::vector<double> order;
-    for (std::size_t e = 0; e < 81; ++e)
-      order.push_back(static_cast<double>((e * 40) % 81));
-    for (Index e = 0; e < 81; ++e) {
-      const double place = order[static_cast<std::size_t>(e)];
+    std::vector<std::size_t> order(81);
+    for (std::size_t e = 0; e < 81; ++e) {
+      order[(e * 40) % 81] = e;
+      const auto place = static_cast<double>((e * 40) % 81);
       scores(e) = random.normal() +
                   (batch ? (static_cast<int>(place) / 20 % 2 ? 1.2 : -1.2) : 0.04 * (place - 40));
     }
@@ -316,14 +318,12 @@ TEST(OrderOfTests, BatchesOfNineAreSeenInMostCampaigns) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Random random(seed, 4);
     VectorXd scores(81);
-    std::vector<double> order;
     double batch = 0;
     for (Index e = 0; e < 81; ++e) {
       if (e % 9 == 0) batch = 1.0 * random.normal();
       scores(e) = batch + random.normal();
-      order.push_back(static_cast<double>(e));
     }
-    if (test_order(scores, order, 199, seed).p_value <= 0.01) ++seen;
+    if (test_order(scores, by_name, 199, seed).p_value <= 0.01) ++seen;
   }
   EXPECT_GE(seen, 60);
 }
@@ -331,13 +331,10 @@ TEST(OrderOfTests, BatchesOfNineAreSeenInMostCampaigns) {
 TEST(OrderOfTests, SaysWhichOfSeveralScoresFollowsTheOrder) {
   Random random(9, 1);
   MatrixXd scores(81, 3);
-  std::vector<double> order;
-  for (Index e = 0; e < 81; ++e) {
-    order.push_back(static_cast<double>(e));
+  for (Index e = 0; e < 81; ++e)
     for (Index c = 0; c < 3; ++c)
       scores(e, c) = random.normal() + (c == 1 ? 0.04 * (static_cast<double>(e) - 40) : 0.0);
-  }
-  const trace::OrderTest test = test_order(scores, order, 999, 1);
+  const trace::OrderTest test = test_order(scores, by_name, 999, 1);
   EXPECT_LT(test.p_value, 0.01);
   EXPECT_EQ(test.column, 1);
 }

@@ -59,7 +59,7 @@ struct Range {
 // Values that several tests share, as of a switch or of grades; no others can be set. Empty if
 // there are many.
 std::vector<double> levels_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const std::size_t tests = values.size();
   values.erase(std::unique(values.begin(), values.end()), values.end());
   if (values.size() > tuning::most_fixed_values ||
@@ -69,7 +69,7 @@ std::vector<double> levels_of(std::vector<double> values) {
 }
 
 Range range_of(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto [low, high] = std::ranges::minmax_element(values);
   return {*low, *high};
 }
 
@@ -110,15 +110,15 @@ private:
       if (!column.levels.empty()) continue;
       const std::vector<double> means = test_means(data_, column.values);
       std::vector<double> sorted = means;
-      std::sort(sorted.begin(), sorted.end());
+      std::ranges::sort(sorted);
       const double width = sorted.back() - sorted.front(), median = sorted[sorted.size() / 2];
       for (std::size_t e = 0; width > 0 && e < away.size(); ++e)
         away[e] += std::pow((means[e] - median) / width, 2);
     }
-    const auto nearest = std::min_element(away.begin(), away.end()) - away.begin();
-    built_.like = data_.experiments[static_cast<std::size_t>(nearest)];
-    begin_ = data_.first_row[static_cast<std::size_t>(nearest)];
-    rows_ = data_.first_row[static_cast<std::size_t>(nearest) + 1] - begin_;
+    const auto nearest = std::ranges::min_element(away) - away.begin();
+    built_.like = data_.experiments[nearest];
+    begin_ = data_.first_row[nearest];
+    rows_ = data_.first_row[nearest + 1] - begin_;
   }
 
   std::vector<double> of_template(const Column& column) const {
@@ -151,7 +151,7 @@ private:
   void set(Rows& rows, const std::string& name, double value) const {
     std::vector<double>& values = rows.at(name);
     if (!is_state(name)) {
-      std::fill(values.begin(), values.end(), value);
+      std::ranges::fill(values, value);
       return;
     }
     double mean = 0;
@@ -178,7 +178,7 @@ private:
   }
 
   bool is_reachable(const Rows& rows) const {
-    return std::all_of(built_.settings.begin(), built_.settings.end(), [&](const Setting& setting) {
+    return std::ranges::all_of(built_.settings, [&](const Setting& setting) {
       const Column& column = *data_.find(setting.column);
       if (!column.levels.empty()) return true;
       const Range all = range_of(column.values).widened(), own = range_of(rows.at(setting.column));
@@ -204,8 +204,7 @@ std::vector<Setting> settings_of(const Dataset& data, const std::vector<std::str
   std::vector<Setting> settings;
   const auto add = [&](const std::string& name) {
     const Column* column = data.find(name);
-    const bool known = std::any_of(settings.begin(), settings.end(),
-                                   [&](const Setting& s) { return s.column == name; });
+    const bool known = contains(settings, name, &Setting::column);
     if (known || !column || numbers_tests(*column)) return;
     Setting setting{name, {}, column->levels};
     if (!column->levels.empty()) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <set>
 #include <string>
 
 #include <Eigen/Cholesky>
@@ -13,7 +12,7 @@
 
 #include "stats/projection.h"
 #include "trace/advise/candidate_tests.h"
-#include "trace/columns/factor_band.h"
+#include "trace/columns/shapes.h"
 #include "trace/judge/gains.h"
 #include "trace/tuning.h"
 
@@ -21,26 +20,66 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
+// A design that takes too many tests, or hardly has a chance, is none.
+Design worthwhile(Design design) {
+  return design.tests_needed <= tuning::most_tests_needed &&
+                 design.probability >= tuning::smallest_power
+             ? std::move(design)
+             : Design{};
+}
 
-// Derivatives of tau_R, per block, by each parameter that all rivals share, and by each rival's
-// amplitude.
-class Directions {
+class Designer {
 public:
-  Directions(const Search& search, const std::vector<const Rival*>& rivals)
-      : search_(search), rivals_(rivals) {}
+  Designer(const Search& search, const std::vector<const Rival*>& rivals, double threshold)
+      : search_(search), rivals_(rivals), threshold_(threshold) {}
 
-  std::size_t shared() const { return rivals_[0]->parameters.size() - last_count(*rivals_[0]); }
+  Design run() {
+    std::vector<Setting> settings = settings_of(search_.input().training, recorded());
+    if (settings.empty()) return {};
+    Plan plan = best_plan(settings);
+    if (rivals_.size() == 1 && probability(plan.before) >= tuning::wanted_power)
+      return {}; // the data would show it already, if it were as large as fitted
+    // Prefers a design with fewer settings if it is nearly as good.
+    for (std::size_t s = settings.size(); s-- > 0 && settings.size() > 1;) {
+      std::vector<Setting> fewer = settings;
+      fewer.erase(fewer.begin() + s);
+      Plan simpler = best_plan(fewer);
+      if (simpler.tests.size() > plan.tests.size() ||
+          simpler.amplitude < tuning::kept_share_of_amplitude * plan.amplitude)
+        continue;
+      settings = std::move(fewer);
+      plan = std::move(simpler);
+    }
+    return in_words(plan);
+  }
 
-  // Returns each test's information about all of them, in that order.
-  std::vector<MatrixXd> information(const data::Dataset& data) const {
+private:
+  struct Plan {
+    CandidateTests candidates;
+    std::vector<std::size_t> tests; // indices of candidates
+    double amplitude = 0;           // standardised, with those tests
+    double before = 0;              // standardised, without them
+  };
+
+  std::vector<std::string> recorded() const {
+    std::vector<std::string> names;
+    for (const Rival* rival : rivals_)
+      for (const std::string& name : search_.candidates().recorded_of(rival->causes.back()))
+        if (!contains(names, name)) names.push_back(name);
+    return names;
+  }
+
+  // Number of parameters that all rivals share.
+  Index shared() const { return rivals_[0]->parameters.size() - last_count(*rivals_[0]); }
+
+  // Each test's information about the shared parameters and about each rival's amplitude, from
+  // derivatives of tau_R per block.
+  std::vector<MatrixXd> information_of_tests(const data::Dataset& data) const {
     const stats::Blocks blocks = stats::make_blocks(data, search_.blocks().most);
     const Rival& first = *rivals_[0];
     const models::Model model = search_.model_of(first);
     const std::vector<double> tau = calibrate::predict(model, data);
-    MatrixXd columns(static_cast<Index>(blocks.count()), 0);
+    MatrixXd columns(blocks.count(), 0);
     for (std::size_t p = 0; p < first.parameters.size(); ++p)
       if (!is_of_last(first, p)) stats::append_columns(columns, slope(model, p, data, tau, blocks));
     for (const Rival* rival : rivals_)
@@ -49,15 +88,12 @@ public:
     whitener.apply(columns);
     std::vector<MatrixXd> each;
     for (std::size_t e = 0; e < blocks.experiments(); ++e) {
-      const MatrixXd part =
-          columns.middleRows(static_cast<Index>(blocks.first[e]),
-                             static_cast<Index>(blocks.first[e + 1] - blocks.first[e]));
+      const MatrixXd part = blocks.rows_of(columns, e);
       each.push_back(part.transpose() * part);
     }
     return each;
   }
 
-private:
   static std::size_t last_count(const Rival& rival) {
     return effects::fitted_parameters(rival.effects.back()).size();
   }
@@ -93,60 +129,6 @@ private:
     return with;
   }
 
-  const Search& search_;
-  const std::vector<const Rival*>& rivals_;
-};
-
-// A design that takes too many tests, or hardly has a chance, is none.
-Design worthwhile(Design design) {
-  return design.tests_needed <= tuning::most_tests_needed &&
-                 design.probability >= tuning::smallest_power
-             ? std::move(design)
-             : Design{};
-}
-
-class Designer {
-public:
-  Designer(const Search& search, const std::vector<const Rival*>& rivals, double threshold)
-      : search_(search), rivals_(rivals), threshold_(threshold), directions_(search, rivals_) {}
-
-  Design run() {
-    std::vector<Setting> settings = settings_of(search_.input().training, recorded());
-    if (settings.empty()) return {};
-    Plan plan = best_plan(settings);
-    if (rivals_.size() == 1 && probability(plan.before) >= tuning::wanted_power)
-      return {}; // the data would show it already, if it were as large as fitted
-    // Prefers a design with fewer settings if it is nearly as good.
-    for (std::size_t s = settings.size(); s-- > 0 && settings.size() > 1;) {
-      std::vector<Setting> fewer = settings;
-      fewer.erase(fewer.begin() + static_cast<long>(s));
-      Plan simpler = best_plan(fewer);
-      if (simpler.tests.size() > plan.tests.size() ||
-          simpler.amplitude < tuning::kept_share_of_amplitude * plan.amplitude)
-        continue;
-      settings = std::move(fewer);
-      plan = std::move(simpler);
-    }
-    return in_words(plan);
-  }
-
-private:
-  struct Plan {
-    CandidateTests candidates;
-    std::vector<std::size_t> tests; // indices of candidates
-    double amplitude = 0;           // standardised, with those tests
-    double before = 0;              // standardised, without them
-  };
-
-  std::vector<std::string> recorded() const {
-    std::vector<std::string> names;
-    for (const Rival* rival : rivals_)
-      for (const std::size_t c : rival->causes.back().columns)
-        for (const std::string& name : search_.candidates().columns[c].recorded)
-          if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    return names;
-  }
-
   Plan best_plan(std::vector<Setting> settings) {
     Plan plan;
     plan.candidates = candidate_tests(search_.input().training, std::move(settings));
@@ -164,22 +146,21 @@ private:
   // Adds the information of the campaign and of each candidate, with all parameters scaled to
   // comparable units.
   void add_information(const CandidateTests& candidates) {
-    const std::vector<MatrixXd> tests = directions_.information(search_.input().training);
+    const std::vector<MatrixXd> tests = information_of_tests(search_.input().training);
     known_ = std::accumulate(tests.begin() + 1, tests.end(), tests.front());
-    each_ = directions_.information(candidates.data);
+    each_ = information_of_tests(candidates.data);
     for (MatrixXd& m : each_) // tests where the law has no value carry no information
       if (!m.allFinite()) m.setZero();
-    const auto shared = static_cast<Index>(directions_.shared());
     VectorXd scale = known_.diagonal();
-    for (Index p = 0; p < shared; ++p)
+    for (Index p = 0; p < shared(); ++p)
       scale(p) = scale(p) > 0 ? 1 / std::sqrt(scale(p)) : 1;
-    scale.tail(scale.size() - shared).setOnes();
+    scale.tail(scale.size() - shared()).setOnes();
     const auto scaled = [&](const MatrixXd& m) -> MatrixXd {
       return scale.asDiagonal() * m * scale.asDiagonal();
     };
     known_ = scaled(known_);
     std::transform(each_.begin(), each_.end(), each_.begin(), scaled);
-    for (Index p = 0; p < shared; ++p)
+    for (Index p = 0; p < shared(); ++p)
       known_(p, p) += tuning::information_ridge;
   }
 
@@ -192,8 +173,7 @@ private:
 
   // Information about the rivals' amplitudes, after elimination of the shared parameters.
   MatrixXd of_rivals(const MatrixXd& all) const {
-    const auto shared = static_cast<Index>(directions_.shared());
-    const Index count = all.rows() - shared;
+    const Index shared = this->shared(), count = all.rows() - shared;
     MatrixXd left = all.bottomRightCorner(count, count);
     if (shared > 0)
       left -= all.bottomLeftCorner(count, shared) *
@@ -220,7 +200,7 @@ private:
       for (std::size_t i = 0; i < design.size(); ++i)
         better = improve(design, i) || better;
     }
-    std::sort(design.begin(), design.end());
+    std::ranges::sort(design);
     return design;
   }
 
@@ -286,7 +266,6 @@ private:
   const Search& search_;
   std::vector<const Rival*> rivals_;
   double threshold_;
-  Directions directions_;
   MatrixXd known_;             // information of the campaign
   std::vector<MatrixXd> each_; // information of every candidate test
 };
@@ -301,49 +280,16 @@ Design design_tests(const Search& search, std::vector<const Rival*> rivals, doub
 
 // Whether a cause has all columns of another, which is then its special case, so that no test can
 // decide for the smaller and against the larger.
-bool contains(const Cause& larger, const Cause& smaller) {
-  return std::all_of(smaller.columns.begin(), smaller.columns.end(), [&](std::size_t column) {
-    return std::find(larger.columns.begin(), larger.columns.end(), column) != larger.columns.end();
-  });
+bool includes(const Cause& larger, const Cause& smaller) {
+  return std::ranges::all_of(smaller.columns,
+                             [&](std::size_t column) { return contains(larger.columns, column); });
 }
 
 // Whether two causes come from the same recorded columns, as a path and the distance slid since the
 // start, or a constant pressure and its mean: no test of the rig can part them.
 bool are_of_same_columns(const Candidates& candidates, const Cause& a, const Cause& b) {
-  const auto recorded = [&](const Cause& cause) {
-    std::set<std::string> names;
-    for (const std::size_t c : cause.columns)
-      names.insert(candidates.columns[c].recorded.begin(), candidates.columns[c].recorded.end());
-    return names;
-  };
-  return recorded(a) == recorded(b);
+  return std::ranges::is_permutation(candidates.recorded_of(a), candidates.recorded_of(b));
 }
-
-} // namespace
-
-Design design_for(const Search& search, const Finding& finding) {
-  std::vector<const Rival*> rivals{&finding.rival};
-  for (std::size_t i = 0; i < finding.others.size(); ++i)
-    if (const Cause& own = finding.rival.causes.back(), &other = finding.others[i].causes.back();
-        finding.in_set[i] && !contains(other, own) &&
-        !are_of_same_columns(search.candidates(), own, other))
-      rivals.push_back(&finding.others[i]);
-  return rivals.size() > 1 ? design_tests(search, rivals, tuning::two_sided_std_errors) : Design{};
-}
-
-Design design_for_lead(const Search& search, const effects::PlacedEffect& effect,
-                       const Cause& cause, double threshold) {
-  const Rival& last = search.last();
-  const Rival with =
-      with_effect(search.campaign(), last, effect, cause, last.noise, NoiseSearch::kept);
-  Design design = design_tests(search, {&with}, threshold);
-  const double short_of =
-      tests_for(search.input().options.alpha) - static_cast<double>(search.blocks().experiments());
-  if (!design.tests.empty()) design.tests_needed = std::max(design.tests_needed, short_of);
-  return worthwhile(std::move(design));
-}
-
-namespace {
 
 // The two values of a setting that are furthest apart, and the difference of a test's gain between
 // them: by a line through all tests or, for text, by the means of levels.
@@ -365,16 +311,38 @@ Ends ends_by_level(const Setting& setting, const VectorXd& x, const VectorXd& ga
     const Eigen::ArrayXd here = (x.array() == setting.values[level]).cast<double>();
     if (here.sum() > 0) means.emplace_back((here * gain.array()).sum() / here.sum(), level);
   }
-  const auto [low, high] = std::minmax_element(means.begin(), means.end());
+  const auto [low, high] = std::ranges::minmax_element(means);
   return {low->second, high->second, high->first - low->first};
 }
 
 } // namespace
 
+Design design_for(const Search& search, const Finding& finding) {
+  std::vector<const Rival*> rivals{&finding.rival};
+  for (std::size_t i = 0; i < finding.others.size(); ++i)
+    if (const Cause& own = finding.cause(), &other = finding.others[i].causes.back();
+        finding.in_set[i] && !includes(other, own) &&
+        !are_of_same_columns(search.candidates(), own, other))
+      rivals.push_back(&finding.others[i]);
+  return rivals.size() > 1 ? design_tests(search, rivals, tuning::two_sided_std_errors) : Design{};
+}
+
+Design design_for_lead(const Search& search, const effects::PlacedEffect& effect,
+                       const Cause& cause, double threshold) {
+  const Rival& last = search.last();
+  const Rival with =
+      with_effect(search.campaign(), last, effect, cause, last.noise, NoiseSearch::kept);
+  Design design = design_tests(search, {&with}, threshold);
+  const double short_of =
+      tests_for(search.input().options.alpha) - static_cast<double>(search.blocks().experiments());
+  if (!design.tests.empty()) design.tests_needed = std::max(design.tests_needed, short_of);
+  return worthwhile(std::move(design));
+}
+
 Design design_in_turn(const Search& search, const Cause& cause, std::optional<double> scatter) {
   Design design;
   if (cause.is_joint()) return design;
-  const CandidateColumn& column = search.candidates().columns[cause.columns[0]];
+  const CandidateColumn& column = search.candidates().first_of(cause);
   const std::vector<Setting> settings = settings_of(search.input().training, column.recorded);
   if (settings.empty()) return design;
   const Setting& setting = settings.front();

@@ -5,16 +5,12 @@
 
 #include "core/columns.h"
 #include "effects/extended_law.h"
-#include "trace/columns/factor_band.h"
+#include "trace/columns/shapes.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
 
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr std::size_t curve_points = 61;
 constexpr std::size_t bins = 5; // partial residuals per experiment
@@ -39,17 +35,17 @@ FactorOnRows factor_along(const effects::PlacedEffect& effect, const std::vector
   for (std::size_t i = 1; i < effect.inputs.size(); ++i)
     columns.emplace_back(x.size(), (1 - tuning::place_of_other_inputs) * effect.inputs[i].low +
                                        tuning::place_of_other_inputs * effect.inputs[i].high);
-  return factor_on_rows(effect, pointers(columns), static_cast<Index>(x.size()));
+  return factor_on_rows(effect, pointers(columns), x.size());
 }
 
 } // namespace
 
 EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
                          const Sensitivities& sensitivities, std::size_t index,
-                         std::size_t parameter, const MatrixXd& covariance) {
+                         const MatrixXd& covariance) {
   const effects::PlacedEffect& effect = rival.effects[index];
-  const auto count = static_cast<Index>(effects::fitted_parameters(effect).size());
-  const auto first_one = static_cast<Index>(parameter);
+  const std::size_t first_one = first_parameter(rival, index),
+                    count = effects::fitted_parameters(effect).size();
   EffectCurve curve;
   curve.x = plot_positions(effect);
   const FactorOnRows on_curve = factor_along(effect, curve.x);
@@ -70,7 +66,7 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
     const std::size_t blocks = first[e + 1] - first[e];
     const std::size_t parts = campaign.blocks.count() == 0 ? 1 : std::min(bins, blocks);
     for (std::size_t part = 0; part < parts; ++part) {
-      const auto begin = static_cast<Index>(first[e] + part * blocks / parts);
+      const Index begin = first[e] + part * blocks / parts;
       const auto size = static_cast<Index>(first[e] + (part + 1) * blocks / parts) - begin;
       const VectorXd s = sensitivity.segment(begin, size);
       if (!(s.squaredNorm() > tuning::felt_share_of_squares * sensitivity.squaredNorm() /
@@ -82,7 +78,7 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
   }
   const VectorXd at_points = factor_along(effect, curve.point_x).factor;
   for (std::size_t i = 0; i < curve.point_factor.size(); ++i)
-    curve.point_factor[i] += at_points(static_cast<Index>(i));
+    curve.point_factor[i] += at_points(i);
   return curve;
 }
 

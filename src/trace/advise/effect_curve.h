@@ -6,9 +6,9 @@
 
 namespace frictab::trace {
 
-// Evaluates the curve. `parameter`: index of the effect's first one among the rival's parameters.
+// Evaluates the curve of one of the rival's effects.
 EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
                          const Sensitivities& sensitivities, std::size_t effect,
-                         std::size_t parameter, const Eigen::MatrixXd& covariance);
+                         const MatrixXd& covariance);
 
 } // namespace frictab::trace

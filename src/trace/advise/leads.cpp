@@ -5,22 +5,20 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
 
 #include "calibrate/metrics.h"
 #include "core/error.h"
 #include "core/no_value.h"
 #include "core/text.h"
+#include "data/roles.h"
 #include "trace/advise/design.h"
-#include "trace/advise/followers.h"
 #include "trace/search/order_search.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
 
 namespace {
-
-using Eigen::Index;
-using Eigen::VectorXd;
 
 constexpr std::size_t most_leads = 6, most_left = 3;
 constexpr const char* speed = "v_rel_mm_s";
@@ -29,8 +27,7 @@ bool is_listed(const Trace& trace, const Lead& lead) {
   const auto same = [&](const auto& other) {
     return other.columns == lead.columns && other.derived == lead.derived;
   };
-  return std::any_of(trace.leads.begin(), trace.leads.end(), same) ||
-         std::any_of(trace.effects.begin(), trace.effects.end(), same);
+  return std::ranges::any_of(trace.leads, same) || std::ranges::any_of(trace.effects, same);
 }
 
 bool too_few_tests(const Trace& trace) {
@@ -42,6 +39,15 @@ bool deserves_design(const Trace& trace, const Lead& lead) {
   return trace.leads.empty() && (lead.p_value < tuning::chance_p_value || too_few_tests(trace));
 }
 
+Lead lead_on(const Search& search, const Cause& cause, std::string form, bool between,
+             double p_value) {
+  Lead lead = lead_of(cause, search.candidates());
+  lead.form = std::move(form);
+  lead.between = between;
+  lead.p_value = p_value;
+  return lead;
+}
+
 void add_lead(Trace& trace, Lead lead, std::size_t most = most_leads) {
   if (trace.leads.size() < most && !is_listed(trace, lead)) trace.leads.push_back(std::move(lead));
 }
@@ -50,10 +56,9 @@ void add_lead(Trace& trace, Lead lead, std::size_t most = most_leads) {
 
 // Standard deviation over rows; for a text column, whether it varies.
 double spread_of(const data::Column& column) {
-  const auto [least, most] = std::minmax_element(column.values.begin(), column.values.end());
+  const auto [least, most] = std::ranges::minmax_element(column.values);
   if (!column.levels.empty()) return *most > *least;
-  const Eigen::Map<const VectorXd> values(column.values.data(),
-                                          static_cast<Index>(column.values.size()));
+  const Eigen::Map<const VectorXd> values(column.values.data(), column.values.size());
   return std::sqrt((values.array() - values.mean()).square().mean());
 }
 
@@ -88,10 +93,8 @@ void add_undelivered(Trace& trace, const Found& found, const Delivery& delivery)
   const Search& search = found.search;
   for (const auto& [index, against] : delivery.against) {
     const Finding& finding = found.findings[index];
-    Lead lead = lead_of(finding.rival.causes.back(), search.candidates());
-    lead.form = finding.rival.effects.back().form->name;
-    lead.between = finding.between;
-    lead.p_value = finding.p_value;
+    Lead lead = lead_on(search, finding.cause(), finding.rival.effects.back().form->name,
+                        finding.between, finding.p_value);
     lead.significant = true;
     add_errors(lead, search, index == 0 ? search.base() : found.findings[index - 1].rival,
                finding.rival);
@@ -107,7 +110,7 @@ void add_undelivered(Trace& trace, const Found& found, const Delivery& delivery)
 // Friction by level, against the first, or over the range of a number: of whole tests, by the law
 // without effects.
 std::string size_between(const Search& search, const Cause& cause) {
-  const CandidateColumn& column = search.candidates().columns[cause.columns[0]];
+  const CandidateColumn& column = search.candidates().first_of(cause);
   const VectorXd y = log_gains(search, search.base().predicted),
                  x = search.blocks().experiment_means(column.values).col(0);
   if (column.levels.empty()) {
@@ -123,7 +126,7 @@ std::string size_between(const Search& search, const Cause& cause) {
     ++tests[static_cast<std::size_t>(x(e))];
   }
   const auto first = static_cast<std::size_t>(
-      std::find_if(tests.begin(), tests.end(), [](double n) { return n > 0; }) - tests.begin());
+      std::ranges::find_if(tests, [](double n) { return n > 0; }) - tests.begin());
   std::vector<std::string> changes;
   for (std::size_t l = first + 1; l < tests.size() && changes.size() < most_shown; ++l)
     if (tests[l] > 0)
@@ -135,10 +138,7 @@ std::string size_between(const Search& search, const Cause& cause) {
 
 void add_confounded(Trace& trace, const Found& found) {
   for (const auto& [cause, p_value] : found.confounded) {
-    Lead lead = lead_of(cause, found.search.candidates());
-    lead.form = "between tests";
-    lead.between = true;
-    lead.p_value = p_value;
+    Lead lead = lead_on(found.search, cause, "between tests", true, p_value);
     lead.significant = true;
     const bool in_stretches = along_order(found.search, cause.columns[0]) != AlongOrder::no;
     lead.why =
@@ -163,8 +163,8 @@ double per_e_fold(const Search& search, const VectorXd& y) {
   for (std::size_t e = 0; e < search.blocks().experiments(); ++e) {
     std::vector<std::pair<double, double>> points;
     for (std::size_t b = search.first()[e]; b < search.first()[e + 1]; ++b)
-      if (const double speed_here = v(static_cast<Index>(b)); speed_here > 0)
-        points.emplace_back(std::log(speed_here), y(static_cast<Index>(b)));
+      if (const double speed_here = v(b); speed_here > 0)
+        points.emplace_back(std::log(speed_here), y(b));
     double mx = 0, my = 0;
     for (const auto& [x, value] : points) {
       mx += x / static_cast<double>(points.size());
@@ -196,9 +196,7 @@ std::string rate_sentence(const Search& search, const VectorXd& change) {
 }
 
 bool follows_speed(const Search& search, const Cause& cause) {
-  return std::all_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
-    return search.candidates().columns[c].recorded == std::vector<std::string>{speed};
-  });
+  return search.candidates().recorded_of(cause) == std::vector<std::string>{speed};
 }
 
 // Number of tests needed for a p-value at which an effect is added.
@@ -211,10 +209,8 @@ std::string too_few(const Trace& trace, std::size_t tests) {
 }
 
 Lead lead_from(const Trace& trace, const Search& search, const Left& left) {
-  Lead lead = lead_of(left.cause, search.candidates());
-  lead.form = left.effect.form->name;
-  lead.between = constant_in_experiments(left.cause, search.candidates());
-  lead.p_value = left.p_value;
+  Lead lead = lead_on(search, left.cause, left.effect.form->name,
+                      constant_in_experiments(left.cause, search.candidates()), left.p_value);
   lead.share = left.change.maxCoeff() - left.change.minCoeff();
   lead.why = fmt::format("p = {:.2g} over all that was tried{}", left.p_value,
                          too_few(trace, search.blocks().experiments()));
@@ -230,13 +226,12 @@ Lead lead_from(const Trace& trace, const Search& search, const Left& left) {
 std::vector<const Left*> plain_ones(const Found& found) {
   std::vector<const Left*> plain;
   const auto column = [&](const Left& left) -> const CandidateColumn& {
-    return found.search.candidates().columns[left.cause.columns[0]];
+    return found.search.candidates().first_of(left.cause);
   };
   for (const Left& left : found.leftover.left) {
     if (left.cause.is_joint()) continue;
-    const auto same = std::find_if(plain.begin(), plain.end(), [&](const Left* other) {
-      return column(*other).recorded == column(left).recorded;
-    });
+    const auto same = std::ranges::find_if(
+        plain, [&](const Left* other) { return column(*other).recorded == column(left).recorded; });
     if (same == plain.end())
       plain.push_back(&left);
     else if (!column(left).derived)
@@ -255,6 +250,91 @@ void add_what_is_left(Trace& trace, const Found& found) {
     add_lead(trace, lead_from(trace, found.search, *all[i]));
 }
 
+// --- columns that may follow from friction -------------------------------------------------------
+
+// A t-test, and the slope of the residual over a column.
+struct Followed {
+  double p_value = 1, slope = 0;
+};
+
+double p_of_t(double t, double degrees) {
+  return std::isfinite(t) ? 2 * gsl_cdf_tdist_Q(std::abs(t), degrees) : 1;
+}
+
+// Subtracts the mean of each test.
+VectorXd within_tests(const stats::Blocks& blocks, VectorXd x) {
+  for (std::size_t e = 0; e < blocks.experiments(); ++e) {
+    auto part = blocks.part(x, e);
+    part.array() -= part.mean();
+  }
+  return x;
+}
+
+Followed look_within(const stats::Blocks& blocks, const VectorXd& x, const VectorXd& residual) {
+  const VectorXd products = within_tests(blocks, x).cwiseProduct(within_tests(blocks, residual));
+  const VectorXd scores = blocks.experiment_means(products);
+  const double size = within_tests(blocks, x).squaredNorm(), n = static_cast<double>(scores.size());
+  if (!(size > 0)) return {};
+  const double spread = std::sqrt((scores.array() - scores.mean()).square().sum() / (n - 1));
+  return {p_of_t(scores.mean() * std::sqrt(n) / spread, n - 1), products.sum() / size};
+}
+
+Followed look_between(const stats::Blocks& blocks, const VectorXd& x, const VectorXd& residual) {
+  const VectorXd of_x = blocks.experiment_means(x), of_residual = blocks.experiment_means(residual);
+  const VectorXd a = of_x.array() - of_x.mean(), b = of_residual.array() - of_residual.mean();
+  const double size = a.squaredNorm(), n = static_cast<double>(a.size());
+  if (!(size > 0)) return {};
+  const double slope = a.dot(b) / size, left = (b - slope * a).squaredNorm();
+  return {p_of_t(slope * std::sqrt(size * (n - 2) / left), n - 2), slope};
+}
+
+Lead lead_of_follower(const data::Column& column, const VectorXd& x, const Followed& looked,
+                      bool is_between) {
+  Lead lead;
+  lead.name = column.name;
+  lead.columns = {column.name};
+  lead.form = is_between ? "between tests" : "within tests";
+  lead.between = is_between;
+  lead.p_value = looked.p_value;
+  lead.share = looked.slope * (x.maxCoeff() - x.minCoeff());
+  lead.why = fmt::format("p = {:.2g}, but it {}: it may follow from friction; where it does not, "
+                         "[data.roles] \"{}\" = \"setting\" lets it be a cause",
+                         looked.p_value,
+                         column.role == data::Role::outcome ? "is known only after the test"
+                                                            : "was measured along with friction",
+                         column.name);
+  return lead;
+}
+
+// Returns channels and outcomes (data/roles.h) that correlate with the residual of `rival`,
+// strongest first: within tests by one score per test, between tests by test means, each with a
+// t-test. The p-values are corrected for all comparisons (Bonferroni); leads have at most
+// trace.alpha.
+std::vector<Lead> leads_that_may_follow(const Search& search, const Rival& rival) {
+  std::vector<Lead> leads;
+  if (search.blocks().experiments() < tuning::fewest_tests_for_followers) return leads;
+  const VectorXd& measured = search.campaign().measured;
+  const double scale = tuning::smallest_share_of_tau * search.tau_scale_MPa();
+  const VectorXd residual =
+      (measured - rival.predicted).cwiseQuotient(rival.predicted.cwiseMax(scale));
+  double looks = 0;
+  for (const data::Column& column : search.input().training.columns) {
+    if (!data::may_follow_friction(column.role) || !column.levels.empty()) continue;
+    const VectorXd x = search.blocks().mean(column.values);
+    if (!x.allFinite()) continue;
+    for (const bool is_between : {false, true}) {
+      const Followed looked = is_between ? look_between(search.blocks(), x, residual)
+                                         : look_within(search.blocks(), x, residual);
+      looks += looked.slope != 0;
+      if (looked.slope != 0) leads.push_back(lead_of_follower(column, x, looked, is_between));
+    }
+  }
+  std::erase_if(
+      leads, [&](const Lead& lead) { return lead.p_value * looks > search.input().options.alpha; });
+  std::ranges::stable_sort(leads, {}, &Lead::p_value);
+  return leads;
+}
+
 } // namespace
 
 void add_leads(Trace& trace, const Found& found, const Delivery& delivery) {
@@ -269,13 +349,9 @@ void add_leads(Trace& trace, const Found& found, const Delivery& delivery) {
 Lead lead_of(const Cause& cause, const Candidates& candidates) {
   Lead lead;
   lead.name = cause_name(cause, candidates);
-  for (const std::size_t c : cause.columns) {
-    const CandidateColumn& column = candidates.columns[c];
-    for (const std::string& name : column.recorded)
-      if (std::find(lead.columns.begin(), lead.columns.end(), name) == lead.columns.end())
-        lead.columns.push_back(name);
-    if (column.derived) lead.derived += (lead.derived.empty() ? "" : ", ") + column.name;
-  }
+  lead.columns = candidates.recorded_of(cause);
+  for (const CandidateColumn* column : candidates.of(cause))
+    if (column->derived) lead.derived += (lead.derived.empty() ? "" : ", ") + column->name;
   return lead;
 }
 

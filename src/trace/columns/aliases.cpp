@@ -25,7 +25,7 @@ namespace {
 
 // Returns the setting of each test; empty if the column is not constant within tests.
 std::vector<double> setting_of(const Column& column, const Dataset& data) {
-  const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
+  const auto [low, high] = std::ranges::minmax_element(column.values);
   const double allowed = column.levels.empty() ? tuning::held_share_of_range * (*high - *low) : 0;
   std::vector<double> values;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
@@ -41,9 +41,7 @@ std::vector<double> setting_of(const Column& column, const Dataset& data) {
 bool may_act(const Column& column, const TraceOptions& options) {
   return data::may_be_searched(column.role) && column.role != Role::state &&
          !data::find_quantity(column.name) && column.name != data::origin_column &&
-         column.name != data::interval_column &&
-         std::find(options.ignore.begin(), options.ignore.end(), column.name) ==
-             options.ignore.end();
+         column.name != data::interval_column && !contains(options.ignore, column.name);
 }
 
 // Test means of a state of the law.
@@ -56,7 +54,7 @@ struct State {
 // Whether the tests were run at different values: not where their means differ little, or by a
 // small part of what each test runs through.
 bool differs_between_tests(const Dataset& data, const State& state) {
-  const auto [low, high] = std::minmax_element(state.means.begin(), state.means.end());
+  const auto [low, high] = std::ranges::minmax_element(state.means);
   const double size = std::max(std::abs(*low), std::abs(*high));
   return *high - *low >
          std::max(tuning::same_value_share_of_mean * size,
@@ -72,8 +70,7 @@ std::vector<State> states_of(const Dataset& data, const models::Model& model) {
     if (!quantity || !quantity->state || name == "s_mm" || !data.has(name)) continue;
     State state{name, test_means(data, data.values(name)), {}};
     if (!differs_between_tests(data, state)) continue;
-    const bool log =
-        quantity->log_axis && *std::min_element(state.means.begin(), state.means.end()) > 0;
+    const bool log = quantity->log_axis && *std::ranges::min_element(state.means) > 0;
     for (const double mean : state.means)
       state.at.push_back(log ? std::log(mean) : mean);
     states.push_back(std::move(state));
@@ -149,7 +146,7 @@ std::string figure(double value) {
 }
 
 std::string values_text(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto [low, high] = std::ranges::minmax_element(values);
   const double middle = mean_of(values);
   if (*high - *low <= tuning::same_value_share_of_mean * std::abs(middle)) return figure(middle);
   return figure(*low) + " to " + figure(*high);
@@ -180,9 +177,9 @@ std::string levels_text(const Column& column, const std::vector<double>& setting
 
 std::string line_text(const std::string& column, const std::vector<double>& setting,
                       const State& state) {
-  const auto least = std::min_element(setting.begin(), setting.end());
-  const auto most = std::max_element(setting.begin(), setting.end());
-  const double there = state.means[static_cast<std::size_t>(most - setting.begin())];
+  const auto least = std::ranges::min_element(setting);
+  const auto most = std::ranges::max_element(setting);
+  const double there = state.means[most - setting.begin()];
   return fmt::format("they change together; one test with {} {:g} at {} {} would", column, *least,
                      state.name, figure(there));
 }

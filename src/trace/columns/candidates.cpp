@@ -33,23 +33,25 @@ using data::Dataset;
 
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
 using Rows = std::span<const double>;
 
 bool is_constant(Rows values) {
-  return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
+  return std::ranges::all_of(values, [&](double v) { return v == values.front(); });
 }
 
 bool has_two_values(Rows values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return std::all_of(values.begin(), values.end(),
-                     [low = *low, high = *high](double v) { return v == low || v == high; });
+  const auto [low, high] = std::ranges::minmax_element(values);
+  return std::ranges::all_of(
+      values, [low = *low, high = *high](double v) { return v == low || v == high; });
 }
 
 std::size_t count_empty(Rows values) {
-  return static_cast<std::size_t>(
-      std::count_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }));
+  return std::ranges::count_if(values, [](double v) { return std::isnan(v); });
+}
+
+// The rows of one test.
+Rows of_test(const Dataset& data, std::size_t e, Rows values) {
+  return values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e]);
 }
 
 // Squared correlation; 0 if a column does not vary.
@@ -92,7 +94,7 @@ std::vector<double> quantiles_of(std::vector<double>& all) {
 }
 
 double width_of(Rows values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto [low, high] = std::ranges::minmax_element(values);
   return *high - *low;
 }
 
@@ -109,14 +111,11 @@ bool are_among(const Dataset& tests, const Dataset& others) {
   std::unordered_map<std::string_view, std::size_t> known;
   for (std::size_t e = 0; e < others.experiments.size(); ++e)
     known.emplace(others.experiments[e], e);
-  const auto friction = [](const Dataset& data, std::size_t e) {
-    return data.values("tau_R_MPa")
-        .subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e]);
-  };
   for (std::size_t e = 0; e < tests.experiments.size(); ++e) {
     const auto found = known.find(tests.experiments[e]);
     if (found == known.end() ||
-        !std::ranges::equal(friction(tests, e), friction(others, found->second)))
+        !std::ranges::equal(of_test(tests, e, tests.values("tau_R_MPa")),
+                            of_test(others, found->second, others.values("tau_R_MPa"))))
       return false;
   }
   return true;
@@ -128,8 +127,7 @@ public:
                   Rows predicted, const std::vector<std::string>& inputs,
                   const TraceOptions& options)
       : training_(training), validation_(validation), blocks_(blocks), predicted_(predicted),
-        inputs_(inputs), options_(options),
-        golden_(golden_direction(static_cast<Index>(blocks.count()))) {
+        inputs_(inputs), options_(options), golden_(golden_direction(blocks.count())) {
     for (const Column& column : validation.columns)
       validation_columns_.emplace(column.name, &column);
   }
@@ -153,7 +151,7 @@ private:
       known.push_back(quantity.name);
     FaultList faults;
     const auto check = [&](const std::string& name, const Place& place) {
-      if (std::find(known.begin(), known.end(), name) == known.end())
+      if (!contains(known, name))
         faults.add(place, "the data have no column '" + name + "'", suggest(name, known));
     };
     for (const std::string& name : options_.ignore)
@@ -170,9 +168,7 @@ private:
     faults.throw_if_any();
   }
 
-  bool ignored(const std::string& name) const {
-    return std::find(options_.ignore.begin(), options_.ignore.end(), name) != options_.ignore.end();
-  }
+  bool ignored(const std::string& name) const { return contains(options_.ignore, name); }
 
   // Accepts only a declared order, or a column whose name gives one, because files are often sorted
   // by condition.
@@ -184,18 +180,23 @@ private:
         order = &column;
         best = rank;
       }
-    if (!order || order_has_gaps(*order) || orders_nothing(*order)) return;
+    if (!order) return;
+    if (const std::size_t empty = count_empty(order->values); empty > 0)
+      return refuse_order(*order,
+                          fmt::format("{} of {} rows without a value", thousands(empty),
+                                      thousands(training_.rows())),
+                          "fill them in, or name another column");
+    if (const std::string why = why_no_order(*order); !why.empty())
+      return refuse_order(*order, why, "a number that counts the tests, or when each was made");
     const data::TestDates dates = data::sort_dates(order->levels); // time stamps are text
-    if (!dates.fault.empty()) {
-      not_an_order(*order, dates.fault, "write dates as 2024-09-01");
-      return;
-    }
+    if (!dates.fault.empty()) return refuse_order(*order, dates.fault, "write dates as 2024-09-01");
+    std::vector<double> values;
     for (std::size_t e = 0; e < training_.experiments.size(); ++e) {
       const double value = order->values[training_.first_row[e]];
-      found_.order.push_back(order->levels.empty() ? value
-                                                   : dates.place[static_cast<std::size_t>(value)]);
+      values.push_back(order->levels.empty() ? value
+                                             : dates.place[static_cast<std::size_t>(value)]);
     }
-    part_equals(found_.order);
+    found_.order = sorted_tests(values);
     found_.order_column = order->name;
   }
 
@@ -213,106 +214,85 @@ private:
 
   // Orders tests with equal values, such as those of one day, at random instead of by name: names
   // often follow the conditions. (Experiments are sorted by name.)
-  void part_equals(std::vector<double>& order) const {
-    std::vector<std::size_t> place(order.size());
-    std::iota(place.begin(), place.end(), 0);
+  std::vector<std::size_t> sorted_tests(const std::vector<double>& values) const {
+    std::vector<std::size_t> tests(values.size());
+    std::iota(tests.begin(), tests.end(), 0);
     std::vector<std::uint64_t> draw;
     for (const std::string& name : training_.experiments)
       draw.push_back(hash_of(name));
-    std::sort(place.begin(), place.end(), [&](std::size_t a, std::size_t b) {
-      return std::tie(order[a], draw[a], a) < std::tie(order[b], draw[b], b);
-    });
-    for (std::size_t i = 0; i < place.size(); ++i)
-      order[place[i]] = static_cast<double>(i);
+    std::ranges::sort(tests, {}, [&](std::size_t e) { return std::tuple(values[e], draw[e], e); });
+    return tests;
   }
 
-  bool orders_nothing(const Column& column) {
+  // Reason why the values of a column order no tests; empty: they do.
+  std::string why_no_order(const Column& column) const {
     const std::size_t values = values_of_tests(column, training_);
     const auto has_digit = [](const std::string& text) {
       return text.find_first_of("0123456789") != std::string::npos;
     };
-    std::string why;
-    if (data::is_measured(column.name))
-      why = "it is what was measured";
-    else if (!std::all_of(column.levels.begin(), column.levels.end(), has_digit))
-      why = fmt::format("'{}' is neither a number nor a time stamp",
-                        *std::find_if_not(column.levels.begin(), column.levels.end(), has_digit));
-    else if (values < 3)
-      why = values == 1 ? "every test begins with the same value"
-                        : "the tests begin with two values only";
-    if (why.empty()) return false;
-    not_an_order(column, why, "a number that counts the tests, or when each was made");
-    return true;
+    if (data::is_measured(column.name)) return "it is what was measured";
+    if (const auto text = std::ranges::find_if_not(column.levels, has_digit);
+        text != column.levels.end())
+      return fmt::format("'{}' is neither a number nor a time stamp", *text);
+    if (values >= 3) return "";
+    return values == 1 ? "every test begins with the same value"
+                       : "the tests begin with two values only";
   }
 
   // Throws if the job names the column; else notes that the column is not used.
-  void not_an_order(const Column& column, const std::string& why, const std::string& hint) {
+  void refuse_order(const Column& column, const std::string& why, const std::string& hint) {
     const std::string text = fmt::format("{}, the order of tests: {}", column.name, why);
     if (column.name == options_.order) throw InputError(options_.order_place, text, hint);
     found_.notes.push_back(text + ": not used");
-  }
-
-  bool order_has_gaps(const Column& order) {
-    const std::size_t empty = count_empty(order.values);
-    if (empty == 0) return false;
-    not_an_order(
-        order,
-        fmt::format("{} of {} rows without a value", thousands(empty), thousands(training_.rows())),
-        "fill them in, or name another column");
-    return true;
   }
 
   bool allowed(const Column& column) {
     if (data::is_measured(column.name) || column.name == data::origin_column ||
         column.role == data::Role::test || ignored(column.name))
       return false;
+    // Sources of the measured stress are reported when the file is read; channels and outcomes
+    // become leads.
     if (!data::may_be_searched(column.role) && !data::find_quantity(column.name))
-      return left_out_by_role(column);
+      return column.role == data::Role::response &&
+             skip(fmt::format("{} belongs to the measured friction ({}){}", column.name, column.why,
+                              not_searched));
     if (column.name == found_.order_column) {
       if (column.name != "run_order" && column.levels.empty())
         add_column(column.name, {column.name}, false, column.values);
       return false;
     }
-    if (data::find_derived(effects::symbol_of(column.name))) {
-      found_.notes.push_back(column.name + " has the name of a history that frictab computes "
-                                           "itself: the column is left out; another name lets it "
-                                           "be tried");
-      return false;
-    }
+    if (data::find_derived(effects::symbol_of(column.name)))
+      return skip(column.name + " has the name of a history that frictab computes "
+                                "itself: the column is left out; another name lets it "
+                                "be tried");
     if (is_constant(column.values)) {
       found_.constant.push_back(column.name);
       return false;
     }
     const auto in_validation = validation_columns_.find(column.name);
-    if (in_validation == validation_columns_.end()) {
-      found_.notes.push_back(column.name + " is not in the validation data: left out");
-      return false;
-    }
-    return !has_empty_cells(column, *in_validation->second);
+    if (in_validation == validation_columns_.end())
+      return skip(column.name + " is not in the validation data: left out");
+    return is_filled(column, *in_validation->second);
   }
 
-  // Sources of the measured stress are reported when the file is read; channels and outcomes become
-  // leads.
-  bool left_out_by_role(const Column& column) {
-    if (column.role == data::Role::response)
-      found_.notes.push_back(fmt::format("{} belongs to the measured friction ({}){}", column.name,
-                                         column.why, not_searched));
+  // Notes why a column is not searched.
+  bool skip(std::string why) {
+    found_.notes.push_back(std::move(why));
     return false;
   }
 
   // Skips columns with empty cells: no values are invented, and rows are not dropped for a column
   // that may be irrelevant to friction.
-  bool has_empty_cells(const Column& training, const Column& validation) {
+  bool is_filled(const Column& training, const Column& validation) {
     std::size_t empty = count_empty(training.values), rows = training_.rows();
     const std::size_t in_validation = count_empty(validation.values);
-    if (empty + in_validation == 0) return false;
+    if (empty + in_validation == 0) return true;
     if (!are_among(validation_, training_)) {
       empty += in_validation;
       rows += validation_.rows();
     }
-    found_.notes.push_back(fmt::format("{}: {} of {} rows without a value{}", training.name,
-                                       thousands(empty), thousands(rows), not_searched));
-    return true;
+    return skip(fmt::format("{}: {} of {} rows without a value{}", training.name, thousands(empty),
+                            thousands(rows), not_searched));
   }
 
   bool is_order(const std::string& name) const {
@@ -341,8 +321,7 @@ private:
         !wear.empty() && (name == wear || (name == "test_order" && wear == found_.order_column));
     const bool course = column.within && (name == "time_s" || name == "s_mm");
     column.between = column.is_order ? column.is_wear : !derived && !course;
-    column.in_law =
-        std::find(inputs_.begin(), inputs_.end(), effects::symbol_of(name)) != inputs_.end();
+    column.in_law = contains(inputs_, effects::symbol_of(name));
     found_.by_symbol[effects::symbol_of(name)] = column.values;
     const double at = standing(column.values, golden_);
     if (const CandidateColumn* twin = twin_of(column.values, at)) {
@@ -387,9 +366,9 @@ private:
     text.recorded = {column.name};
     text.levels = column.levels;
     // A block that spans two levels gets the level of its first row.
-    text.values.resize(static_cast<Index>(blocks_.count()));
+    text.values.resize(blocks_.count());
     for (std::size_t b = 0; b < blocks_.count(); ++b)
-      text.values(static_cast<Index>(b)) = column.values[blocks_.first_row[b]];
+      text.values(b) = column.values[blocks_.first_row[b]];
     text.within = varies_within(column.values, training_);
     text.between = !text.within;
     text.is_order = is_order(column.name);
@@ -400,7 +379,7 @@ private:
 
   bool possible(const data::DerivedQuantity& quantity) const {
     if (ignored(quantity.name)) return false;
-    return std::all_of(quantity.needs.begin(), quantity.needs.end(), [&](const std::string& need) {
+    return std::ranges::all_of(quantity.needs, [&](const std::string& need) {
       return need == "tau" || (training_.has(need) && validation_.has(need) && !ignored(need));
     });
   }
@@ -443,21 +422,59 @@ bool may_act_with_others(const CandidateColumn& column) {
           column.name == "load_ratio" || column.name == "temperature_rise");
 }
 
+// Whether two columns are nearly collinear: they are one quantity, and their product is a parabola.
+bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
+  return a.levels.empty() && b.levels.empty() &&
+         likeness(a.values, b.values) > tuning::near_collinear_r2;
+}
+
+// Whether the columns act together as something other than one of them alone.
+bool may_act_together(const CandidateColumn& a, const CandidateColumn& b) {
+  return may_act_with_others(a) && may_act_with_others(b) &&
+         (a.levels.empty() || b.levels.empty()) && !run_alike(a, b);
+}
+
+int steps_from_what_is_recorded(const CandidateColumn& derived) {
+  const data::Continuation& how = data::find_derived(derived.name)->continuation;
+  if (how.always) return 1;
+  return how.rule == data::Continuation::none ? 3 : 2;
+}
+
 } // namespace
+
+std::vector<const CandidateColumn*> Candidates::of(const Cause& cause) const {
+  std::vector<const CandidateColumn*> all;
+  for (const std::size_t c : cause.columns)
+    all.push_back(&columns[c]);
+  return all;
+}
+
+std::vector<std::string> Candidates::recorded_of(const Cause& cause) const {
+  std::vector<std::string> names;
+  for (const CandidateColumn* column : of(cause))
+    for (const std::string& name : column->recorded)
+      if (!contains(names, name)) names.push_back(name);
+  return names;
+}
+
+MatrixXd level_columns(const CandidateColumn& text) {
+  MatrixXd columns(text.values.size(), text.levels.size());
+  for (Index level = 0; level < columns.cols(); ++level)
+    columns.col(level) = (text.values.array() == static_cast<double>(level)).cast<double>();
+  return columns;
+}
 
 bool varies_within(Rows values, const Dataset& data) {
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
-    if (!is_constant(values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])))
-      return true;
+    if (!is_constant(of_test(data, e, values))) return true;
   return false;
 }
 
 double usual_range(Rows values, const Dataset& data) {
   std::vector<double> own;
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
-    own.push_back(
-        width_of(values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])));
-  std::sort(own.begin(), own.end());
+    own.push_back(width_of(of_test(data, e, values)));
+  std::ranges::sort(own);
   return own[own.size() / 2];
 }
 
@@ -506,22 +523,6 @@ Candidates find_candidates(const Dataset& training, const Dataset& validation,
   return found;
 }
 
-namespace {
-
-// Whether two columns are nearly collinear: they are one quantity, and their product is a parabola.
-bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
-  return a.levels.empty() && b.levels.empty() &&
-         likeness(a.values, b.values) > tuning::near_collinear_r2;
-}
-
-// Whether the columns act together as something other than one of them alone.
-bool may_act_together(const CandidateColumn& a, const CandidateColumn& b) {
-  return may_act_with_others(a) && may_act_with_others(b) &&
-         (a.levels.empty() || b.levels.empty()) && !run_alike(a, b);
-}
-
-} // namespace
-
 std::vector<Cause> all_causes(const Candidates& candidates) {
   std::vector<Cause> all;
   const auto& columns = candidates.columns;
@@ -542,22 +543,22 @@ bool is_state(const CandidateColumn& column) {
          column.name != "time_s";
 }
 
-Eigen::MatrixXd state_means(const Candidates& candidates, const stats::Blocks& blocks) {
-  Eigen::MatrixXd all(static_cast<Eigen::Index>(blocks.experiments()), 0);
+MatrixXd state_means(const Candidates& candidates, const stats::Blocks& blocks) {
+  MatrixXd all(blocks.experiments(), 0);
   for (const CandidateColumn& column : candidates.columns) {
     if (!is_state(column) || column.name == "sigma_f_MPa") continue; // which follows from others
-    Eigen::VectorXd x = blocks.experiment_means(column.values).col(0);
+    VectorXd x = blocks.experiment_means(column.values).col(0);
     if (stats::standardise(x)) stats::append_columns(all, x);
   }
   return all;
 }
 
-bool one_factor_at_a_time(const Eigen::MatrixXd& states) {
+bool one_factor_at_a_time(const MatrixXd& states) {
   if (states.cols() < 2 || states.rows() < tuning::fewest_tests_for_one_factor) return false;
   Eigen::VectorXi count = Eigen::VectorXi::Zero(states.rows());
-  for (Eigen::Index s = 0; s < states.cols(); ++s) {
-    Eigen::VectorXd sorted = states.col(s);
-    std::sort(sorted.begin(), sorted.end());
+  for (Index s = 0; s < states.cols(); ++s) {
+    VectorXd sorted = states.col(s);
+    std::ranges::sort(sorted);
     const double range = sorted(sorted.size() - 1) - sorted(0), middle = sorted(sorted.size() / 2);
     count += ((states.col(s).array() - middle).abs() > tuning::changed_share_of_range * range)
                  .cast<int>()
@@ -570,43 +571,31 @@ bool one_factor_at_a_time(const Eigen::MatrixXd& states) {
 std::optional<Cause> cause_in(const Candidates& to, const Cause& cause, const Candidates& from) {
   Cause found = cause;
   for (std::size_t& column : found.columns) {
-    const auto at =
-        std::find_if(to.columns.begin(), to.columns.end(), [&](const CandidateColumn& one) {
-          return one.name == from.columns[column].name;
-        });
+    const auto at = std::ranges::find_if(to.columns, [&](const CandidateColumn& one) {
+      return one.name == from.columns[column].name;
+    });
     if (at == to.columns.end()) return std::nullopt;
-    column = static_cast<std::size_t>(at - to.columns.begin());
+    column = at - to.columns.begin();
   }
   return found;
 }
 
 std::string cause_name(const Cause& cause, const Candidates& candidates) {
   std::vector<std::string> names;
-  for (const std::size_t c : cause.columns)
-    names.push_back(candidates.columns[c].name);
+  for (const CandidateColumn* column : candidates.of(cause))
+    names.push_back(column->name);
   return join(names, " x ");
 }
 
-namespace {
-
-int steps_from_what_is_recorded(const CandidateColumn& derived) {
-  const data::Continuation& how = data::find_derived(derived.name)->continuation;
-  if (how.always) return 1;
-  return how.rule == data::Continuation::none ? 3 : 2;
-}
-
-} // namespace
-
 int complexity(const Cause& cause, const Candidates& candidates) {
   int steps = 2 * static_cast<int>(cause.columns.size() - 1);
-  for (const std::size_t c : cause.columns)
-    if (candidates.columns[c].derived) steps += steps_from_what_is_recorded(candidates.columns[c]);
+  for (const CandidateColumn* column : candidates.of(cause))
+    if (column->derived) steps += steps_from_what_is_recorded(*column);
   return steps;
 }
 
 bool constant_in_experiments(const Cause& cause, const Candidates& candidates) {
-  return std::none_of(cause.columns.begin(), cause.columns.end(),
-                      [&](std::size_t c) { return candidates.columns[c].within; });
+  return std::ranges::none_of(candidates.of(cause), &CandidateColumn::within);
 }
 
 } // namespace frictab::trace

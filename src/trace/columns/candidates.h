@@ -8,23 +8,22 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "effects/extended_law.h"
 #include "stats/blocks.h"
+#include "trace/basics.h"
 #include "trace/options.h"
 
 namespace frictab::trace {
 
 // Block means by symbol: the law's inputs and every candidate column.
-using BlockColumns = std::map<std::string, Eigen::VectorXd>;
+using BlockColumns = std::map<std::string, VectorXd>;
 
 struct CandidateColumn {
   std::string name;                  // recorded column or derived quantity
   std::vector<std::string> recorded; // the recorded columns it comes from
   bool derived = false;
   std::vector<std::string> levels; // of a text column
-  Eigen::VectorXd values;          // per block
+  VectorXd values;                 // per block
   effects::Spread spread;          // over rows
   bool within = false;             // varies within experiments
   bool two_values = false; // a number with only two values over rows; block means may lie between
@@ -40,17 +39,35 @@ struct CandidateColumn {
   bool is_wear = false;  // declared by the user as the tool's wear, which may follow the order
 };
 
+// Returns a column per level of a text column, 1 where it has that level.
+MatrixXd level_columns(const CandidateColumn& text);
+
 inline constexpr const char* not_searched = ": not searched";
+
+// The one or two columns that an effect follows; two act together.
+struct Cause {
+  std::vector<std::size_t> columns; // a text column first, then ascending
+  bool is_joint() const { return columns.size() > 1; }
+  bool is_product_with(const Cause& single) const {
+    return is_joint() && !single.is_joint() && contains(columns, single.columns[0]);
+  }
+  auto operator<=>(const Cause&) const = default;
+};
 
 struct Candidates {
   std::vector<CandidateColumn> columns;
   BlockColumns by_symbol;         // all columns, and the law's inputs
   std::string order_column;       // gives the order of tests; empty: none declared
-  std::vector<double> order;      // per experiment, by that column; else empty
+  std::vector<std::size_t> order; // the tests in the order of that column; else empty
   double lowest_pressure_MPa = 0; // least contact pressure of a training row; 0: not recorded
   std::vector<std::string> notes; // those about skipped columns end with not_searched
   // recorded but never varied, so their effect cannot be assessed
   std::vector<std::string> constant;
+
+  const CandidateColumn& first_of(const Cause& cause) const { return columns[cause.columns[0]]; }
+  std::vector<const CandidateColumn*> of(const Cause& cause) const;
+  // Names the recorded columns from which those of a cause come.
+  std::vector<std::string> recorded_of(const Cause& cause) const;
 };
 
 // Lists the candidates. `predicted`: the law's tau_R per row, from which friction work is
@@ -75,17 +92,10 @@ bool varies_within(std::span<const double> values, const data::Dataset& data);
 bool is_state(const CandidateColumn& column);
 // Returns the test means of the states that differ between tests, each scaled to mean 0 and
 // standard deviation 1.
-Eigen::MatrixXd state_means(const Candidates& candidates, const stats::Blocks& blocks);
+MatrixXd state_means(const Candidates& candidates, const stats::Blocks& blocks);
 // Whether at most 5 % of the tests change more than one state; such a design cannot show joint
 // effects of states.
-bool one_factor_at_a_time(const Eigen::MatrixXd& states);
-
-// The one or two columns that an effect follows; two act together.
-struct Cause {
-  std::vector<std::size_t> columns; // a text column first, then ascending
-  bool is_joint() const { return columns.size() > 1; }
-  auto operator<=>(const Cause&) const = default;
-};
+bool one_factor_at_a_time(const MatrixXd& states);
 
 // Lists all single columns, then pairs of different ones.
 std::vector<Cause> all_causes(const Candidates& candidates);

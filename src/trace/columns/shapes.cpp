@@ -1,9 +1,10 @@
-// Grids of shapes, and bounds of their fits.
+// Grids of shapes, bounds of their fits, and the penalty on absurd ones.
 #include "trace/columns/shapes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "data/quantity.h"
 #include "trace/tuning.h"
@@ -14,17 +15,13 @@ using effects::PlacedEffect;
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Whether a form has a position and a width (a hump, a step), so that it has structure of that
 // width.
 bool is_local(const PlacedEffect& effect) {
   const auto fitted = effects::fitted_parameters(effect);
   const std::size_t amplitudes = effects::amplitudes_of(effect);
   const auto has = [&](bool width) {
-    return std::any_of(fitted.begin() + static_cast<long>(amplitudes), fitted.end(),
+    return std::any_of(fitted.begin() + amplitudes, fitted.end(),
                        [&](const models::Parameter& p) { return (p.lower > 0) == width; });
   };
   return fitted.size() > amplitudes + 1 && has(true) && has(false);
@@ -34,9 +31,7 @@ bool is_local(const PlacedEffect& effect) {
 // sliding, which grows within a test, before the pause, which is constant in it.
 std::vector<const CandidateColumn*> columns_of(const effects::EffectForm& form, const Cause& cause,
                                                const Candidates& candidates) {
-  std::vector<const CandidateColumn*> columns;
-  for (const std::size_t c : cause.columns)
-    columns.push_back(&candidates.columns[c]);
+  std::vector<const CandidateColumn*> columns = candidates.of(cause);
   if (columns.size() == 2 && form.name == "recovery" && !columns[0]->within && columns[1]->within)
     std::swap(columns[0], columns[1]);
   return columns;
@@ -47,34 +42,6 @@ double gap_of(const std::string& column, const Candidates& candidates) {
     if (c.name == column) return c.gap;
   return 0;
 }
-
-} // namespace
-
-PlacedEffect start_effect(const effects::EffectForm& form, const Cause& cause,
-                          const Candidates& candidates, effects::ActsOn acts_on,
-                          double tau_scale_MPa) {
-  PlacedEffect effect;
-  effect.form = &form;
-  effect.acts_on = acts_on;
-  effect.tau_scale_MPa = tau_scale_MPa;
-  effect.pressure_MPa = candidates.lowest_pressure_MPa;
-  std::vector<effects::Spread> spreads;
-  std::vector<std::span<const double>> tested;
-  for (const CandidateColumn* column : columns_of(form, cause, candidates)) {
-    effect.inputs.push_back(
-        {column->name, column->levels, column->spread.minimum, column->spread.maximum});
-    spreads.push_back(column->spread);
-    tested.emplace_back(column->tested);
-  }
-  effects::set_knots(effect, tested);
-  if (form.parameters_of)
-    effect.parameters.assign(effects::parameters_of(effect).size(), 0.0);
-  else
-    effect.parameters = effects::start_values(form, spreads);
-  return effect;
-}
-
-namespace {
 
 bool is_angle(const std::string& name) {
   return name.ends_with("_deg") || name.find("angle") != std::string::npos;
@@ -124,7 +91,7 @@ bool too_narrow(const PlacedEffect& effect, double gap) {
 
 // One direction per level against the others; for a pair, multiplied by the number after it.
 std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[cause.columns[0]];
+  const CandidateColumn& x = candidates.first_of(cause);
   const effects::EffectForm& form =
       *effects::find_effect(cause.is_joint() ? "category_slope" : "category");
   VectorXd times = VectorXd::Ones(x.values.size());
@@ -132,12 +99,12 @@ std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candid
     const CandidateColumn& number = candidates.columns[cause.columns[1]];
     times = (number.values.array() - number.spread.median) / number.spread.span();
   }
+  const MatrixXd is = level_columns(x);
   std::vector<GridShape> shapes;
   for (std::size_t level = 0; level < x.levels.size(); ++level) {
     if (x.levels.size() == 2 && level == 1) break; // the mirror image of the first
-    const VectorXd is = (x.values.array() == static_cast<double>(level)).cast<double>();
     shapes.push_back({start_effect(form, cause, candidates, effects::ActsOn::mu, 1),
-                      is.cwiseProduct(times).cast<float>()});
+                      is.col(level).cwiseProduct(times).cast<float>()});
   }
   return shapes;
 }
@@ -171,20 +138,12 @@ void keep_different(std::vector<GridShape>& shapes) {
     const float norm = d.norm();
     if (!(norm > tuning::smallest_norm_of_shape) || !std::isfinite(norm)) continue;
     Centred centred(d / norm);
-    if (std::any_of(seen.begin(), seen.end(),
-                    [&](const Centred& other) { return other.resembles(centred); }))
+    if (std::ranges::any_of(seen, [&](const Centred& other) { return other.resembles(centred); }))
       continue;
     seen.push_back(std::move(centred));
     kept.push_back(std::move(shape));
   }
   shapes = std::move(kept);
-}
-
-std::vector<const double*> inputs_on(const PlacedEffect& effect, const BlockColumns& columns) {
-  std::vector<const double*> data;
-  for (const effects::EffectInput& input : effect.inputs)
-    data.push_back(columns.at(effects::symbol_of(input.column)).data());
-  return data;
 }
 
 // Factors of one form along its grid. Compiling a program takes as long as running it over
@@ -196,12 +155,11 @@ public:
   // Derivative of the factor by the amplitude.
   Eigen::VectorXf direction(const PlacedEffect& effect) {
     if (!bound_ || references_of(effect) != references_) bind(effect);
-    Eigen::VectorXf direction(static_cast<Index>(bound_->rows()));
+    Eigen::VectorXf direction(bound_->rows());
     bound_->sweep(effects::fitted_values(effect), true,
                   [&](const expr::BoundProgram::Block& block) {
                     for (std::size_t i = 0; i < block.count; ++i)
-                      direction(static_cast<Index>(block.first + i)) =
-                          static_cast<float>(block.derivative[0][i]);
+                      direction(block.first + i) = static_cast<float>(block.derivative[0][i]);
                   });
     return direction;
   }
@@ -218,7 +176,7 @@ private:
     const auto rows = columns_.at(effects::symbol_of(effect.inputs[0].column)).size();
     references_ = references_of(effect);
     program_ = std::make_unique<expr::Program>(effects::factor_program(effect));
-    bound_ = std::make_unique<expr::BoundProgram>(*program_, static_cast<std::size_t>(rows), data);
+    bound_ = std::make_unique<expr::BoundProgram>(*program_, rows, data);
   }
 
   const BlockColumns& columns_;
@@ -226,38 +184,6 @@ private:
   std::unique_ptr<expr::Program> program_;
   std::unique_ptr<expr::BoundProgram> bound_;
 };
-
-} // namespace
-
-MatrixXd roughness_of(const PlacedEffect& effect) {
-  const std::vector<double> rows = effect.form->penalty(effect);
-  const auto size = static_cast<Index>(effects::amplitudes_of(effect));
-  return Eigen::Map<const MatrixXd>(rows.data(), size, size); // symmetric
-}
-
-VectorXd factor_on(const PlacedEffect& effect, const BlockColumns& columns) {
-  const std::vector<const double*> data = inputs_on(effect, columns);
-  VectorXd factor(columns.begin()->second.size());
-  effects::factor_program(effect).evaluate(static_cast<std::size_t>(factor.size()), data,
-                                           effects::fitted_values(effect), factor.data());
-  return factor;
-}
-
-MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns) {
-  const expr::Program program = effects::factor_program(effect);
-  const std::vector<const double*> data = inputs_on(effect, columns);
-  const Index count = columns.at(effects::symbol_of(effect.inputs[0].column)).size();
-  MatrixXd basis(count, static_cast<Index>(effects::amplitudes_of(effect)));
-  expr::BoundProgram(program, static_cast<std::size_t>(count), data)
-      .sweep(effects::fitted_values(effect), true, [&](const expr::BoundProgram::Block& block) {
-        for (Index a = 0; a < basis.cols(); ++a)
-          for (std::size_t i = 0; i < block.count; ++i)
-            basis(static_cast<Index>(block.first + i), a) = block.derivative[a][i];
-      });
-  return basis;
-}
-
-namespace {
 
 // Whether the form makes sense for the cause: logarithms need positive values, ...
 bool form_fits(const effects::EffectForm& form, const Cause& cause, const Candidates& candidates) {
@@ -272,15 +198,147 @@ bool form_fits(const effects::EffectForm& form, const Cause& cause, const Candid
 
 // Whether both columns vary within tests: between tests a threshold in two columns fits anything.
 bool both_move(const Cause& cause, const Candidates& candidates) {
-  return std::all_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
-    return candidates.columns[c].within && !candidates.columns[c].derived;
+  return std::ranges::all_of(candidates.of(cause), [](const CandidateColumn* column) {
+    return column->within && !column->derived;
   });
+}
+
+// Range of an effect's factor over its whole domain, and at tested values.
+struct FactorRange {
+  double largest = 0; // largest change of friction
+  double low = 1, high = 1, tested_low = 1, tested_high = 1;
+
+  void include(double factor) {
+    largest = std::max(largest, std::abs(factor - 1));
+    low = std::min(low, factor);
+    high = std::max(high, factor);
+  }
+};
+
+// Index of the first numeric input, along which the factor is evaluated.
+std::size_t running_input(const effects::PlacedEffect& effect) {
+  return effect.inputs[0].levels.empty() ? 0 : 1;
+}
+
+// Rows of inputs in which all other inputs are at one of their ends or levels.
+std::vector<std::vector<double>> corners_of(const effects::PlacedEffect& effect) {
+  std::vector<std::vector<double>> rows{{}};
+  for (std::size_t i = 0; i < effect.inputs.size(); ++i) {
+    const effects::EffectInput& input = effect.inputs[i];
+    std::vector<double> positions = {input.low, input.high};
+    if (i == running_input(effect)) positions.pop_back();
+    if (!input.levels.empty()) {
+      positions.resize(input.levels.size());
+      std::iota(positions.begin(), positions.end(), 0.0);
+    }
+    std::vector<std::vector<double>> longer;
+    for (const auto& row : rows)
+      for (const double position : positions) {
+        longer.push_back(row);
+        longer.back().push_back(position);
+      }
+    rows = std::move(longer);
+  }
+  return rows;
+}
+
+FactorRange factor_range(const effects::PlacedEffect& effect, const CandidateColumn& column) {
+  FactorRange range;
+  if (effect.form->categorical && effect.form->columns == 1) {
+    for (const double a : effects::fitted_values(effect))
+      range.largest = std::max(range.largest, std::abs(a));
+    return range;
+  }
+  const expr::Program program = effects::factor_program(effect);
+  const std::vector<double> at = effects::fitted_values(effect);
+  const auto corners = corners_of(effect);
+  const std::size_t running = running_input(effect);
+  const effects::EffectInput& x = effect.inputs[running];
+  std::vector<double> positions;
+  for (int i = 0; i <= tuning::plausibility_intervals; ++i)
+    positions.push_back(x.low + (x.high - x.low) * i / tuning::plausibility_intervals);
+  const auto& tested_at = x.column == column.name ? column.tested : positions;
+  const auto at_corners = [&](double position, auto take) {
+    for (std::vector<double> row : corners) {
+      row[running] = position;
+      take(program(row, at));
+    }
+  };
+  at_corners(tested_at.front(),
+             [&](double f) { range.low = range.high = range.tested_low = range.tested_high = f; });
+  for (const double position : positions)
+    at_corners(position, [&](double f) { range.include(f); });
+  for (const double tested : tested_at)
+    at_corners(tested, [&](double f) {
+      range.tested_low = std::min(range.tested_low, f);
+      range.tested_high = std::max(range.tested_high, f);
+    });
+  return range;
 }
 
 } // namespace
 
+PlacedEffect start_effect(const effects::EffectForm& form, const Cause& cause,
+                          const Candidates& candidates, effects::ActsOn acts_on,
+                          double tau_scale_MPa) {
+  PlacedEffect effect;
+  effect.form = &form;
+  effect.acts_on = acts_on;
+  effect.tau_scale_MPa = tau_scale_MPa;
+  effect.pressure_MPa = candidates.lowest_pressure_MPa;
+  std::vector<effects::Spread> spreads;
+  std::vector<std::span<const double>> tested;
+  for (const CandidateColumn* column : columns_of(form, cause, candidates)) {
+    effect.inputs.push_back(
+        {column->name, column->levels, column->spread.minimum, column->spread.maximum});
+    spreads.push_back(column->spread);
+    tested.emplace_back(column->tested);
+  }
+  effects::set_knots(effect, tested);
+  if (form.parameters_of)
+    effect.parameters.assign(effects::parameters_of(effect).size(), 0.0);
+  else
+    effect.parameters = effects::start_values(form, spreads);
+  return effect;
+}
+
+std::vector<const double*> inputs_on(const PlacedEffect& effect, const BlockColumns& columns) {
+  std::vector<const double*> data;
+  for (const effects::EffectInput& input : effect.inputs)
+    data.push_back(columns.at(effects::symbol_of(input.column)).data());
+  return data;
+}
+
+MatrixXd roughness_of(const PlacedEffect& effect) {
+  const std::vector<double> rows = effect.form->penalty(effect);
+  const Index size = effects::amplitudes_of(effect);
+  return Eigen::Map<const MatrixXd>(rows.data(), size, size); // symmetric
+}
+
+VectorXd factor_on(const PlacedEffect& effect, const BlockColumns& columns) {
+  const std::vector<const double*> data = inputs_on(effect, columns);
+  VectorXd factor(columns.begin()->second.size());
+  effects::factor_program(effect).evaluate(factor.size(), data, effects::fitted_values(effect),
+                                           factor.data());
+  return factor;
+}
+
+MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns) {
+  const expr::Program program = effects::factor_program(effect);
+  const std::vector<const double*> data = inputs_on(effect, columns);
+  const Index count = columns.at(effects::symbol_of(effect.inputs[0].column)).size();
+  MatrixXd basis(count, effects::amplitudes_of(effect));
+  expr::BoundProgram(program, count, data)
+      .sweep(effects::fitted_values(effect), true, [&](const expr::BoundProgram::Block& block) {
+        for (Index a = 0; a < basis.cols(); ++a)
+          for (std::size_t i = 0; i < block.count; ++i)
+            basis(block.first + i, a) = block.derivative[a][i];
+      });
+  return basis;
+}
+
 std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[cause.columns[0]];
+  const CandidateColumn& x = candidates.first_of(cause);
   if (!x.levels.empty()) return level_shapes(cause, candidates);
   std::vector<GridShape> shapes;
   for (const effects::EffectForm& form : effects::all_effects()) {
@@ -322,6 +380,58 @@ void bound_shapes(models::Law& extended, std::size_t own, std::span<const Placed
     }
     next += fitted.size();
   }
+}
+
+// Two kinds of effect can fit at the tested values as well as the true one: large changes that
+// cancel there, and humps between those values. Both are penalised.
+double implausibility(const effects::PlacedEffect& effect, const CandidateColumn& column) {
+  const FactorRange range = factor_range(effect, column);
+  if (!std::isfinite(range.largest)) return tuning::infinite_factor_cost;
+  const double tested = range.tested_high - range.tested_low;
+  const double beyond =
+      (range.high - range.low - tested) / std::max(tested, tuning::smallest_tested_range);
+  return tuning::large_change_cost * range.largest * range.largest +
+         tuning::hump_cost * std::clamp(beyond - tuning::tolerated_hump, 0.0, tuning::largest_hump);
+}
+
+double derivative_step(double parameter) {
+  return tuning::step_share_of_parameter *
+         std::max(std::abs(parameter), tuning::smallest_stepped_size);
+}
+
+FactorOnRows factor_on_rows(const effects::PlacedEffect& effect,
+                            std::span<const double* const> columns, Index rows) {
+  const expr::Program program = effects::factor_program(effect);
+  std::vector<double> at = effects::fitted_values(effect);
+  const auto factor = [&] {
+    VectorXd out(rows);
+    program.evaluate(rows, columns, at, out.data());
+    return out;
+  };
+  FactorOnRows found{factor(), MatrixXd(rows, at.size())};
+  for (std::size_t p = 0; p < at.size(); ++p) {
+    const double step = derivative_step(at[p]), kept = at[p];
+    at[p] = kept + step;
+    const VectorXd up = factor();
+    at[p] = kept - step;
+    found.slope.col(p) = (up - factor()) / (2 * step);
+    at[p] = kept;
+  }
+  return found;
+}
+
+VectorXd std_errors(const MatrixXd& slope, const MatrixXd& covariance) {
+  VectorXd errors(slope.rows());
+  // (A parameter that does not act in a row may have an unknown error.)
+  for (Index i = 0; i < slope.rows(); ++i) {
+    double variance = 0;
+    for (Index a = 0; a < slope.cols(); ++a)
+      for (Index b = 0; b < slope.cols(); ++b)
+        if (slope(i, a) != 0 && slope(i, b) != 0)
+          variance += slope(i, a) * covariance(a, b) * slope(i, b);
+    errors(i) = std::sqrt(variance < 0 ? 0 : variance);
+  }
+  return errors;
 }
 
 } // namespace frictab::trace

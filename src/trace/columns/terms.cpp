@@ -17,13 +17,9 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 std::vector<double> sorted_values(const VectorXd& x) {
   std::vector<double> all(x.begin(), x.end());
-  std::sort(all.begin(), all.end());
+  std::ranges::sort(all);
   const double near = tuning::same_value_share_of_range *
                       std::max(all.back() - all.front(), tuning::smallest_divisor);
   all.erase(
@@ -68,10 +64,8 @@ std::vector<double> knots_of(const VectorXd& z) {
 // Values at z of the natural cubic splines that are 1 at one knot and 0 at the others; one column
 // per knot.
 MatrixXd cardinal_splines(const VectorXd& z, const std::vector<double>& knots) {
-  const auto n = static_cast<Index>(knots.size());
-  const auto gap = [&](Index i) {
-    return knots[static_cast<std::size_t>(i) + 1] - knots[static_cast<std::size_t>(i)];
-  };
+  const Index n = knots.size();
+  const auto gap = [&](Index i) { return knots[i + 1] - knots[i]; };
   // Second derivatives at inner knots (Green and Silverman 1994, 2.3.3): R m = Q' f.
   MatrixXd r = MatrixXd::Zero(n - 2, n - 2), q = MatrixXd::Zero(n - 2, n);
   for (Index i = 0; i < n - 2; ++i) {
@@ -86,10 +80,8 @@ MatrixXd cardinal_splines(const VectorXd& z, const std::vector<double>& knots) {
   MatrixXd values(z.size(), n);
   for (Index b = 0; b < z.size(); ++b) {
     const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, z(b));
-    const Index i = static_cast<Index>(above - knots.begin()) - 1;
-    const double h = gap(i),
-                 t = std::clamp((z(b) - knots[static_cast<std::size_t>(i)]) / h, 0.0, 1.0),
-                 s = 1 - t;
+    const Index i = above - knots.begin() - 1;
+    const double h = gap(i), t = std::clamp((z(b) - knots[i]) / h, 0.0, 1.0), s = 1 - t;
     values.row(b) =
         h * h / 6 * ((s * s * s - s) * bending.row(i) + (t * t * t - t) * bending.row(i + 1));
     values(b, i) += s;
@@ -102,7 +94,7 @@ MatrixXd cardinal_splines(const VectorXd& z, const std::vector<double>& knots) {
 MatrixXd bends_of(const VectorXd& z) {
   const std::vector<double> knots = knots_of(z);
   if (knots.size() < 3) return MatrixXd(z.size(), 0);
-  const auto n = static_cast<Index>(knots.size());
+  const Index n = knots.size();
   const std::vector<double> rough = effects::spline_roughness(knots);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
       Eigen::Map<const MatrixXd>(rough.data(), n, n));
@@ -122,10 +114,7 @@ MatrixXd bends_of(const VectorXd& z) {
 
 // One column per level, minus its share.
 MatrixXd factor_of(const CandidateColumn& column) {
-  const auto levels = static_cast<Index>(column.levels.size());
-  MatrixXd is(column.values.size(), levels);
-  for (Index l = 0; l < levels; ++l)
-    is.col(l) = (column.values.array() == static_cast<double>(l)).cast<double>();
+  MatrixXd is = level_columns(column);
   is.rowwise() -= is.colwise().mean().eval();
   return is / std::max(stats::root_mean_square(is), tuning::smallest_divisor);
 }

@@ -10,16 +10,15 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "trace/basics.h"
 #include "trace/columns/candidates.h"
 
 namespace frictab::trace {
 
 // Columns of a term, per block: straight ones, then bent ones.
 struct TermBasis {
-  Eigen::MatrixXd columns;
-  Eigen::Index straight = 0;
+  MatrixXd columns;
+  Index straight = 0;
 };
 
 class TermMaker {

@@ -7,13 +7,11 @@
 #include <numeric>
 
 #include <fmt/format.h>
-#include <gsl/gsl_cdf.h>
 
 #include "calibrate/comparison.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/metrics.h"
 #include "trace/judge/rows_alike.h"
-#include "trace/search/joint_choice.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
@@ -21,10 +19,6 @@ namespace frictab::trace {
 using calibrate::Difference;
 
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 class Deliverer {
 public:
@@ -38,15 +32,10 @@ public:
     if (!d_.findings.empty()) {
       judge_by_folds();
       drop_losses(); // first, because a single one would reject all
-      const NestedErrors::Gain gain = d_.nested.gain(weights_);
-      const bool pays = gain.error > 0 && (f_.pays || gain.error > gain.error_se);
-      d_.check = {d_.nested.folds,
-                  gain.error,
-                  gain.error_se,
-                  gain.score,
-                  gain.score_se,
-                  f_.findings.size(),
-                  pays ? f_.findings.size() : 0};
+      NestedCheck& check = d_.nested = d_.left_out.gain(weights_);
+      const bool pays = check.gain > 0 && (f_.pays || check.gain > check.std_error);
+      check.offered = f_.findings.size();
+      check.paying = pays ? check.offered : 0;
       if (!pays && !(by_validation() && shown_by_validation())) take_all_back({does_not_pay()});
     }
     drop_contradicted();
@@ -86,8 +75,7 @@ private:
     d_.baseline = weighted(s_.base());
     d_.rival = s_.last();
     for (std::size_t i = f_.findings.size(); i-- > 0;)
-      if (std::find(d_.findings.begin(), d_.findings.end(), i) == d_.findings.end())
-        d_.rival = without_effect(s_.campaign(), d_.rival, i);
+      if (!contains(d_.findings, i)) d_.rival = without_effect(s_.campaign(), d_.rival, i);
     if (d_.findings.empty()) d_.rival = s_.base();
     offered_ = d_.rival;
     if (weights_ == 1) weigh_alike();
@@ -96,9 +84,9 @@ private:
   // Computes errors of the current law on left-out tests and chooses weights by them.
   void judge_by_folds() {
     if (!judge_) judge_.emplace(f_);
-    d_.nested = judge_->errors(offered_);
+    d_.left_out = judge_->errors(offered_);
     judged_ = d_.findings;
-    weights_ = d_.nested.better_weights(true);
+    weights_ = d_.left_out.better_weights(true);
     take(d_.findings);
     if (d_.findings.empty() || d_.findings == judged_) return;
     take(d_.findings); // some vanished where all rows weigh alike
@@ -110,25 +98,25 @@ private:
   }
 
   double left_out_MPa() const {
-    if (d_.nested.folds == 0) return 0;
+    if (d_.left_out.folds == 0) return 0;
     if (d_.findings.empty())
-      return nested_mae(d_.nested.weighted[d_.nested.better_weights(false)].none);
+      return nested_mae(d_.left_out.weighted[d_.left_out.better_weights(false)].none);
     const bool fewer = judged_ != d_.findings; // the validation tests were against some
-    return nested_mae((fewer ? judge_->errors(d_.rival) : d_.nested).weighted[weights_].all);
+    return nested_mae((fewer ? judge_->errors(d_.rival) : d_.left_out).weighted[weights_].all);
   }
 
   // Gain of a finding on left-out tests.
   double nested_gain(std::size_t finding) const {
-    const NestedErrors::Weighted& errors = d_.nested.weighted[weights_];
-    const auto at = std::find(judged_.begin(), judged_.end(), finding) - judged_.begin();
-    return nested_mae(errors.without[static_cast<std::size_t>(at)]) - nested_mae(errors.all);
+    const NestedErrors::Weighted& errors = d_.left_out.weighted[weights_];
+    const auto at = std::ranges::find(judged_, finding) - judged_.begin();
+    return nested_mae(errors.without[at]) - nested_mae(errors.all);
   }
 
+  // Whether a finding is part of the product of another, for which it is kept.
   bool is_parent(std::size_t finding) const {
-    std::vector<std::vector<std::size_t>> columns;
-    for (const std::size_t f : d_.findings)
-      columns.push_back(f_.findings[f].rival.causes.back().columns);
-    return is_in_product(f_.findings[finding].rival.causes.back().columns, columns);
+    return std::ranges::any_of(d_.findings, [&](std::size_t other) {
+      return f_.findings[other].cause().is_product_with(f_.findings[finding].cause());
+    });
   }
 
   // Removes effects without which left-out tests are predicted as well, the worst first.
@@ -155,15 +143,20 @@ private:
     for (const std::size_t i : alike.kept)
       kept.push_back(d_.findings[i]);
     for (const std::size_t f : d_.findings)
-      if (std::find(kept.begin(), kept.end(), f) == kept.end())
+      if (!contains(kept, f))
         d_.against[f] = {
             "none within its error where all rows weigh alike, as in the law delivered"};
     d_.findings = std::move(kept);
   }
 
-  calibrate::Metrics errors(const data::Dataset& data, const Rival& rival) const {
-    return calibrate::metrics(data, calibrate::predict(s_.model_of(rival), data), in_.bootstrap,
-                              in_.seed);
+  calibrate::Metrics metrics(const std::vector<stats::ErrorSums>& sums) const {
+    return calibrate::metrics(sums, in_.bootstrap, in_.seed);
+  }
+
+  // Errors of a rival on the training tests, and those of unseen tests.
+  TraceErrors errors(const Rival& rival, const std::vector<stats::ErrorSums>& unseen) const {
+    const std::vector<double> predicted = calibrate::predict(s_.model_of(rival), in_.training);
+    return {calibrate::metrics(in_.training, predicted, in_.bootstrap, in_.seed), metrics(unseen)};
   }
 
   bool by_validation() const {
@@ -193,8 +186,8 @@ private:
   // Whether left-out tests are inconclusive (not against the effects with 95 % confidence) and
   // validation tests are predicted better with 95 % confidence.
   bool shown_by_validation() const {
-    const NestedErrors::Gain left_out = d_.nested.gain(weights_);
-    if (left_out.error < -2 * left_out.error_se) return false;
+    const NestedCheck left_out = d_.left_out.gain(weights_);
+    if (left_out.gain < -2 * left_out.std_error) return false;
     return gained(on_validation(d_.rival), on_validation(d_.baseline)).interval.low > 0;
   }
 
@@ -229,51 +222,49 @@ private:
                                   -loss.value_MPa),
                       false, true};
     d_.rival = fewer[worst];
-    d_.findings.erase(d_.findings.begin() + static_cast<long>(worst));
+    d_.findings.erase(d_.findings.begin() + worst);
     drop_contradicted();
   }
 
   // Compares the law without what follows the order of tests with the calibrated one, on the
   // validation tests that were searched: neither was fitted to them.
   void compare_without_order() {
-    const std::vector<stats::ErrorSums>& all = d_.nested.weighted[weights_].none.sums;
-    d_.unseen_by = "nested_cross_validation";
-    d_.check.folds = d_.nested.folds;
-    d_.unseen = all;
+    const std::vector<stats::ErrorSums>& all = d_.left_out.weighted[weights_].none.sums;
+    d_.unseen = "nested_cross_validation";
+    d_.nested.folds = d_.left_out.folds;
+    d_.unseen_sums = all;
     std::vector<stats::ErrorSums> with;
     for (const std::size_t test : in_.searched)
       with.push_back(all[test]);
     const std::vector<stats::ErrorSums> without = calibrated_on_validation();
-    d_.before = {errors(in_.training, d_.baseline),
-                 calibrate::metrics(without, in_.bootstrap, in_.seed)};
-    d_.after = {errors(in_.training, d_.rival), calibrate::metrics(with, in_.bootstrap, in_.seed)};
+    d_.before = errors(d_.baseline, without);
+    d_.after = errors(d_.rival, with);
     d_.improvement = gained(with, without);
   }
 
   // Compares errors on the validation tests or on left-out ones.
   void compare_errors() {
-    if (d_.findings.empty() && !in_.searched.empty() && f_.order.found && d_.nested.folds > 0)
+    if (d_.findings.empty() && !in_.searched.empty() && f_.order.found && d_.left_out.folds > 0)
       return compare_without_order();
-    const bool nested = !by_validation() && d_.nested.folds > 0;
+    const bool nested = !by_validation() && d_.left_out.folds > 0;
     if (nested)
-      d_.unseen_by = "nested_cross_validation";
+      d_.unseen = "nested_cross_validation";
     else if (no_validation())
-      d_.unseen_by = in_.training.experiments.size() > 1 ? "leave_one_out" : "nothing";
+      d_.unseen = in_.training.experiments.size() > 1 ? "leave_one_out" : "nothing";
     const auto unseen = [&](const Rival& rival, bool effects) {
-      const NestedErrors::Weighted& errors = d_.nested.weighted[weights_];
+      const NestedErrors::Weighted& errors = d_.left_out.weighted[weights_];
       if (nested) return (effects ? errors.all : errors.none).sums;
       if (!in_.searched.empty()) return calibrated_on_validation();
       return no_validation() ? calibrate::sums_of(in_.fit.unseen) : on_validation(rival);
     };
     const std::vector<stats::ErrorSums> with = unseen(d_.rival, !d_.findings.empty()),
                                         without = unseen(d_.baseline, false);
-    d_.before = {errors(in_.training, d_.baseline),
-                 calibrate::metrics(without, in_.bootstrap, in_.seed)};
+    d_.before = errors(d_.baseline, without);
     d_.after = d_.before;
-    d_.unseen = with;
+    d_.unseen_sums = with;
     d_.improvement = {};
     if (d_.findings.empty()) return;
-    d_.after = {errors(in_.training, d_.rival), calibrate::metrics(with, in_.bootstrap, in_.seed)};
+    d_.after = errors(d_.rival, with);
     d_.improvement = gained(with, without);
   }
 
@@ -282,9 +273,8 @@ private:
   // reading of the friction.
   std::optional<std::size_t> too_good() const {
     const double before = d_.before.validation.rmse_MPa, after = d_.after.validation.rmse_MPa;
-    const auto reading =
-        std::find_if(d_.findings.begin(), d_.findings.end(),
-                     [&](std::size_t finding) { return reads_something(finding); });
+    const auto reading = std::ranges::find_if(
+        d_.findings, [&](std::size_t finding) { return reads_something(finding); });
     if (reading == d_.findings.end() ||
         !(after * after < tuning::implausible_share_left * before * before))
       return std::nullopt;
@@ -299,17 +289,19 @@ private:
   }
 
   bool reads_something(std::size_t finding) const {
-    const auto& columns = f_.findings[finding].rival.causes.back().columns;
-    return std::any_of(columns.begin(), columns.end(),
-                       [&](std::size_t c) { return s_.candidates().columns[c].is_reading; });
+    return std::ranges::any_of(s_.candidates().of(f_.findings[finding].cause()),
+                               &CandidateColumn::is_reading);
+  }
+
+  // "0.5 MPa worse there (95 %: 0.1 to 0.9)"
+  static std::string worse_text(const Difference& gain, const char* where) {
+    return fmt::format("{:.3g} MPa worse{} (95 %: {:.3g} to {:.3g})", -gain.value_MPa, where,
+                       -gain.interval.high, -gain.interval.low);
   }
 
   static Against contradiction(const Difference& gain) {
-    return {fmt::format(
-                "contradicted by the validation tests: {:.3g} MPa worse there (95 %: {:.3g} to "
-                "{:.3g}); "
-                "another campaign, or not the cause but something that went with it in training",
-                -gain.value_MPa, -gain.interval.high, -gain.interval.low),
+    return {"contradicted by the validation tests: " + worse_text(gain, " there") +
+                "; another campaign, or not the cause but something that went with it in training",
             true, true};
   }
 
@@ -324,21 +316,18 @@ private:
     weights_ = 1;
     d_.baseline = weighted(s_.base());
     weigh_alike();
-    d_.gain_MPa.clear();
     drop_contradicted();
     compare_errors();
   }
 
   static Against no_better(const Difference& gain) {
-    return {
-        fmt::format("predicts the validation tests no better than the law as it was calibrated: "
-                    "{:.3g} MPa worse (95 %: {:.3g} to {:.3g})",
-                    -gain.value_MPa, -gain.interval.high, -gain.interval.low),
-        false, true};
+    return {"predicts the validation tests no better than the law as it was calibrated: " +
+                worse_text(gain, ""),
+            false, true};
   }
 
   Against another_reading(std::size_t finding) const {
-    const std::string name = cause_name(f_.findings[finding].rival.causes.back(), s_.candidates());
+    const std::string name = cause_name(f_.findings[finding].cause(), s_.candidates());
     return {fmt::format(
         "explains {:.4g} % of what the law leaves, which no friction law does: is {} "
         "another reading of the friction? If it was set, [data.roles] says so: "
@@ -355,7 +344,6 @@ private:
 
   void take_off(std::size_t finding, const Against& against) {
     d_.against[finding] = against;
-    d_.gain_MPa.clear();
     take(without(finding));
     if (!d_.findings.empty()) judge_by_folds();
     drop_contradicted();
@@ -372,15 +360,15 @@ private:
   }
 
   std::string does_not_pay() const {
-    const NestedErrors::Gain gain = d_.nested.gain(weights_);
-    if (gain.error == 0 && gain.error_se == 0)
+    const NestedCheck check = d_.left_out.gain(weights_);
+    if (check.gain == 0 && check.std_error == 0)
       return fmt::format("a search without some of the tests does not find it ({} folds)",
-                         d_.nested.folds);
+                         check.folds);
     return fmt::format("did not improve predictions of unseen tests: error {:+.2g} +- {:.2g} "
                        "% of the stress, log score {:+.2g} +- {:.2g} per test, "
                        "{} folds",
-                       -100 * gain.error, 100 * gain.error_se, gain.score, gain.score_se,
-                       d_.nested.folds);
+                       -100 * check.gain, 100 * check.std_error, check.score, check.score_se,
+                       check.folds);
   }
 
   const Found& f_;
@@ -400,45 +388,7 @@ Delivery deliver(const Found& found) {
 }
 
 bool Delivery::contradicted() const {
-  return std::any_of(against.begin(), against.end(),
-                     [](const auto& of) { return of.second.contradicted; });
-}
-
-ValidationShift shift_of(const TestGains& seen, const TestGains& unseen, double freedom) {
-  ValidationShift apart;
-  if (unseen.gain.size() < 3 || seen.gain.size() < 2) return apart;
-  const auto tests = static_cast<double>(seen.gain.size()),
-             n = static_cast<double>(unseen.gain.size());
-  const double free = std::max(1.0, tests - freedom);
-  const auto square = [](const VectorXd& x) { return (x.array() - x.mean()).square().sum(); };
-  const double own = square(unseen.gain) / (n - 1);
-  const double of_law = square(seen.gain) / free;
-  // Contribution of the uncertainty of the fitted parameters, assumed the same as in training.
-  const double open = of_law * std::max(1.0, freedom) / tests;
-  const double se = std::sqrt(std::max(own, of_law) / n + open);
-  const double shift = unseen.gain.mean() - seen.gain.mean();
-  const double degrees = std::min(free, n - 1);
-  apart.p_value =
-      2 * gsl_cdf_tdist_Q(std::abs(shift) / std::max(se, tuning::smallest_divisor), degrees);
-  apart.found = apart.p_value < tuning::validation_shift_p_value;
-  const double t = gsl_cdf_tdist_Qinv(tuning::tail_of_interval, degrees);
-  apart.share = std::expm1(shift);
-  apart.interval = {std::expm1(shift - t * se), std::expm1(shift + t * se)};
-  return apart;
-}
-
-ValidationShift validation_shift_of(const Search& search, const Rival& rival) {
-  const TraceInput& in = search.input();
-  const models::Model model = search.model_of(rival);
-  const std::vector<double> predicted = calibrate::predict(model, in.validation);
-  ValidationShift apart = shift_of(test_gains(in.training, calibrate::predict(model, in.training)),
-                                   test_gains(in.validation, predicted), rival.freedom);
-  double mean = 0;
-  for (const double value : predicted)
-    mean += value / static_cast<double>(predicted.size());
-  apart.shift_MPa = mean * apart.share;
-  apart.interval = {mean * apart.interval.low, mean * apart.interval.high};
-  return apart;
+  return std::ranges::any_of(against, [](const auto& of) { return of.second.contradicted; });
 }
 
 } // namespace frictab::trace

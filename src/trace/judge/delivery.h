@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 
-#include "trace/judge/gains.h"
 #include "trace/judge/nested_errors.h"
 
 namespace frictab::trace {
@@ -21,33 +20,19 @@ struct Against {
 };
 
 // The delivered law and the law that it is compared with, under the same kind of weights.
-struct Delivery {
+struct Delivery : BeforeAndAfter {
   std::vector<std::size_t> findings;      // in the law, in order
   std::map<std::size_t, Against> against; // by finding that is not in it
   Rival rival;                            // the law with them
-  std::vector<double> gain_MPa;         // of each: MAE on the unseen tests without it minus with it
-  Rival baseline;                       // the law without them
-  NestedErrors nested;                  // folds = 0: nothing was found
-  double left_out_MPa = 0;              // MAE of the law on left-out tests
-  std::vector<stats::ErrorSums> unseen; // of the rival, per unseen test
-  // As in Trace.
-  std::string unseen_by = "validation";
-  TraceErrors before, after;
-  calibrate::Difference improvement;
-  std::optional<calibrate::Difference> over_calibrated;
-  NestedCheck check;
+  std::vector<double> gain_MPa; // of each: MAE on the unseen tests without it minus with it
+  Rival baseline;               // the law without them
+  NestedErrors left_out;        // folds = 0: nothing was found
+  double left_out_MPa = 0;      // MAE of the law on left-out tests
+  std::vector<stats::ErrorSums> unseen_sums; // of the rival, per unseen test
 
   bool contradicted() const; // a finding, by the validation tests
 };
 
 Delivery deliver(const Found& found);
-
-// Tests whether the validation tests as a whole lie higher or lower than the training tests,
-// relative to that rival: the difference of the mean gains, with a standard error that includes the
-// scatter of the tests and the uncertainty of the fitted parameters.
-ValidationShift validation_shift_of(const Search& search, const Rival& rival);
-// The same from gains; `freedom`: number of parameters fitted to `seen`. Fills only the shares and
-// the p-value.
-ValidationShift shift_of(const TestGains& seen, const TestGains& unseen, double freedom);
 
 } // namespace frictab::trace

@@ -17,13 +17,9 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 VectorXd relative_errors(const data::Dataset& data, const std::vector<double>& predicted) {
   const auto measured = data.values("tau_R_MPa");
-  VectorXd errors(static_cast<Index>(data.experiments.size()));
+  VectorXd errors(data.experiments.size());
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     double sum = 0;
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
@@ -32,7 +28,7 @@ VectorXd relative_errors(const data::Dataset& data, const std::vector<double>& p
           data.row_weight(i) * std::abs(std::log(std::clamp(ratio, 1 / tuning::largest_error_ratio,
                                                             tuning::largest_error_ratio)));
     }
-    errors(static_cast<Index>(e)) = sum / static_cast<double>(data.source_rows(e));
+    errors(e) = sum / static_cast<double>(data.source_rows(e));
   }
   return errors;
 }
@@ -51,14 +47,23 @@ VectorXd scores(const data::Dataset& data, const std::vector<double>& predicted,
   whitener.apply(residual);
   VectorXd score = -0.5 * whitener.log_det();
   for (std::size_t e = 0; e < blocks.experiments(); ++e) {
-    const auto size = static_cast<Index>(blocks.first[e + 1] - blocks.first[e]);
-    const double squares =
-        residual.col(0).segment(static_cast<Index>(blocks.first[e]), size).squaredNorm();
-    score(static_cast<Index>(e)) -= 0.5 *
-                                    (tuning::law_score_t_freedom + static_cast<double>(size)) *
-                                    std::log1p(squares / tuning::law_score_t_freedom);
+    const auto own = blocks.part(residual.col(0), e);
+    score(e) -= 0.5 * (tuning::law_score_t_freedom + static_cast<double>(own.size())) *
+                std::log1p(own.squaredNorm() / tuning::law_score_t_freedom);
   }
   return score;
+}
+
+void put(const LeftOut& from, const std::vector<std::size_t>& tests, std::size_t count,
+         LeftOut& to) {
+  to.sums.resize(count);
+  to.relative.conservativeResize(count);
+  to.score.conservativeResize(count);
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    to.sums[tests[i]] = from.sums[i];
+    to.relative(tests[i]) = from.relative(i);
+    to.score(tests[i]) = from.score(i);
+  }
 }
 
 } // namespace
@@ -90,10 +95,9 @@ public:
   void run_without(const Rival& law, std::size_t weights, NestedErrors::Weighted& errors) const {
     for (const Cause& cause : law.causes) {
       errors.without.push_back(errors.all);
-      const auto at = std::find(causes_.begin(), causes_.end(), cause);
+      const auto at = std::ranges::find(causes_, cause);
       if (at == causes_.end()) continue;
-      const Rival fewer =
-          without_effect(search_.campaign(), with_, static_cast<std::size_t>(at - causes_.begin()));
+      const Rival fewer = without_effect(search_.campaign(), with_, at - causes_.begin());
       errors.without.back() = judged(fewer, weights, errors.all);
     }
   }
@@ -102,7 +106,7 @@ private:
   std::vector<std::size_t> others() const {
     std::vector<std::size_t> kept;
     for (std::size_t e = 0; e < all_.input().training.experiments.size(); ++e)
-      if (std::find(fold_.out.begin(), fold_.out.end(), e) == fold_.out.end()) kept.push_back(e);
+      if (!contains(fold_.out, e)) kept.push_back(e);
     return kept;
   }
 
@@ -113,10 +117,9 @@ private:
     std::set<std::string> needed{all_.candidates().order_column, options.tool_distance};
     const auto need = [&](const std::vector<Cause>& causes) {
       for (const Cause& cause : causes)
-        for (const std::size_t c : cause.columns) {
-          const CandidateColumn& column = all_.candidates().columns[c];
-          needed.insert(column.name);
-          needed.insert(column.recorded.begin(), column.recorded.end());
+        for (const CandidateColumn* column : all_.candidates().of(cause)) {
+          needed.insert(column->name);
+          needed.insert(column->recorded.begin(), column->recorded.end());
         }
     };
     need(all_.last().causes);
@@ -138,15 +141,12 @@ private:
     causes_.clear();
     for (std::size_t i = 0; i < fold_.causes.size(); ++i) {
       const Cause& cause = fold_.causes[i];
-      const auto own = std::find(law.causes.begin(), law.causes.end(), cause);
-      const bool taken_off =
-          own == law.causes.end() && std::find(all_.last().causes.begin(), all_.last().causes.end(),
-                                               cause) != all_.last().causes.end();
+      const auto own = std::ranges::find(law.causes, cause);
+      const bool taken_off = own == law.causes.end() && contains(all_.last().causes, cause);
       const auto here = cause_in(search_.candidates(), cause, all_.candidates());
       if (!here || taken_off) continue;
-      effects.push_back(own == law.causes.end()
-                            ? smooth_effect(search_, *here, fold_.acts_on[i])
-                            : law.effects[static_cast<std::size_t>(own - law.causes.begin())]);
+      effects.push_back(own == law.causes.end() ? smooth_effect(search_, *here, fold_.acts_on[i])
+                                                : law.effects[own - law.causes.begin()]);
       causes.push_back(*here);
       causes_.push_back(cause);
     }
@@ -179,28 +179,13 @@ private:
   std::vector<Cause> causes_; // of with_, numbered as on all tests
 };
 
-namespace {
-
-void put(const LeftOut& from, const std::vector<std::size_t>& tests, std::size_t count,
-         LeftOut& to) {
-  to.sums.resize(count);
-  to.relative.conservativeResize(static_cast<Index>(count));
-  to.score.conservativeResize(static_cast<Index>(count));
-  for (std::size_t i = 0; i < tests.size(); ++i) {
-    to.sums[tests[i]] = from.sums[i];
-    to.relative(static_cast<Index>(tests[i])) = from.relative(static_cast<Index>(i));
-    to.score(static_cast<Index>(tests[i])) = from.score(static_cast<Index>(i));
-  }
-}
-
-} // namespace
-
-NestedErrors::Gain NestedErrors::gain(std::size_t weights) const {
+NestedCheck NestedErrors::gain(std::size_t weights) const {
   const VectorXd score_gain = weighted[weights].all.score - weighted[weights].none.score,
                  error_gain =
                      weighted[better_weights(false)].none.relative - weighted[weights].all.relative;
-  if (score_gain.size() < 2) return {};
-  return {score_gain.mean(), std_error(score_gain), error_gain.mean(), std_error(error_gain)};
+  if (score_gain.size() < 2) return {folds};
+  return {folds, error_gain.mean(), std_error(error_gain), score_gain.mean(),
+          std_error(score_gain)};
 }
 
 std::size_t NestedErrors::better_weights(bool with_effects) const {
@@ -214,12 +199,10 @@ NestedJudge::NestedJudge(const Found& found)
     : tests_(found.search.blocks().experiments()), folds_(found.folds.size()) {
   Progress progress("fitting without some tests", folds_.size());
   parallel_for(folds_.size(), [&](std::size_t f) {
-    folds_[f] = std::make_unique<FoldJudge>(found.search, found.folds[f]);
+    folds_[f] = std::make_shared<FoldJudge>(found.search, found.folds[f]);
     progress.tick();
   });
 }
-
-NestedJudge::~NestedJudge() = default;
 
 NestedErrors NestedJudge::errors(const Rival& law) const {
   NestedErrors all;

@@ -22,8 +22,8 @@ namespace frictab::trace {
 // Errors of left-out tests, one entry per test.
 struct LeftOut {
   std::vector<stats::ErrorSums> sums;
-  Eigen::VectorXd relative; // mean of |ln(measured / predicted)| over its rows
-  Eigen::VectorXd score;
+  VectorXd relative; // mean of |ln(measured / predicted)| over its rows
+  VectorXd score;
 };
 
 struct NestedErrors {
@@ -35,14 +35,10 @@ struct NestedErrors {
   Weighted weighted[2]; // the noise model's | all rows alike
   std::size_t folds = 0;
 
-  struct Gain {
-    double score = 0, score_se = 0;
-    double error = 0, error_se = 0; // reduction of the relative error
-  };
   // Mean gain over tests, compared with the law without effects under the weights that suit it
   // better: effects are not credited for repairing a fit that the noise model's weights have
-  // worsened.
-  Gain gain(std::size_t weights) const;
+  // worsened. Leaves the numbers of effects open.
+  NestedCheck gain(std::size_t weights) const;
   // Index of the weights that predict left-out tests clearly better.
   std::size_t better_weights(bool with_effects) const;
 };
@@ -53,13 +49,12 @@ class FoldJudge;
 class NestedJudge {
 public:
   explicit NestedJudge(const Found& found);
-  ~NestedJudge();
   // Errors of a law with some of the effects of the search, and without each of these.
   NestedErrors errors(const Rival& law) const;
 
 private:
   std::size_t tests_;
-  std::vector<std::unique_ptr<FoldJudge>> folds_;
+  std::vector<std::shared_ptr<FoldJudge>> folds_;
 };
 
 } // namespace frictab::trace

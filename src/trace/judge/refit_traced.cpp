@@ -11,7 +11,7 @@
 #include "calibrate/refit.h"
 #include "core/parallel.h"
 #include "core/progress.h"
-#include "trace/judge/uncertainty.h"
+#include "trace/judge/rows_alike.h"
 
 namespace frictab::trace {
 
@@ -25,7 +25,7 @@ public:
 
   // Fits the law to some experiments; returns nothing if these lack a column.
   std::optional<models::Model> fitted_to(const Dataset& data,
-                                         calibrate::ModelFit* uncertain = nullptr) const {
+                                         calibrate::Uncertainty* uncertain = nullptr) const {
     TraceOptions options = s_.input().options;
     options.order = s_.candidates().order_column; // tests of a part are not numbered 1 to n
     const Dataset none = data.subset({});
@@ -41,14 +41,8 @@ public:
     Rival fit = fit_rival(part.campaign(), rival_.effects, causes, rival_.parameters, rival_.noise,
                           NoiseSearch::again);
     if (!(rival_.weights.gain > 0)) fit = with_weights(part.campaign(), fit, rows_alike(fit.noise));
-    models::Model model = part.model_of(fit);
-    if (uncertain) {
-      calibrate::Uncertainty found = uncertainty_of(part.campaign(), fit);
-      uncertain->std_error = std::move(found.std_error);
-      uncertain->remarks = std::move(found.remarks);
-      model.covariance = calibrate::row_by_row(calibrate::known_covariance(found));
-    }
-    return model;
+    if (uncertain) *uncertain = uncertainty_of(part.campaign(), fit);
+    return part.model_of(fit);
   }
 
 private:
@@ -59,7 +53,7 @@ private:
 // Errors of every experiment by the law fitted without its fold; empty if a fold lacks a column.
 std::vector<stats::ErrorSums> cross_validated(const Refitter& refitter, const Dataset& all,
                                               std::span<const std::size_t> fold_of) {
-  const std::size_t folds = *std::max_element(fold_of.begin(), fold_of.end()) + 1;
+  const std::size_t folds = *std::ranges::max_element(fold_of) + 1;
   std::vector<stats::ErrorSums> errors(fold_of.size());
   std::vector<char> done(folds, 0);
   const Progress progress("fitting the traced law to all experiments", folds);
@@ -76,11 +70,25 @@ std::vector<stats::ErrorSums> cross_validated(const Refitter& refitter, const Da
       errors[out[i]] = sums[i];
     done[fold] = 1;
   });
-  if (std::count(done.begin(), done.end(), 0) > 0) return {};
+  if (std::ranges::count(done, 0) > 0) return {};
   return errors;
 }
 
 } // namespace
+
+void add_fitted_tests(calibrate::ModelFit& fit, const calibrate::Uncertainty& uncertainty,
+                      const Dataset& tests, const TraceInput& in) {
+  fit.std_error = uncertainty.std_error;
+  fit.std_error_method = "cluster sandwich by experiment";
+  fit.remarks = uncertainty.remarks;
+  fit.model.covariance = calibrate::row_by_row(calibrate::known_covariance(uncertainty));
+  const models::AssembledLaw law(fit.model);
+  const auto [columns, tau] = calibrate::predict_with_columns(law, law.inputs, tests);
+  fit.data_range = columns.ranges();
+  fit.training = calibrate::metrics(tests, tau, in.bootstrap, in.seed);
+  fit.model.experiment_gains = calibrate::gains_of_new_experiments(
+      calibrate::experiment_gains(tests, tau), fit.model.parameters.size());
+}
 
 std::shared_ptr<const calibrate::ModelFit>
 refit_traced(const Found& found, const Delivery& delivery, const Dataset& all) {
@@ -89,25 +97,20 @@ refit_traced(const Found& found, const Delivery& delivery, const Dataset& all) {
       models::is_trained(in.fit.model.law->calibrated))
     return nullptr;
   const Refitter refitter(found.search, delivery.rival);
-  calibrate::ModelFit fit;
-  const auto model = refitter.fitted_to(all, &fit);
+  calibrate::Uncertainty uncertainty;
+  const auto model = refitter.fitted_to(all, &uncertainty);
   if (!model) return nullptr;
-  fit.model = *model;
   const auto fold_of = calibrate::delivery_folds(all, in.seed);
   const auto errors = cross_validated(refitter, all, fold_of);
   if (errors.empty()) return nullptr;
-  const models::AssembledLaw law(fit.model);
-  const auto [columns, tau] = calibrate::predict_with_columns(law, law.inputs, all);
-  fit.data_range = columns.ranges();
+  calibrate::ModelFit fit;
+  fit.model = *model;
+  add_fitted_tests(fit, uncertainty, all, in);
   fit.fitted_to_all = true;
-  fit.std_error_method = "cluster sandwich by experiment";
   fit.termination = "the effects of the trace, fitted again to all experiments";
   fit.remarks.push_back("its effects were chosen by tests that are left out in turn here: the "
                         "error on new tests is a little larger");
-  fit.training = calibrate::metrics(all, tau, in.bootstrap, in.seed);
   fit.validation = calibrate::metrics(errors, in.bootstrap, in.seed);
-  fit.model.experiment_gains = calibrate::gains_of_new_experiments(
-      calibrate::experiment_gains(all, tau), fit.model.parameters.size());
   fit.band = calibrate::check_band(fit.model, {}, all.subset({}));
   return std::make_shared<const calibrate::ModelFit>(std::move(fit));
 }

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "calibrate/sandwich.h"
 #include "trace/judge/delivery.h"
 
 namespace frictab::trace {
@@ -16,5 +17,10 @@ namespace frictab::trace {
 // column.
 std::shared_ptr<const calibrate::ModelFit>
 refit_traced(const Found& found, const Delivery& delivery, const data::Dataset& all);
+
+// Completes the fit of a traced law by its standard errors, and by its errors on the tests to which
+// it was fitted and their ranges.
+void add_fitted_tests(calibrate::ModelFit& fit, const calibrate::Uncertainty& uncertainty,
+                      const data::Dataset& tests, const TraceInput& in);
 
 } // namespace frictab::trace

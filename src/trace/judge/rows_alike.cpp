@@ -1,21 +1,34 @@
-// Certainty of each effect, in standard errors from "no effect".
+// Sandwich by test; certainty of each effect, in standard errors from "no effect".
 #include "trace/judge/rows_alike.h"
 
 #include <cmath>
 #include <numeric>
 
 #include "effects/extended_law.h"
-#include "trace/columns/factor_band.h"
-#include "trace/judge/uncertainty.h"
+#include "trace/columns/shapes.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
+// Contribution of each test to the sandwich, from whitened residuals. (Nuisance columns are
+// projected out of all tests together; the share of a single test in them is ignored.)
+std::vector<calibrate::ExperimentSums> sums_by_test(const Campaign& campaign, const Rival& rival) {
+  const stats::Whitener whitener(rival.weights, rival.predicted, campaign.blocks,
+                                 campaign.nuisance);
+  MatrixXd jacobian = rival.jacobian;
+  MatrixXd residual = campaign.measured - rival.predicted;
+  whitener.apply(jacobian);
+  whitener.apply(residual);
+  std::vector<calibrate::ExperimentSums> sums;
+  for (std::size_t e = 0; e < campaign.blocks.experiments(); ++e) {
+    const auto rows = campaign.blocks.rows_of(jacobian, e);
+    sums.push_back(
+        {rows.transpose() * campaign.blocks.part(residual.col(0), e), rows.transpose() * rows});
+  }
+  return sums;
+}
 
 double largest_ratio(const VectorXd& sizes, const VectorXd& errors) {
   double most = 0;
@@ -31,10 +44,8 @@ double largest_ratio(const VectorXd& sizes, const VectorXd& errors) {
 // and then has a large error.
 double certainty(const Campaign& campaign, const effects::PlacedEffect& effect,
                  const MatrixXd& covariance) {
-  std::vector<const double*> columns;
-  for (const effects::EffectInput& input : effect.inputs)
-    columns.push_back(campaign.candidates.by_symbol.at(effects::symbol_of(input.column)).data());
-  FactorOnRows on = factor_on_rows(effect, columns, static_cast<Index>(campaign.blocks.count()));
+  FactorOnRows on = factor_on_rows(effect, inputs_on(effect, campaign.candidates.by_symbol),
+                                   campaign.blocks.count());
   const double from_none = largest_ratio(on.factor.array() - 1, std_errors(on.slope, covariance));
   on.factor.array() -= on.factor.mean();
   on.slope.rowwise() -= on.slope.colwise().mean().eval();
@@ -50,8 +61,8 @@ LeastCertain least_certain(const Campaign& campaign, const Rival& rival) {
   LeastCertain found;
   const MatrixXd covariance = uncertainty_of(campaign, rival).covariance;
   for (std::size_t i = 0; i < rival.effects.size(); ++i) {
-    const auto first = static_cast<Index>(first_parameter(rival, i)),
-               count = static_cast<Index>(effects::fitted_parameters(rival.effects[i]).size());
+    const std::size_t first = first_parameter(rival, i),
+                      count = effects::fitted_parameters(rival.effects[i]).size();
     const double one =
         certainty(campaign, rival.effects[i], covariance.block(first, first, count, count));
     if (one < found.certainty) found = {i, one};
@@ -60,6 +71,11 @@ LeastCertain least_certain(const Campaign& campaign, const Rival& rival) {
 }
 
 } // namespace
+
+calibrate::Uncertainty uncertainty_of(const Campaign& campaign, const Rival& rival) {
+  return calibrate::cluster_sandwich(bounded_law(campaign, rival).parameters, rival.parameters,
+                                     sums_by_test(campaign, rival), penalty_of(rival));
+}
 
 FittedAlike fit_rows_alike(const Campaign& campaign, const Rival& rival) {
   const auto alike = [&](const Rival& one) {
@@ -71,7 +87,7 @@ FittedAlike fit_rows_alike(const Campaign& campaign, const Rival& rival) {
     const LeastCertain least = least_certain(campaign, found.rival);
     if (least.certainty > tuning::doubtful_std_errors) break;
     found.rival = alike(less_effect(found.rival, least.effect));
-    found.kept.erase(found.kept.begin() + static_cast<long>(least.effect));
+    found.kept.erase(found.kept.begin() + least.effect);
   }
   if (found.kept.size() < rival.effects.size() && !campaign.quick) // its noise has changed
     found.rival = alike(fit_rival(campaign, found.rival, found.rival.effects, found.rival.causes,

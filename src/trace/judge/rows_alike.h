@@ -1,13 +1,19 @@
-// Fit of a traced law with equal weights for all rows, and removal of effects that vanish in it.
+// Standard errors of a rival's parameters; its fit with equal weights for all rows, and removal of
+// effects that vanish in it.
 //
 // Effects are found under the noise model (rivals.h). Where the delivered law weighs all rows
 // equally (delivery.h), its parameters differ, and the confidence interval of an effect may include
 // "no effect": the effect would burden tables and routines for nothing.
 #pragma once
 
+#include "calibrate/sandwich.h"
 #include "trace/search/rivals.h"
 
 namespace frictab::trace {
+
+// Returns standard errors with the test as the statistical unit: the cluster sandwich of the
+// residuals as whitened by the rival's weights.
+calibrate::Uncertainty uncertainty_of(const Campaign& campaign, const Rival& rival);
 
 struct FittedAlike {
   Rival rival;

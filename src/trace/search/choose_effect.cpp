@@ -21,10 +21,6 @@ using effects::PlacedEffect;
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 static_assert(tuning::site_costs.size() == sites.size());
 
 // One way to explain the residual, linear in its coefficients.
@@ -49,8 +45,14 @@ double clamped_start(double amplitude) {
   return std::clamp(amplitude, -tuning::largest_start_amplitude, tuning::largest_start_amplitude);
 }
 
+void start_at(const stats::SmoothFit& fit, PlacedEffect& effect) {
+  effect.stiffness = fit.stiffness;
+  effects::set_fitted(effect,
+                      {fit.coefficients.data(), fit.coefficients.data() + fit.coefficients.size()});
+}
+
 Option option_of(const Cause& cause, PlacedEffect effect) {
-  const auto count = static_cast<Index>(effects::amplitudes_of(effect));
+  const Index count = effects::amplitudes_of(effect);
   const MatrixXd penalty =
       effect.form->penalty ? roughness_of(effect)
                            : tuning::penalty_of_plain_amplitudes * MatrixXd::Identity(count, count);
@@ -78,19 +80,12 @@ void fit_options(const Search& search, const stats::NoiseModel& noise, Options& 
   });
 }
 
-void sort_options(Options& options) {
-  std::stable_sort(options.begin(), options.end(),
-                   [](const Option& a, const Option& b) { return a.criterion < b.criterion; });
-}
-
 Rival rival_of(const Search& search, const Campaign& campaign, const Option& option,
                const stats::NoiseModel& noise) {
   PlacedEffect effect = option.effect;
-  if (effect.form->penalty) {
-    effect.stiffness = option.fit.stiffness;
-    std::vector<double> start(option.fit.coefficients.begin(), option.fit.coefficients.end());
-    effects::set_fitted(effect, start);
-  } else if (effects::amplitudes_of(effect) == 1 && !effect.form->categorical)
+  if (effect.form->penalty)
+    start_at(option.fit, effect);
+  else if (effects::amplitudes_of(effect) == 1 && !effect.form->categorical)
     effect.parameters[0] = clamped_start(option.fit.coefficients(0));
   return with_effect(campaign, search.last(), std::move(effect), option.cause, noise,
                      NoiseSearch::kept);
@@ -130,7 +125,7 @@ void drop_distinguishable(const Search& search, const stats::NoiseModel& noise, 
 
 // Whether the cause has a text column, which comes first.
 bool starts_with_text(const Cause& cause, const Candidates& candidates) {
-  return !candidates.columns[cause.columns[0]].levels.empty();
+  return !candidates.first_of(cause).levels.empty();
 }
 
 const char* plain_form(const Cause& cause, bool text) {
@@ -143,51 +138,6 @@ const char* smooth_form(const Cause& cause, bool text, bool two_values) {
   if (two_values) return plain_form(cause, text);
   return text ? "category" : "spline";
 }
-
-} // namespace
-
-PlacedEffect plain_effect(const Search& search, const Cause& cause) {
-  const char* form = plain_form(cause, starts_with_text(cause, search.candidates()));
-  const bool both = search.sensitivities()[on_both].size() > 0;
-  return start_effect(*effects::find_effect(form), cause, search.candidates(),
-                      sites[both ? on_both : on_mu], search.tau_scale_MPa());
-}
-
-PlacedEffect smooth_effect(const Search& search, const Cause& cause, effects::ActsOn acts_on) {
-  const Candidates& candidates = search.candidates();
-  const char* form = smooth_form(cause, starts_with_text(cause, candidates),
-                                 candidates.columns[cause.columns[0]].two_values);
-  return start_effect(*effects::find_effect(form), cause, candidates, acts_on,
-                      search.tau_scale_MPa());
-}
-
-std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>& suspects) {
-  Options options;
-  for (const Suspect& suspect : suspects)
-    options.push_back(option_of(suspect.cause, suspect.effect));
-  // Fits one noise model for all options, with the first one's effect included; otherwise that
-  // effect would count as noise.
-  const Cause& first = suspects.front().cause;
-  const stats::NoiseModel noise =
-      with_effect(search.campaign(), search.last(), plain_effect(search, first), first,
-                  search.last().noise, NoiseSearch::again)
-          .noise;
-  fit_options(search, noise, options);
-  sort_options(options);
-  Options best; // best option of each cause
-  for (Option& option : options)
-    if (std::none_of(best.begin(), best.end(),
-                     [&](const Option& o) { return o.cause == option.cause; }) &&
-        best.size() < tuning::shortlisted_causes)
-      best.push_back(std::move(option));
-  if (search.campaign().selection) drop_distinguishable(search, noise, best);
-  std::vector<Rival> rivals = rivals_of(search, search.campaign(), best, noise);
-  for (std::size_t i = 0; i < best.size(); ++i)
-    rivals[i].criterion = best[i].criterion;
-  return rivals;
-}
-
-namespace {
 
 // Residual of the law without the effect `index`, everything else as fitted: the signal that any
 // other form of that effect has to explain.
@@ -214,12 +164,10 @@ public:
     MatrixXd known = search.base().jacobian;
     stats::append_columns(known, search.trained());
     for (std::size_t i = 0; i < winner.effects.size(); ++i) {
-      const VectorXd& sensitivity = search.sensitivities()[site_of(winner.effects[i])];
       // Empty if, with the effects found since, its site no longer changes tau_R anywhere.
+      const VectorXd& sensitivity = search.sensitivities()[site_of(winner.effects[i])];
       if (i != index && sensitivity.size() > 0)
-        stats::append_columns(
-            known, sensitivity.asDiagonal() *
-                       amplitude_basis(winner.effects[i], search.candidates().by_symbol));
+        stats::append_columns(known, basis_of(search, winner.effects[i]));
     }
     whitener_.apply(known);
     known_ = stats::orthonormal(known);
@@ -236,8 +184,7 @@ public:
       add_closed(shapes, p, starts);
       add_smooth(p, starts);
     }
-    std::stable_sort(starts.begin(), starts.end(),
-                     [](const Start& a, const Start& b) { return a.explained > b.explained; });
+    std::ranges::stable_sort(starts, std::greater{}, &Start::explained);
     return starts;
   }
 
@@ -245,14 +192,13 @@ private:
   void add_closed(const std::vector<GridShape>& shapes, std::size_t site,
                   std::vector<Start>& starts) const {
     std::map<const effects::EffectForm*, Start> best;
-    MatrixXd basis(target_.size(), static_cast<Index>(shapes.size()));
+    MatrixXd basis(target_.size(), shapes.size());
     for (std::size_t i = 0; i < shapes.size(); ++i)
-      basis.col(static_cast<Index>(i)) =
-          shapes[i].direction.cast<double>().cwiseProduct(s_.sensitivities()[site]);
+      basis.col(i) = shapes[i].direction.cast<double>().cwiseProduct(s_.sensitivities()[site]);
     whitener_.apply(basis);
     basis -= known_ * (known_.transpose() * basis).eval();
     for (std::size_t i = 0; i < shapes.size(); ++i) {
-      const auto column = basis.col(static_cast<Index>(i));
+      const auto column = basis.col(i);
       const double size = column.squaredNorm(), along = column.dot(target_);
       if (!(size > 0)) continue;
       Start start{shapes[i].effect, along * along / size};
@@ -274,9 +220,7 @@ private:
     whitener_.apply(basis);
     const stats::SmoothFit fit = stats::fit_smooth(target_, basis, option.penalty, known_);
     Start start{std::move(option.effect), fit.without - fit.criterion};
-    start.effect.stiffness = fit.stiffness;
-    effects::set_fitted(start.effect,
-                        std::vector<double>(fit.coefficients.begin(), fit.coefficients.end()));
+    start_at(fit, start.effect);
     starts.push_back(std::move(start));
   }
 
@@ -312,8 +256,7 @@ void keep_promising(double share, std::size_t index, std::vector<Start>& starts,
   const auto promise = [&](std::size_t i) {
     return fits[i].penalised + (1 / share - 1) * fits[i].total;
   };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return promise(a) > promise(b); });
+  std::ranges::stable_sort(order, std::greater{}, promise);
   if (order.size() > tuning::most_forms_on_all_tests) order.resize(tuning::most_forms_on_all_tests);
   std::vector<Start> kept;
   for (const std::size_t i : order) {
@@ -324,6 +267,44 @@ void keep_promising(double share, std::size_t index, std::vector<Start>& starts,
 }
 
 } // namespace
+
+PlacedEffect plain_effect(const Search& search, const Cause& cause) {
+  const char* form = plain_form(cause, starts_with_text(cause, search.candidates()));
+  return start_effect(*effects::find_effect(form), cause, search.candidates(),
+                      sites[searched_site(search.sensitivities())], search.tau_scale_MPa());
+}
+
+PlacedEffect smooth_effect(const Search& search, const Cause& cause, effects::ActsOn acts_on) {
+  const Candidates& candidates = search.candidates();
+  const char* form = smooth_form(cause, starts_with_text(cause, candidates),
+                                 candidates.first_of(cause).two_values);
+  return start_effect(*effects::find_effect(form), cause, candidates, acts_on,
+                      search.tau_scale_MPa());
+}
+
+std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>& suspects) {
+  Options options;
+  for (const Suspect& suspect : suspects)
+    options.push_back(option_of(suspect.cause, suspect.effect));
+  // Fits one noise model for all options, with the first one's effect included; otherwise that
+  // effect would count as noise.
+  const Cause& first = suspects.front().cause;
+  const stats::NoiseModel noise =
+      with_effect(search.campaign(), search.last(), plain_effect(search, first), first,
+                  search.last().noise, NoiseSearch::again)
+          .noise;
+  fit_options(search, noise, options);
+  std::ranges::stable_sort(options, {}, &Option::criterion);
+  Options best; // best option of each cause
+  for (Option& option : options)
+    if (!contains(best, option.cause, &Option::cause) && best.size() < tuning::shortlisted_causes)
+      best.push_back(std::move(option));
+  if (search.campaign().selection) drop_distinguishable(search, noise, best);
+  std::vector<Rival> rivals = rivals_of(search, search.campaign(), best, noise);
+  for (std::size_t i = 0; i < best.size(); ++i)
+    rivals[i].criterion = best[i].criterion;
+  return rivals;
+}
 
 std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::size_t index) {
   if (search.sensitivities()[site_of(winner.effects[index])].size() == 0)
@@ -342,8 +323,7 @@ std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::s
   rivals.push_back(winner);
   rivals.back().penalised -= tuning::site_costs[site_of(winner.effects[index])];
   if (winner.effects[index].form->penalty) rivals.back().penalised -= tuning::smooth_cost;
-  std::stable_sort(rivals.begin(), rivals.end(),
-                   [](const Rival& a, const Rival& b) { return a.penalised > b.penalised; });
+  std::ranges::stable_sort(rivals, std::greater{}, &Rival::penalised);
   return rivals;
 }
 

@@ -8,7 +8,6 @@
 #include "core/parallel.h"
 #include "data/recordings.h"
 #include "stats/projection.h"
-#include "trace/columns/order_test.h"
 #include "trace/columns/shapes.h"
 #include "trace/columns/terms.h"
 #include "trace/search/order_search.h"
@@ -18,10 +17,6 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 class Campaigner {
 public:
   Campaigner(const Search& search, std::span<const Cause> barred)
@@ -30,19 +25,18 @@ public:
                                                 search.tau_scale_MPa())) {}
 
   JointResult find() {
-    const JointData data = offered_data();
+    find_sites();
+    offer_terms();
+    const JointData data = make_data();
     const JointSettings settings = settings_for(data.terms.size());
     const JointPath path = search_jointly(data, offer_, settings);
     JointResult result;
     const JointChoice choice = choose_jointly(data, modes_, offer_, settings, path,
                                               state_means(s_.candidates(), s_.blocks()));
     result.pays = choice.pays;
-    for (const JointStep& step : choice.kept)
-      result.found.push_back(named(step));
-    for (const JointStep& step : choice.dropped)
-      result.dropped.push_back(named(step));
-    for (const JointStep& step : path.unsure)
-      result.unsure.push_back(named(step));
+    result.found = named(choice.kept);
+    result.dropped = named(choice.dropped);
+    result.unsure = named(path.unsure);
     for (const JointFold& fold : choice.folds) {
       CauseFold& named = result.folds.emplace_back(CauseFold{fold.out, {}, {}});
       for (const std::size_t term : fold.terms) {
@@ -51,18 +45,22 @@ public:
       }
     }
     result.leftover = leftover(path.left, settings);
-    const bool has_stretches = std::find(along_order_.begin(), along_order_.end(),
-                                         AlongOrder::stretches) != along_order_.end();
+    const bool has_stretches = contains(along_order_, AlongOrder::stretches);
     if (offer_.walk && (has_stretches || path.fit.has(*offer_.walk))) {
       JointOffer alone = offer_;
       alone.walk.reset();
-      for (const JointStep& step : search_jointly(data, alone, settings).steps)
-        result.without_walk.push_back(named(step));
+      result.without_walk = named(search_jointly(data, alone, settings).steps);
     }
     return result;
   }
 
 private:
+  struct Offered {
+    Cause cause;
+    std::size_t site = on_mu;
+    const effects::PlacedEffect* shape = nullptr; // of a term of a single shape
+  };
+
   // Flips the signs of recordings if there are enough of them for a p-value of trace.alpha, else of
   // single tests.
   JointSettings settings_for(std::size_t terms) const {
@@ -88,7 +86,7 @@ private:
   // an effect is searched; others are used only where their derivatives differ.
   void find_sites() {
     const Sensitivities& all = s_.sensitivities();
-    const std::size_t first = all[on_both].size() > 0 ? on_both : on_mu;
+    const std::size_t first = searched_site(all);
     const auto relative = [&](std::size_t site) {
       return VectorXd(all[site].cwiseQuotient(floor_));
     };
@@ -103,30 +101,29 @@ private:
         return std::abs(own.dot(other.second)) >
                tuning::same_site_cosine * own.norm() * other.second.norm();
       };
-      if (std::none_of(sites_.begin(), sites_.end(), alike)) sites_.emplace_back(site, own);
+      if (std::ranges::none_of(sites_, alike)) sites_.emplace_back(site, own);
     }
   }
 
   bool may_be_offered(const Cause& cause) const {
-    if (std::find(barred_.begin(), barred_.end(), cause) != barred_.end()) return false;
+    if (contains(barred_, cause)) return false;
     if (goes_with_order(cause, AlongOrder::is_order) ||
         (!has_walk() && goes_with_order(cause, AlongOrder::stretches)))
       return false;
     return cause.is_joint() || !constant_in_experiments(cause, s_.candidates()) ||
-           differs_between_tests(s_.candidates().columns[cause.columns[0]]);
+           differs_between_tests(s_.candidates().first_of(cause));
   }
 
   // A walk would explain declared wear, and a column with which friction steps.
   bool has_walk() const {
     return !s_.candidates().order.empty() && s_.input().options.tool_distance.empty() &&
-           std::find(along_order_.begin(), along_order_.end(), AlongOrder::steps) ==
-               along_order_.end();
+           !contains(along_order_, AlongOrder::steps);
   }
 
   bool goes_with_order(const Cause& cause, AlongOrder how) const {
-    return !is_declared(s_, cause) &&
-           std::any_of(cause.columns.begin(), cause.columns.end(),
-                       [&](std::size_t c) { return along_order_[c] == how; });
+    return !is_declared(s_, cause) && std::ranges::any_of(cause.columns, [&](std::size_t c) {
+      return along_order_[c] == how;
+    });
   }
 
   // A text column needs a level that several tests share.
@@ -134,15 +131,9 @@ private:
     if (!column.between) return false;
     std::map<double, std::size_t> tests; // by value
     for (std::size_t e = 0; e < s_.blocks().experiments(); ++e)
-      ++tests[column.values(static_cast<Index>(s_.first()[e]))];
+      ++tests[column.values(s_.first()[e])];
     if (column.levels.empty() || tests.size() < 2) return tests.size() > 1;
     return tests.size() < s_.blocks().experiments();
-  }
-
-  JointData offered_data() {
-    find_sites();
-    offer_terms();
-    return make_data();
   }
 
   void offer_terms() {
@@ -159,7 +150,7 @@ private:
     find_imitated();
     for (const Cause& cause : all_causes(s_.candidates())) {
       const auto& in = s_.last().causes;
-      if (!may_be_offered(cause) || std::find(in.begin(), in.end(), cause) != in.end()) continue;
+      if (!may_be_offered(cause) || contains(in, cause)) continue;
       const auto& all = cause.columns;
       const bool of_states = cause.is_joint() && is_state(columns[all[1]]) &&
                              (is_state(columns[all[0]]) || !columns[all[0]].levels.empty());
@@ -182,8 +173,7 @@ private:
     std::vector<SharpShape> all;
     for (const GridShape& shape : shapes_[cause.columns[0]]) {
       VectorXd x = shape.direction.cast<double>();
-      if (stats::standardise(x) &&
-          std::none_of(all.begin(), all.end(), [&](const SharpShape& other) {
+      if (stats::standardise(x) && std::ranges::none_of(all, [&](const SharpShape& other) {
             return std::abs(x.dot(other.basis.columns.col(0))) >
                    tuning::same_sharp_shape_cosine * static_cast<double>(x.size());
           }))
@@ -194,15 +184,20 @@ private:
 
   void add_term(const Cause& cause, std::size_t site, const TermBasis& basis, bool first,
                 const effects::PlacedEffect* shape) {
-    if (offered_.empty() || offered_.back().cause != cause) ++count_of_causes_;
-    offer_.cause.push_back(count_of_causes_ - 1);
-    offered_.push_back({cause, sites_[site].first, shape});
-    offer_.columns.push_back(cause.columns);
-    offer_.first.push_back(first);
-    offer_.sharp.push_back(shape != nullptr);
-    offer_.along_order.push_back(goes_with_order(cause, AlongOrder::stretches));
     const MatrixXd changes = sites_[site].second.asDiagonal() * basis.columns;
-    terms_.push_back({count_, basis.straight, changes.cols(), is_imitated(cause)});
+    add({cause, sites_[site].first, shape},
+        {0, cause.columns, first, shape != nullptr, goes_with_order(cause, AlongOrder::stretches)},
+        changes, basis.straight, is_imitated(cause));
+  }
+
+  // Terms of one cause follow each other.
+  void add(const Offered& offered, JointOffer::Term term, const MatrixXd& changes, Index straight,
+           bool within) {
+    const bool same = !offered_.empty() && offered_.back().cause == offered.cause;
+    if (!offered_.empty()) term.cause = offer_.terms.back().cause + !same;
+    offered_.push_back(offered);
+    offer_.terms.push_back(std::move(term));
+    terms_.push_back({count_, straight, changes.cols(), within});
     count_ += changes.cols();
     parts_.push_back(modes_.of(changes));
   }
@@ -210,8 +205,7 @@ private:
   // Whether the cause contains a history whose test means follow from the states: between tests it
   // would stand in for them.
   bool is_imitated(const Cause& cause) const {
-    return std::any_of(cause.columns.begin(), cause.columns.end(),
-                       [&](std::size_t c) { return imitated_[c] != 0; });
+    return std::ranges::any_of(cause.columns, [&](std::size_t c) { return imitated_[c] != 0; });
   }
 
   void find_imitated() {
@@ -238,19 +232,11 @@ private:
       waves.col(k) *= std::sqrt(static_cast<double>(waves.rows())) /
                       std::max(waves.col(k).norm(), tuning::smallest_divisor) /
                       static_cast<double>(k + 1);
-    MatrixXd per_block(static_cast<Index>(s_.blocks().count()), 0);
+    MatrixXd per_block(s_.blocks().count(), 0);
     for (const auto& [site, changes] : sites_)
-      stats::append_columns(per_block, functions_on_blocks(waves, changes, s_.first()));
+      stats::append_columns(per_block, functions_on_blocks(waves, changes, s_.blocks()));
     offer_.walk = offered_.size();
-    offered_.push_back({{}, on_mu, nullptr});
-    offer_.cause.push_back(count_of_causes_++);
-    offer_.columns.emplace_back();
-    offer_.first.push_back(0);
-    offer_.sharp.push_back(0);
-    offer_.along_order.push_back(0);
-    terms_.push_back({count_, 0, per_block.cols(), false});
-    count_ += per_block.cols();
-    parts_.push_back(modes_.of(per_block));
+    add({}, {}, per_block, 0, false);
   }
 
   JointData make_data() {
@@ -305,8 +291,7 @@ private:
   // Change of ln tau_R, per block.
   VectorXd change_of(std::size_t term, const VectorXd& coefficients) const {
     const Offered& of = offered_[term];
-    const auto site = std::find_if(sites_.begin(), sites_.end(),
-                                   [&](const auto& one) { return one.first == of.site; });
+    const auto site = std::ranges::find(sites_, of.site, &std::pair<std::size_t, VectorXd>::first);
     MatrixXd basis;
     if (of.shape) {
       for (const SharpShape& shape : sharp_shapes(of.cause))
@@ -316,11 +301,15 @@ private:
     return site->second.cwiseProduct(basis * coefficients);
   }
 
-  JointFinding named(const JointStep& step) const {
-    JointFinding finding{offered_[step.term].cause, step.p_value, {suspect(step.term)}};
-    for (const std::size_t other : step.near)
-      finding.suspects.push_back(suspect(other));
-    return finding;
+  std::vector<JointFinding> named(const std::vector<JointStep>& steps) const {
+    std::vector<JointFinding> findings;
+    for (const JointStep& step : steps) {
+      JointFinding& finding = findings.emplace_back(
+          JointFinding{offered_[step.term].cause, step.p_value, {suspect(step.term)}});
+      for (const std::size_t other : step.near)
+        finding.suspects.push_back(suspect(other));
+    }
+    return findings;
   }
 
   Suspect suspect(std::size_t term) const {
@@ -341,16 +330,10 @@ private:
   std::vector<std::vector<GridShape>> shapes_; // per column that varies within tests
   std::vector<char> imitated_;                 // per column
   std::vector<AlongOrder> along_order_;        // per column
-  struct Offered {
-    Cause cause;
-    std::size_t site = on_mu;
-    const effects::PlacedEffect* shape = nullptr; // of a term of a single shape
-  };
-  std::vector<Offered> offered_; // per term
+  std::vector<Offered> offered_;               // per term
   JointOffer offer_;
   std::vector<JointTerm> terms_;
   std::vector<MatrixXd> parts_;
-  std::size_t count_of_causes_ = 0;
   Index count_ = 0; // columns of terms so far
 };
 

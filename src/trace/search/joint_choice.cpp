@@ -8,15 +8,12 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/random.h"
+#include "trace/columns/candidates.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
 
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr std::uint64_t fold_stream = 0x666f6c64; // "fold"
 
@@ -33,7 +30,7 @@ public:
     JointChoice choice;
     take_folds(fold_of, choice);
     if (path_.steps.empty()) return choice;
-    const auto tests = static_cast<Index>(fold_of.size());
+    const Index tests = fold_of.size();
     Errors before(tests, 2), after(tests, 2);
     const JointData weighted = data_.weighted(path_.weights);
     const Progress progress("searching without some tests", choice.folds.size());
@@ -53,8 +50,8 @@ public:
     keep_what_pays(choice);
     for (JointFold& fold : choice.folds)
       std::erase_if(fold.terms, [&](std::size_t term) {
-        return std::any_of(choice.dropped.begin(), choice.dropped.end(), [&](const JointStep& one) {
-          return o_.columns[one.term] == o_.columns[term];
+        return std::ranges::any_of(choice.dropped, [&](const JointStep& one) {
+          return o_.terms[one.term].columns == o_.terms[term].columns;
         });
       });
     return choice;
@@ -62,7 +59,7 @@ public:
 
 private:
   void take_folds(const std::vector<std::size_t>& fold_of, JointChoice& choice) {
-    choice.folds.resize(*std::max_element(fold_of.begin(), fold_of.end()) + 1);
+    choice.folds.resize(*std::ranges::max_element(fold_of) + 1);
     for (std::size_t t = 0; t < fold_of.size(); ++t)
       choice.folds[fold_of[t]].out.push_back(t);
     std::erase_if(choice.folds, [](const JointFold& fold) { return fold.out.empty(); });
@@ -80,7 +77,7 @@ private:
                   Errors& errors) const {
     const VectorXd left = data.residual(fit);
     for (const std::size_t t : out) {
-      const auto at = static_cast<Index>(t);
+      const Index at = t;
       errors(at, 0) = modes_.mean_size(left, t);
       double score = 0;
       const auto& places = modes_.of_test(t);
@@ -95,7 +92,7 @@ private:
 
   // Errors of some of the terms found, refitted without each fold.
   Errors held(const std::vector<JointFold>& folds, const std::vector<SizedTerm>& terms) const {
-    Errors errors(static_cast<Index>(modes_.tests()), 2);
+    Errors errors(modes_.tests(), 2);
     parallel_for(small_.size(), [&](std::size_t f) {
       const JointModel& part = *small_[f];
       add_errors(found_, folds[f].out,
@@ -108,10 +105,7 @@ private:
   // Number of a term among those found.
   std::size_t number_of(const JointStep& step) const {
     const auto& terms = path_.fit.terms;
-    return static_cast<std::size_t>(
-        std::find_if(terms.begin(), terms.end(),
-                     [&](const SizedTerm& one) { return one.term == step.term; }) -
-        terms.begin());
+    return std::ranges::find(terms, step.term, &SizedTerm::term) - terms.begin();
   }
 
   void keep_what_pays(JointChoice& choice) const {
@@ -137,16 +131,17 @@ private:
       if (least == choice.kept.size()) break;
       fit.terms = fit.terms_without(number_of(choice.kept[least]));
       choice.dropped.push_back(choice.kept[least]);
-      choice.kept.erase(choice.kept.begin() + static_cast<long>(least));
+      choice.kept.erase(choice.kept.begin() + least);
       with = without_least;
     }
   }
 
+  // Whether a term is part of the product of another, for which it is kept.
   bool is_parent(const std::vector<JointStep>& steps, std::size_t i) const {
-    std::vector<std::vector<std::size_t>> columns;
-    for (const JointStep& step : steps)
-      columns.push_back(o_.columns[step.term]);
-    return is_in_product(columns[i], columns);
+    const auto cause_of = [&](const JointStep& step) { return Cause{o_.terms[step.term].columns}; };
+    return std::ranges::any_of(steps, [&](const JointStep& other) {
+      return cause_of(other).is_product_with(cause_of(steps[i]));
+    });
   }
 
   const JointData& data_; // not weighted, as left-out tests are judged without weights
@@ -180,17 +175,16 @@ std::vector<std::size_t> folds_of_settings(const std::vector<std::size_t>& units
       if (!taken[t] && units[t] == units[first]) take(t);
     for (const std::size_t t : left) {
       if (taken[t] || group.size() >= most || states.cols() == 0) continue;
-      const auto apart = states.row(static_cast<Index>(t)) - states.row(static_cast<Index>(first));
+      const auto apart = states.row(t) - states.row(first);
       if (apart.cwiseAbs().maxCoeff() < tuning::same_setting_std_deviations) take(t);
     }
     groups.push_back(std::move(group));
   }
-  std::stable_sort(groups.begin(), groups.end(),
-                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  std::ranges::stable_sort(groups,
+                           [](const auto& a, const auto& b) { return a.size() > b.size(); });
   std::vector<std::size_t> fold(tests), size(folds, 0);
   for (const auto& group : groups) {
-    const auto at =
-        static_cast<std::size_t>(std::min_element(size.begin(), size.end()) - size.begin());
+    const auto at = static_cast<std::size_t>(std::ranges::min_element(size) - size.begin());
     for (const std::size_t t : group)
       fold[t] = at;
     size[at] += group.size();
@@ -199,14 +193,6 @@ std::vector<std::size_t> folds_of_settings(const std::vector<std::size_t>& units
 }
 
 } // namespace
-
-bool is_in_product(const std::vector<std::size_t>& columns,
-                   const std::vector<std::vector<std::size_t>>& of_all) {
-  return columns.size() == 1 && std::any_of(of_all.begin(), of_all.end(), [&](const auto& other) {
-           return other.size() > 1 &&
-                  std::find(other.begin(), other.end(), columns[0]) != other.end();
-         });
-}
 
 double std_error(const VectorXd& per_test) {
   const auto n = static_cast<double>(per_test.size());

@@ -33,13 +33,9 @@ struct JointChoice {
 // standard deviation of 1 (may have no columns).
 JointChoice choose_jointly(const JointData& data, const Modes& modes, const JointOffer& offer,
                            const JointSettings& settings, const JointPath& path,
-                           const Eigen::MatrixXd& states);
-
-// Whether a column is part of one of the products in `of_all`, in which case it is kept for them.
-bool is_in_product(const std::vector<std::size_t>& columns,
-                   const std::vector<std::vector<std::size_t>>& of_all);
+                           const MatrixXd& states);
 
 // Standard error of the mean over tests.
-double std_error(const Eigen::VectorXd& per_test);
+double std_error(const VectorXd& per_test);
 
 } // namespace frictab::trace

@@ -14,10 +14,6 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 double sum_of(const ByClass& weight, const ByClass& value) {
   double sum = 0;
   for (std::size_t c = 0; c < mode_classes; ++c)
@@ -43,296 +39,6 @@ Eigen::LLT<MatrixXd> information_of(const MatrixXd& normal, const VectorXd& spre
 double log_root_det(const Eigen::LLT<MatrixXd>& factored) {
   return factored.matrixLLT().diagonal().array().log().sum();
 }
-
-} // namespace
-
-bool JointFit::has(std::size_t term) const {
-  return std::any_of(terms.begin(), terms.end(),
-                     [&](const SizedTerm& one) { return one.term == term; });
-}
-
-std::vector<SizedTerm> JointFit::terms_without(std::size_t term) const {
-  std::vector<SizedTerm> others = terms;
-  std::erase_if(others, [&](const SizedTerm& one) { return one.term == term; });
-  return others;
-}
-
-JointData JointData::part(const std::vector<char>& keep_test) const {
-  std::vector<Index> rows;
-  JointData some;
-  for (std::size_t c = 0; c < mode_classes; ++c) {
-    some.first[c] = static_cast<Index>(rows.size());
-    for (Index i = first[c]; i < first[c + 1]; ++i)
-      if (keep_test[test[static_cast<std::size_t>(i)]]) rows.push_back(i);
-  }
-  some.first[mode_classes] = static_cast<Index>(rows.size());
-  some.response = response(rows);
-  some.columns = columns(rows, Eigen::all);
-  some.law = law;
-  some.terms = terms;
-  for (const Index i : rows)
-    some.test.push_back(test[static_cast<std::size_t>(i)]);
-  return some;
-}
-
-JointData JointData::with_terms(const std::vector<SizedTerm>& some) const {
-  JointData few;
-  few.response = response;
-  few.law = law;
-  few.first = first;
-  few.test = test;
-  std::vector<Index> kept(static_cast<std::size_t>(law));
-  std::iota(kept.begin(), kept.end(), 0);
-  for (const SizedTerm& one : some) {
-    const JointTerm& term = terms[one.term];
-    few.terms.push_back(term);
-    few.terms.back().first = static_cast<Index>(kept.size());
-    for (Index k = 0; k < term.count; ++k)
-      kept.push_back(term.first + k);
-  }
-  few.columns = columns(Eigen::all, kept);
-  return few;
-}
-
-JointData JointData::weighted(const VectorXd& factor) const {
-  JointData all = *this;
-  all.response = response.cwiseProduct(factor);
-  all.columns = factor.asDiagonal() * columns;
-  return all;
-}
-
-VectorXd JointData::residual(const JointFit& fit) const {
-  return response - columns(Eigen::all, fit.columns) * fit.coefficients;
-}
-
-JointModel::JointModel(JointData data)
-    : data_(std::move(data)), of_data_(moments(data_.response).front()), own_(data_.terms.size()) {
-  parallel_for(own_.size(), [&](std::size_t t) {
-    const JointTerm& term = data_.terms[t];
-    for (std::size_t c = 0; c < mode_classes; ++c) {
-      const auto x = data_.columns.block(data_.first[c], term.first,
-                                         data_.first[c + 1] - data_.first[c], term.count);
-      own_[t][c] = x.transpose() * x;
-    }
-  });
-}
-
-std::vector<Moments> JointModel::moments(const MatrixXd& responses) const {
-  std::vector<Moments> all(static_cast<std::size_t>(responses.cols()));
-  for (Moments& one : all)
-    one.along.resize(data_.columns.cols(), mode_classes);
-  for (std::size_t c = 0; c < mode_classes; ++c) {
-    const Index begin = data_.first[c], rows = data_.first[c + 1] - begin;
-    const auto here = responses.middleRows(begin, rows);
-    const MatrixXd along = data_.columns.middleRows(begin, rows).transpose() * here;
-    for (Index r = 0; r < responses.cols(); ++r) {
-      Moments& one = all[static_cast<std::size_t>(r)];
-      one.along.col(static_cast<Index>(c)) = along.col(r);
-      one.squares[c] = here.col(r).squaredNorm();
-    }
-  }
-  return all;
-}
-
-const JointModel::Cross& JointModel::cross_of(Index first, Index count) const {
-  {
-    const std::lock_guard lock(mutex_);
-    if (const auto known = cross_.find(first); known != cross_.end()) return *known->second;
-  }
-  auto cross = std::make_unique<Cross>();
-  for (std::size_t c = 0; c < mode_classes; ++c) {
-    const auto rows = data_.columns.middleRows(data_.first[c], data_.first[c + 1] - data_.first[c]);
-    (*cross)[c] = rows.transpose() * rows.middleCols(first, count);
-  }
-  const std::lock_guard lock(mutex_);
-  return *cross_.emplace(first, std::move(cross)).first->second;
-}
-
-ByClass JointModel::weights(const JointFit& fit) const {
-  ByClass weight{};
-  for (std::size_t c = 0; c < mode_classes; ++c)
-    if (data_.first[c + 1] > data_.first[c]) weight[c] = 1 / fit.variance[c];
-  return weight;
-}
-
-std::vector<JointModel::CrossColumn> JointModel::columns_of(const JointFit& fit) const {
-  std::vector<CrossColumn> all;
-  const auto add = [&](Index first, Index count) {
-    const Cross& cross = cross_of(first, count);
-    for (const Index column : fit.columns)
-      if (column >= first && column < first + count) all.emplace_back(&cross, column - first);
-  };
-  add(0, data_.law);
-  for (const SizedTerm& one : fit.terms)
-    add(data_.terms[one.term].first, data_.terms[one.term].count);
-  return all;
-}
-
-JointModel::Cross JointModel::products_of(const JointFit& fit) const {
-  const auto count = static_cast<Index>(fit.columns.size());
-  Cross all;
-  all.fill(MatrixXd(count, count));
-  Index at = 0;
-  for (const auto& [cross, column] : columns_of(fit)) {
-    for (std::size_t c = 0; c < mode_classes; ++c)
-      all[c].col(at) = (*cross)[c].col(column)(fit.columns);
-    ++at;
-  }
-  return all;
-}
-
-JointFit JointModel::solve(const std::vector<SizedTerm>& terms, const ByClass& variance,
-                           const Moments& moments) const {
-  JointFit fit;
-  fit.terms = terms;
-  fit.variance = variance;
-  std::vector<double> spread; // standard deviations of the terms' columns
-  for (Index i = 0; i < data_.law; ++i)
-    fit.columns.push_back(i);
-  for (const SizedTerm& one : terms) {
-    const JointTerm& term = data_.terms[one.term];
-    const VectorXd own = spread_of(term, one.size);
-    for (Index k = 0; k < term.count; ++k)
-      if (own(k) > 0) {
-        fit.columns.push_back(term.first + k);
-        spread.push_back(own(k));
-      }
-  }
-  const ByClass weight = weights(fit);
-  const std::array<MatrixXd, mode_classes> own = products_of(fit);
-  const auto coefficients = static_cast<Index>(fit.columns.size());
-  MatrixXd normal = MatrixXd::Zero(coefficients, coefficients);
-  VectorXd along = VectorXd::Zero(coefficients), penalty(coefficients);
-  for (std::size_t c = 0; c < mode_classes; ++c)
-    if (weight[c] > 0) {
-      normal += weight[c] * own[c];
-      along += weight[c] * moments.along.col(static_cast<Index>(c))(fit.columns);
-    }
-  double log_sizes = 0;
-  for (Index i = 0; i < coefficients; ++i)
-    if (i < data_.law) {
-      penalty(i) = tuning::law_ridge * normal(i, i) + tuning::smallest_law_ridge;
-    } else {
-      const double sd = spread[static_cast<std::size_t>(i - data_.law)];
-      penalty(i) = 1 / (sd * sd);
-      log_sizes += std::log(sd);
-    }
-  normal.diagonal() += penalty;
-  const Eigen::LLT<MatrixXd> factored(normal);
-  fit.inverse = factored.solve(MatrixXd::Identity(coefficients, coefficients));
-  fit.coefficients = fit.inverse * along;
-  for (std::size_t c = 0; c < mode_classes; ++c) {
-    if (!(weight[c] > 0)) continue;
-    const VectorXd here = moments.along.col(static_cast<Index>(c))(fit.columns);
-    fit.squares[c] = std::max(moments.squares[c] - 2 * here.dot(fit.coefficients) +
-                                  fit.coefficients.dot(own[c] * fit.coefficients),
-                              0.0);
-    fit.used[c] = weight[c] * fit.inverse.cwiseProduct(own[c]).sum();
-  }
-  double likelihood = -0.5 * sum_of(weight, fit.squares) - log_sizes - log_root_det(factored);
-  for (std::size_t c = 0; c < mode_classes; ++c)
-    likelihood -= 0.5 * static_cast<double>(data_.first[c + 1] - data_.first[c]) *
-                  std::log(std::max(variance[c], tuning::smallest_divisor));
-  for (Index i = data_.law; i < coefficients; ++i)
-    likelihood -= 0.5 * penalty(i) * fit.coefficients(i) * fit.coefficients(i);
-  fit.log_likelihood = likelihood;
-  return fit;
-}
-
-ByClass JointModel::estimated_noise(const JointFit& fit) const {
-  ByClass variance = fit.variance;
-  double before = 0; // variance of the previous class
-  for (std::size_t c = 0; c < mode_classes; ++c) {
-    const auto rows = static_cast<double>(data_.first[c + 1] - data_.first[c]);
-    if (rows == 0) continue;
-    const double free = rows - fit.used[c];
-    variance[c] =
-        free < tuning::fewest_class_freedom && before > 0 && c > 1
-            ? before
-            : std::max(fit.squares[c] / std::max(free, 1.0), tuning::smallest_class_variance);
-    before = variance[c];
-  }
-  return variance;
-}
-
-JointFit JointModel::fit(const std::vector<SizedTerm>& terms, const ByClass& start,
-                         const Moments& moments, int rounds) const {
-  ByClass variance = start;
-  for (std::size_t c = 0; c < mode_classes; ++c)
-    if (!(variance[c] > 0))
-      variance[c] = moments.squares[c] /
-                        std::max(1.0, static_cast<double>(data_.first[c + 1] - data_.first[c])) +
-                    tuning::smallest_class_variance;
-  for (int round = 0; round < rounds; ++round)
-    variance = estimated_noise(solve(terms, variance, moments));
-  return solve(terms, variance, moments);
-}
-
-JointFit JointModel::tuned(JointFit from, const Moments& moments) const {
-  for (SizedTerm& one : from.terms) {
-    const JointFit others = solve(from.terms_without(one.term), from.variance, moments);
-    one.size = fine_ratio(others, moments, one.term).size;
-  }
-  return fit(from.terms, from.variance, moments, 2);
-}
-
-// Quantities of a fit with columns Z.
-struct JointModel::Beside {
-  const JointFit& fit;
-  ByClass weight, free;                       // free: remaining degrees of freedom
-  std::vector<CrossColumn> columns;           // of Z
-  std::array<MatrixXd, mode_classes> product; // Z' Z
-};
-
-// Products of a term's columns X with those of a fit, Z.
-struct JointModel::OfTerm {
-  std::array<MatrixXd, mode_classes> cross; // X' Z
-  MatrixXd turned; // X' W Z K, so that Z K Z' W X is the part of X that the fit explains
-};
-
-ByClass JointModel::counted(const Beside& with, const JointTerm& term) {
-  ByClass weight = with.weight;
-  if (term.within) weight[0] = 0;
-  return weight;
-}
-
-JointModel::Beside JointModel::beside(const JointFit& fit) const {
-  Beside out{fit, weights(fit), {}, columns_of(fit), products_of(fit)};
-  for (std::size_t c = 0; c < mode_classes; ++c)
-    out.free[c] =
-        std::max(static_cast<double>(data_.first[c + 1] - data_.first[c]) - fit.used[c], 0.0);
-  return out;
-}
-
-JointModel::OfTerm JointModel::of_term(const Beside& beside, std::size_t term) const {
-  const JointTerm& at = data_.terms[term];
-  const auto count = static_cast<Index>(beside.columns.size());
-  OfTerm out;
-  MatrixXd weighted = MatrixXd::Zero(at.count, count);
-  for (std::size_t c = 0; c < mode_classes; ++c) {
-    out.cross[c].resize(at.count, count);
-    for (Index i = 0; i < count; ++i) {
-      const auto& [cross, column] = beside.columns[static_cast<std::size_t>(i)];
-      out.cross[c].col(i) = (*cross)[c].col(column).segment(at.first, at.count);
-    }
-    if (beside.weight[c] > 0) weighted += beside.weight[c] * out.cross[c];
-  }
-  out.turned = weighted * beside.fit.inverse;
-  return out;
-}
-
-std::array<MatrixXd, mode_classes> JointModel::own_products(const Beside& beside, const OfTerm& of,
-                                                            std::size_t term) const {
-  std::array<MatrixXd, mode_classes> own;
-  for (std::size_t c = 0; c < mode_classes; ++c) {
-    const MatrixXd both = of.cross[c] * of.turned.transpose();
-    own[c] = own_[term][c] - both - both.transpose() +
-             of.turned * beside.product[c] * of.turned.transpose();
-  }
-  return own;
-}
-
-namespace {
 
 // A term added to a fit, for several responses (residuals r of the fit), one row each.
 struct TermOnResponses {
@@ -368,9 +74,9 @@ struct TermOnResponses {
 
     void consider(TermSize tried, const std::vector<Index>& rows, const Eigen::ArrayXd& gains) {
       for (std::size_t i = 0; i < rows.size(); ++i)
-        if (const double one = gains(static_cast<Index>(i)); one > gain(rows[i])) {
+        if (const double one = gains(i); one > gain(rows[i])) {
           gain(rows[i]) = one;
-          size[static_cast<std::size_t>(rows[i])] = tried;
+          size[rows[i]] = tried;
         }
     }
   };
@@ -379,21 +85,21 @@ struct TermOnResponses {
   // that of the bent part without the straight one and with its likeliest size.
   template <std::size_t count> Likeliest likeliest(const double (&grid)[count]) const {
     const Index responses = squares.rows();
-    std::vector<Index> all(static_cast<std::size_t>(responses));
+    std::vector<Index> all(responses);
     std::iota(all.begin(), all.end(), 0);
     Likeliest best{Eigen::ArrayXd::Zero(responses), std::vector<TermSize>(all.size())};
     std::vector<std::vector<Index>> by_straight(count); // responses for which it is likeliest
     by_straight[0] = all;
     if (term.straight > 0) {
-      Eigen::ArrayXXd gain(responses, static_cast<Index>(count) - 1);
+      Eigen::ArrayXXd gain(responses, count - 1);
       for (std::size_t s = 1; s < count; ++s) {
-        gain.col(static_cast<Index>(s) - 1) = gains({grid[s], 0});
-        best.consider({grid[s], 0}, all, gain.col(static_cast<Index>(s) - 1));
+        gain.col(s - 1) = gains({grid[s], 0});
+        best.consider({grid[s], 0}, all, gain.col(s - 1));
       }
       for (const Index r : all) {
         Index at = 0;
         gain.row(r).maxCoeff(&at);
-        by_straight[static_cast<std::size_t>(at) + 1].push_back(r);
+        by_straight[at + 1].push_back(r);
       }
     }
     for (std::size_t s = 0; s < count && term.count > term.straight; ++s) {
@@ -420,7 +126,7 @@ struct TermOnResponses {
       gain -= 0.5 / (spread(j) * spread(j)) * coefficients.col(j).array().square();
     for (std::size_t c = 0; c < mode_classes; ++c) {
       if (!(weight[c] > 0)) continue;
-      const auto before = squares.col(static_cast<Index>(c));
+      const auto before = squares.col(c);
       const MatrixXd turned = coefficients * own[c].block(begin, begin, count, count);
       Eigen::ArrayXd left = before;
       for (Index j = 0; j < count; ++j)
@@ -434,53 +140,322 @@ struct TermOnResponses {
 
 } // namespace
 
-// Finds the likeliest size on a grid.
-template <class Grid>
-JointModel::Ratio JointModel::likeliest(const Beside& with, const Left& left,
-                                        const Moments& moments, std::size_t term, ByClass weight,
-                                        const Grid& grid) const {
-  const JointTerm& at = data_.terms[term];
-  const OfTerm of = of_term(with, term);
-  const auto own = own_products(with, of, term);
-  TermOnResponses one{at, weight, with.free, own, {}, {}};
-  one.squares.resize(1, static_cast<Index>(mode_classes));
-  for (std::size_t c = 0; c < mode_classes; ++c) {
-    const auto column = static_cast<Index>(c);
-    one.along[c] = (moments.along.col(column).segment(at.first, at.count) -
-                    of.cross[c] * with.fit.coefficients - of.turned * left[c])
-                       .transpose();
-    one.squares(0, column) = with.fit.squares[c];
-    if (!(with.fit.squares[c] > 0)) weight[c] = 0; // no residual in that class
-  }
-  one.add_up();
-  const auto best = one.likeliest(grid);
-  return {best.gain(0), best.size.front()};
+bool JointFit::has(std::size_t term) const {
+  return contains(terms, term, &SizedTerm::term);
 }
 
-JointModel::Left JointModel::left_along(const Beside& with, const Moments& moments) const {
-  Left left;
+std::vector<SizedTerm> JointFit::terms_without(std::size_t term) const {
+  std::vector<SizedTerm> others = terms;
+  std::erase_if(others, [&](const SizedTerm& one) { return one.term == term; });
+  return others;
+}
+
+JointData JointData::part(const std::vector<char>& keep_test) const {
+  std::vector<Index> rows;
+  JointData some;
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    some.first[c] = rows.size();
+    for (Index i = first[c]; i < first[c + 1]; ++i)
+      if (keep_test[test[i]]) rows.push_back(i);
+  }
+  some.first[mode_classes] = rows.size();
+  some.response = response(rows);
+  some.columns = columns(rows, Eigen::all);
+  some.law = law;
+  some.terms = terms;
+  for (const Index i : rows)
+    some.test.push_back(test[i]);
+  return some;
+}
+
+JointData JointData::with_terms(const std::vector<SizedTerm>& some) const {
+  JointData few;
+  few.response = response;
+  few.law = law;
+  few.first = first;
+  few.test = test;
+  std::vector<Index> kept(law);
+  std::iota(kept.begin(), kept.end(), 0);
+  for (const SizedTerm& one : some) {
+    const JointTerm& term = terms[one.term];
+    few.terms.push_back(term);
+    few.terms.back().first = kept.size();
+    for (Index k = 0; k < term.count; ++k)
+      kept.push_back(term.first + k);
+  }
+  few.columns = columns(Eigen::all, kept);
+  return few;
+}
+
+JointData JointData::weighted(const VectorXd& factor) const {
+  JointData all = *this;
+  all.response = response.cwiseProduct(factor);
+  all.columns = factor.asDiagonal() * columns;
+  return all;
+}
+
+VectorXd JointData::residual(const JointFit& fit) const {
+  return response - columns(Eigen::all, fit.columns) * fit.coefficients;
+}
+
+JointModel::JointModel(JointData data)
+    : data_(std::move(data)), of_data_(moments(data_.response).front()), own_(data_.terms.size()) {
+  parallel_for(own_.size(), [&](std::size_t t) {
+    const JointTerm& term = data_.terms[t];
+    for (std::size_t c = 0; c < mode_classes; ++c) {
+      const auto x = data_.columns.block(data_.first[c], term.first, data_.count(c), term.count);
+      own_[t][c] = x.transpose() * x;
+    }
+  });
+}
+
+std::vector<Moments> JointModel::moments(const MatrixXd& responses) const {
+  std::vector<Moments> all(responses.cols());
+  for (Moments& one : all)
+    one.along.resize(data_.columns.cols(), mode_classes);
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    const Index begin = data_.first[c], rows = data_.first[c + 1] - begin;
+    const auto here = responses.middleRows(begin, rows);
+    const MatrixXd along = data_.columns.middleRows(begin, rows).transpose() * here;
+    for (Index r = 0; r < responses.cols(); ++r) {
+      Moments& one = all[r];
+      one.along.col(c) = along.col(r);
+      one.squares[c] = here.col(r).squaredNorm();
+    }
+  }
+  return all;
+}
+
+const JointModel::Cross& JointModel::cross_of(Index first, Index count) const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = cross_.find(first); known != cross_.end()) return *known->second;
+  }
+  auto cross = std::make_unique<Cross>();
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    const auto rows = data_.columns.middleRows(data_.first[c], data_.count(c));
+    (*cross)[c] = rows.transpose() * rows.middleCols(first, count);
+  }
+  const std::lock_guard lock(mutex_);
+  return *cross_.emplace(first, std::move(cross)).first->second;
+}
+
+ByClass JointModel::weights(const JointFit& fit) const {
+  ByClass weight{};
   for (std::size_t c = 0; c < mode_classes; ++c)
-    left[c] = moments.along.col(static_cast<Index>(c))(with.fit.columns) -
-              with.product[c] * with.fit.coefficients;
-  return left;
+    if (data_.count(c) > 0) weight[c] = 1 / fit.variance[c];
+  return weight;
+}
+
+std::vector<JointModel::CrossColumn> JointModel::columns_of(const JointFit& fit) const {
+  std::vector<CrossColumn> all;
+  const auto add = [&](Index first, Index count) {
+    const Cross& cross = cross_of(first, count);
+    for (const Index column : fit.columns)
+      if (column >= first && column < first + count) all.emplace_back(&cross, column - first);
+  };
+  add(0, data_.law);
+  for (const SizedTerm& one : fit.terms)
+    add(data_.terms[one.term].first, data_.terms[one.term].count);
+  return all;
+}
+
+JointModel::Cross JointModel::products_of(const JointFit& fit) const {
+  const Index count = fit.columns.size();
+  Cross all;
+  all.fill(MatrixXd(count, count));
+  Index at = 0;
+  for (const auto& [cross, column] : columns_of(fit)) {
+    for (std::size_t c = 0; c < mode_classes; ++c)
+      all[c].col(at) = (*cross)[c].col(column)(fit.columns);
+    ++at;
+  }
+  return all;
+}
+
+JointFit JointModel::solve(const std::vector<SizedTerm>& terms, const ByClass& variance,
+                           const Moments& moments) const {
+  JointFit fit;
+  fit.terms = terms;
+  fit.variance = variance;
+  std::vector<double> spread; // standard deviations of the terms' columns
+  for (Index i = 0; i < data_.law; ++i)
+    fit.columns.push_back(i);
+  for (const SizedTerm& one : terms) {
+    const JointTerm& term = data_.terms[one.term];
+    const VectorXd own = spread_of(term, one.size);
+    for (Index k = 0; k < term.count; ++k)
+      if (own(k) > 0) {
+        fit.columns.push_back(term.first + k);
+        spread.push_back(own(k));
+      }
+  }
+  const ByClass weight = weights(fit);
+  const std::array<MatrixXd, mode_classes> own = products_of(fit);
+  const Index coefficients = fit.columns.size();
+  MatrixXd normal = MatrixXd::Zero(coefficients, coefficients);
+  VectorXd along = VectorXd::Zero(coefficients), penalty(coefficients);
+  for (std::size_t c = 0; c < mode_classes; ++c)
+    if (weight[c] > 0) {
+      normal += weight[c] * own[c];
+      along += weight[c] * moments.along.col(c)(fit.columns);
+    }
+  double log_sizes = 0;
+  for (Index i = 0; i < coefficients; ++i)
+    if (i < data_.law) {
+      penalty(i) = tuning::law_ridge * normal(i, i) + tuning::smallest_law_ridge;
+    } else {
+      const double sd = spread[i - data_.law];
+      penalty(i) = 1 / (sd * sd);
+      log_sizes += std::log(sd);
+    }
+  normal.diagonal() += penalty;
+  const Eigen::LLT<MatrixXd> factored(normal);
+  fit.inverse = factored.solve(MatrixXd::Identity(coefficients, coefficients));
+  fit.coefficients = fit.inverse * along;
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    if (!(weight[c] > 0)) continue;
+    const VectorXd here = moments.along.col(c)(fit.columns);
+    fit.squares[c] = std::max(moments.squares[c] - 2 * here.dot(fit.coefficients) +
+                                  fit.coefficients.dot(own[c] * fit.coefficients),
+                              0.0);
+    fit.used[c] = weight[c] * fit.inverse.cwiseProduct(own[c]).sum();
+  }
+  double likelihood = -0.5 * sum_of(weight, fit.squares) - log_sizes - log_root_det(factored);
+  for (std::size_t c = 0; c < mode_classes; ++c)
+    likelihood -= 0.5 * static_cast<double>(data_.count(c)) *
+                  std::log(std::max(variance[c], tuning::smallest_divisor));
+  for (Index i = data_.law; i < coefficients; ++i)
+    likelihood -= 0.5 * penalty(i) * fit.coefficients(i) * fit.coefficients(i);
+  fit.log_likelihood = likelihood;
+  return fit;
+}
+
+ByClass JointModel::estimated_noise(const JointFit& fit) const {
+  ByClass variance = fit.variance;
+  double before = 0; // variance of the previous class
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    const auto rows = static_cast<double>(data_.count(c));
+    if (rows == 0) continue;
+    const double free = rows - fit.used[c];
+    variance[c] =
+        free < tuning::fewest_class_freedom && before > 0 && c > 1
+            ? before
+            : std::max(fit.squares[c] / std::max(free, 1.0), tuning::smallest_class_variance);
+    before = variance[c];
+  }
+  return variance;
+}
+
+JointFit JointModel::fit(const std::vector<SizedTerm>& terms, const ByClass& start,
+                         const Moments& moments, int rounds) const {
+  ByClass variance = start;
+  for (std::size_t c = 0; c < mode_classes; ++c)
+    if (!(variance[c] > 0))
+      variance[c] = moments.squares[c] / std::max(1.0, static_cast<double>(data_.count(c))) +
+                    tuning::smallest_class_variance;
+  for (int round = 0; round < rounds; ++round)
+    variance = estimated_noise(solve(terms, variance, moments));
+  return solve(terms, variance, moments);
+}
+
+JointFit JointModel::tuned(JointFit from, const Moments& moments) const {
+  for (SizedTerm& one : from.terms) {
+    const JointFit others = solve(from.terms_without(one.term), from.variance, moments);
+    one.size = fine_ratio(others, moments, one.term).size;
+  }
+  return fit(from.terms, from.variance, moments, 2);
+}
+
+// Quantities of a fit with columns Z.
+struct JointModel::Beside {
+  const JointFit& fit;
+  ByClass weight, free;                       // free: remaining degrees of freedom
+  std::vector<CrossColumn> columns;           // of Z
+  std::array<MatrixXd, mode_classes> product; // Z' Z
+};
+
+// Products of a term's columns X with those of a fit, Z.
+struct JointModel::OfTerm {
+  std::array<MatrixXd, mode_classes> cross; // X' Z
+  MatrixXd turned; // X' W Z K, so that Z K Z' W X is the part of X that the fit explains
+  std::array<MatrixXd, mode_classes> own; // X~' X~, where X~ is the part that it does not explain
+};
+
+ByClass JointModel::counted(const Beside& with, const JointTerm& term) {
+  ByClass weight = with.weight;
+  if (term.within) weight[0] = 0;
+  return weight;
+}
+
+JointModel::Beside JointModel::beside(const JointFit& fit) const {
+  Beside out{fit, weights(fit), {}, columns_of(fit), products_of(fit)};
+  for (std::size_t c = 0; c < mode_classes; ++c)
+    out.free[c] = std::max(static_cast<double>(data_.count(c)) - fit.used[c], 0.0);
+  return out;
+}
+
+JointModel::OfTerm JointModel::of_term(const Beside& beside, std::size_t term) const {
+  const JointTerm& at = data_.terms[term];
+  const Index count = beside.columns.size();
+  OfTerm out;
+  MatrixXd weighted = MatrixXd::Zero(at.count, count);
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    out.cross[c].resize(at.count, count);
+    for (Index i = 0; i < count; ++i) {
+      const auto& [cross, column] = beside.columns[i];
+      out.cross[c].col(i) = (*cross)[c].col(column).segment(at.first, at.count);
+    }
+    if (beside.weight[c] > 0) weighted += beside.weight[c] * out.cross[c];
+  }
+  out.turned = weighted * beside.fit.inverse;
+  for (std::size_t c = 0; c < mode_classes; ++c) {
+    const MatrixXd both = out.cross[c] * out.turned.transpose();
+    out.own[c] = own_[term][c] - both - both.transpose() +
+                 out.turned * beside.product[c] * out.turned.transpose();
+  }
+  return out;
+}
+
+// Finds the likeliest size of each term on a grid. `counts_all`: also structure that a term leaves
+// to others.
+template <class Grid>
+std::vector<JointModel::Ratio> JointModel::likeliest(const JointFit& fit, const Moments& moments,
+                                                     const std::vector<std::size_t>& terms,
+                                                     bool counts_all, const Grid& grid) const {
+  const Beside with = beside(fit);
+  std::array<VectorXd, mode_classes> left; // Z' r of the residual r
+  for (std::size_t c = 0; c < mode_classes; ++c)
+    left[c] = moments.along.col(c)(fit.columns) - with.product[c] * fit.coefficients;
+  std::vector<Ratio> all;
+  for (const std::size_t term : terms) {
+    const JointTerm& at = data_.terms[term];
+    const OfTerm of = of_term(with, term);
+    ByClass weight = counts_all ? with.weight : counted(with, at);
+    TermOnResponses one{at, weight, with.free, of.own, {}, {}};
+    one.squares.resize(1, mode_classes);
+    for (std::size_t c = 0; c < mode_classes; ++c) {
+      one.along[c] = (moments.along.col(c).segment(at.first, at.count) -
+                      of.cross[c] * fit.coefficients - of.turned * left[c])
+                         .transpose();
+      one.squares(0, c) = fit.squares[c];
+      if (!(fit.squares[c] > 0)) weight[c] = 0; // no residual in that class
+    }
+    one.add_up();
+    const auto best = one.likeliest(grid);
+    all.push_back({best.gain(0), best.size.front()});
+  }
+  return all;
 }
 
 std::vector<JointModel::Ratio> JointModel::ratios(const JointFit& fit, const Moments& moments,
                                                   const std::vector<std::size_t>& terms) const {
-  const Beside with = beside(fit);
-  const Left left = left_along(with, moments);
-  std::vector<Ratio> all;
-  for (const std::size_t term : terms)
-    all.push_back(likeliest(with, left, moments, term, counted(with, data_.terms[term]),
-                            tuning::coarse_term_sizes));
-  return all;
+  return likeliest(fit, moments, terms, false, tuning::coarse_term_sizes);
 }
 
 JointModel::Ratio JointModel::fine_ratio(const JointFit& fit, const Moments& moments,
                                          std::size_t term) const {
-  const Beside with = beside(fit);
-  return likeliest(with, left_along(with, moments), moments, term, with.weight,
-                   tuning::fine_term_sizes);
+  return likeliest(fit, moments, {term}, true, tuning::fine_term_sizes).front();
 }
 
 std::vector<JointModel::Information>
@@ -488,12 +463,12 @@ JointModel::information(const JointFit& fit, const std::vector<std::size_t>& ter
   const Beside with = beside(fit);
   std::vector<Information> all;
   for (const std::size_t term : terms) {
-    const auto own = own_products(with, of_term(with, term), term);
+    const OfTerm of = of_term(with, term);
     const Index straight = data_.terms[term].straight;
     Information& sum = all.emplace_back();
     for (std::size_t c = 0; c < mode_classes; ++c) {
       sum.alone += with.weight[c] * own_[term][c].diagonal().head(straight).mean();
-      sum.beside += with.weight[c] * own[c].diagonal().head(straight).mean();
+      sum.beside += with.weight[c] * of.own[c].diagonal().head(straight).mean();
     }
   }
   return all;
@@ -506,26 +481,25 @@ MatrixXd JointModel::ratios_of(const JointFit& fit, const MatrixXd& responses,
   const Beside with = beside(fit);
   const MatrixXd z = data_.columns(Eigen::all, fit.columns);
   std::array<MatrixXd, mode_classes> of_fit; // responses x columns of Z: r' Z
-  Eigen::ArrayXXd squares(responses.cols(), static_cast<Index>(mode_classes));
+  Eigen::ArrayXXd squares(responses.cols(), mode_classes);
   for (std::size_t c = 0; c < mode_classes; ++c) {
     const Index begin = data_.first[c], rows = data_.first[c + 1] - begin;
     of_fit[c] = responses.middleRows(begin, rows).transpose() * z.middleRows(begin, rows);
-    squares.col(static_cast<Index>(c)) = responses.middleRows(begin, rows)
-                                             .colwise()
-                                             .squaredNorm()
-                                             .transpose()
-                                             .array()
-                                             .max(tuning::smallest_divisor);
+    squares.col(c) = responses.middleRows(begin, rows)
+                         .colwise()
+                         .squaredNorm()
+                         .transpose()
+                         .array()
+                         .max(tuning::smallest_divisor);
   }
-  MatrixXd best(responses.cols(), static_cast<Index>(terms.size()));
+  MatrixXd best(responses.cols(), terms.size());
   parallel_for(terms.size(), [&](std::size_t i) {
     const JointTerm& term = data_.terms[terms[i]];
     const OfTerm of = of_term(with, terms[i]);
-    const auto own = own_products(with, of, terms[i]);
     const ByClass weight = counted(with, term);
     for (Index from = 0; from < responses.cols(); from += at_once) {
       const Index count = std::min(at_once, responses.cols() - from);
-      TermOnResponses some{term, weight, with.free, own, {}, squares.middleRows(from, count)};
+      TermOnResponses some{term, weight, with.free, of.own, {}, squares.middleRows(from, count)};
       for (std::size_t c = 0; c < mode_classes; ++c) {
         const Index begin = data_.first[c], rows = data_.first[c + 1] - begin;
         some.along[c] = responses.block(begin, from, rows, count).transpose() *
@@ -533,8 +507,7 @@ MatrixXd JointModel::ratios_of(const JointFit& fit, const MatrixXd& responses,
                         of_fit[c].middleRows(from, count) * of.turned.transpose();
       }
       some.add_up();
-      best.col(static_cast<Index>(i)).segment(from, count) =
-          some.likeliest(tuning::coarse_term_sizes).gain;
+      best.col(i).segment(from, count) = some.likeliest(tuning::coarse_term_sizes).gain;
     }
   });
   return best;

@@ -21,8 +21,7 @@
 #include <mutex>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "trace/basics.h"
 #include "trace/search/modes.h"
 
 namespace frictab::trace {
@@ -39,7 +38,7 @@ struct SizedTerm {
 };
 
 struct JointTerm {
-  Eigen::Index first = 0, straight = 0, count = 0; // columns; the straight ones first
+  Index first = 0, straight = 0, count = 0; // columns; the straight ones first
   // The likelihood ratio counts only the explained structure within tests, because other columns
   // imitate the term between tests.
   bool within = false;
@@ -49,36 +48,38 @@ struct JointFit;
 
 // Response and columns of the regression. Rows are modes, sorted by class.
 struct JointData {
-  Eigen::VectorXd response;
-  Eigen::MatrixXd columns; // the law's, then the terms'
-  Eigen::Index law = 0;
+  VectorXd response;
+  MatrixXd columns; // the law's, then the terms'
+  Index law = 0;
   std::vector<JointTerm> terms;
-  std::array<Eigen::Index, mode_classes + 1> first{};
+  std::array<Index, mode_classes + 1> first{};
   std::vector<std::size_t> test;
 
+  // Number of modes of a class.
+  Index count(std::size_t mode_class) const { return first[mode_class + 1] - first[mode_class]; }
   // Keeps only the rows of some tests.
   JointData part(const std::vector<char>& keep_test) const;
   // Keeps only some terms, renumbered in that order.
   JointData with_terms(const std::vector<SizedTerm>& some) const;
   // Multiplies every row by its own factor.
-  JointData weighted(const Eigen::VectorXd& factor) const;
-  Eigen::VectorXd residual(const JointFit& fit) const;
+  JointData weighted(const VectorXd& factor) const;
+  VectorXd residual(const JointFit& fit) const;
 };
 
 using ByClass = std::array<double, mode_classes>;
 
 // Sufficient statistics of a response.
 struct Moments {
-  Eigen::MatrixXd along; // columns x classes: X' y
-  ByClass squares{};     // y' y
+  MatrixXd along;    // columns x classes: X' y
+  ByClass squares{}; // y' y
 };
 
 struct JointFit {
   std::vector<SizedTerm> terms;
   ByClass variance{};
-  std::vector<Eigen::Index> columns; // those with a coefficient
-  Eigen::VectorXd coefficients;
-  Eigen::MatrixXd inverse;   // of the matrix of the normal equations
+  std::vector<Index> columns; // those with a coefficient
+  VectorXd coefficients;
+  MatrixXd inverse;          // of the matrix of the normal equations
   ByClass squares{};         // residual sums of squares
   ByClass used{};            // degrees of freedom spent
   double log_likelihood = 0; // restricted
@@ -94,7 +95,7 @@ public:
 
   const JointData& data() const { return data_; }
   // of responses: modes x responses
-  std::vector<Moments> moments(const Eigen::MatrixXd& responses) const;
+  std::vector<Moments> moments(const MatrixXd& responses) const;
   const Moments& of_data() const { return of_data_; }
 
   // Estimates coefficients at given sizes and variances.
@@ -118,8 +119,8 @@ public:
   // The same for one term on a fine grid, always counting structure between tests too.
   Ratio fine_ratio(const JointFit& fit, const Moments& moments, std::size_t term) const;
   // Gains alone, responses x terms. `responses`: modes x responses, residuals of the fit.
-  Eigen::MatrixXd ratios_of(const JointFit& fit, const Eigen::MatrixXd& responses,
-                            const std::vector<std::size_t>& terms) const;
+  MatrixXd ratios_of(const JointFit& fit, const MatrixXd& responses,
+                     const std::vector<std::size_t>& terms) const;
 
   // Sum of squares of a term's columns in one class of modes.
   double squares(std::size_t term, std::size_t mode_class) const {
@@ -134,37 +135,31 @@ public:
                                        const std::vector<std::size_t>& terms) const;
 
 private:
-  using Cross = std::array<Eigen::MatrixXd, mode_classes>; // all columns x those of a term
+  using Cross = std::array<MatrixXd, mode_classes>; // all columns x those of a term
 
-  const Cross& cross_of(Eigen::Index first, Eigen::Index count) const;
+  const Cross& cross_of(Index first, Index count) const;
   // Products of all columns with one of a fit: the matrices, and the column of these.
-  using CrossColumn = std::pair<const Cross*, Eigen::Index>;
+  using CrossColumn = std::pair<const Cross*, Index>;
   std::vector<CrossColumn> columns_of(const JointFit& fit) const;
   Cross products_of(const JointFit& fit) const; // Z' Z
   ByClass weights(const JointFit& fit) const;
   ByClass estimated_noise(const JointFit& fit) const;
-  // Intermediate results for adding terms to a fit: those of the fit, of one term, and of the
-  // residual of a response (Z' r).
+  // Intermediate results for adding terms to a fit: those of the fit, and of one term.
   struct Beside;
   struct OfTerm;
-  using Left = std::array<Eigen::VectorXd, mode_classes>;
   Beside beside(const JointFit& fit) const;
   static ByClass counted(const Beside& beside, const JointTerm& term); // weights in a ratio
   OfTerm of_term(const Beside& beside, std::size_t term) const;
-  Left left_along(const Beside& beside, const Moments& moments) const;
   template <class Grid>
-  Ratio likeliest(const Beside& beside, const Left& left, const Moments& moments, std::size_t term,
-                  ByClass weight, const Grid& grid) const;
-  // X~' X~ by class, where X~ is the part of a term's columns X that the fit's columns do not
-  // explain.
-  std::array<Eigen::MatrixXd, mode_classes> own_products(const Beside& beside, const OfTerm& of,
-                                                         std::size_t term) const;
+  std::vector<Ratio> likeliest(const JointFit& fit, const Moments& moments,
+                               const std::vector<std::size_t>& terms, bool counts_all,
+                               const Grid& grid) const;
 
   JointData data_;
   Moments of_data_;
-  std::vector<std::array<Eigen::MatrixXd, mode_classes>> own_; // per term X_j' X_j
+  std::vector<std::array<MatrixXd, mode_classes>> own_; // per term X_j' X_j
   mutable std::mutex mutex_;
-  mutable std::map<Eigen::Index, std::unique_ptr<const Cross>> cross_;
+  mutable std::map<Index, std::unique_ptr<const Cross>> cross_;
 };
 
 } // namespace frictab::trace

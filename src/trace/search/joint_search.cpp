@@ -18,10 +18,6 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr std::size_t leads_shown = 12;              // length of the list of leads
 constexpr std::uint64_t joint_stream = 0x6a6f696e74; // "joint"
 
@@ -60,9 +56,9 @@ double rank_of(double value, const VectorXd& among) {
 // Value that a share `level` of all values reach, the data counted as one of them.
 double threshold_of(const VectorXd& flipped, double level) {
   std::vector<double> sorted(flipped.begin(), flipped.end());
-  std::sort(sorted.begin(), sorted.end(), std::greater<>());
+  std::ranges::sort(sorted, std::greater<>());
   const auto rank = static_cast<long>(level * static_cast<double>(sorted.size() + 1)) - 1;
-  return sorted[static_cast<std::size_t>(std::max(rank, 0L))];
+  return sorted[std::max(rank, 0L)];
 }
 
 // Greedy path of terms from a fit on.
@@ -90,28 +86,27 @@ public:
   std::vector<std::size_t> open(const JointFit& fit, std::size_t round, bool sharp = true) const {
     std::vector<char> parent = o_.in_law;
     for (const SizedTerm& in : fit.terms)
-      for (const std::size_t c : o_.columns[in.term])
+      for (const std::size_t c : o_.terms[in.term].columns)
         parent[c] = 1;
     std::vector<std::size_t> all;
-    for (std::size_t t = 0; t < o_.columns.size(); ++t) {
-      const auto& own = o_.columns[t];
-      const bool is_in = std::any_of(fit.terms.begin(), fit.terms.end(), [&](const SizedTerm& in) {
-        return o_.columns[in.term] == own;
-      });
-      const bool is_out = std::find(out_.begin(), out_.end(), o_.cause[t]) != out_.end();
-      if (o_.walk == t || (o_.walk && o_.along_order[t]) || is_in || is_out ||
-          (o_.sharp[t] && !sharp))
+    for (std::size_t t = 0; t < o_.terms.size(); ++t) {
+      const auto& own = o_.terms[t].columns;
+      const bool is_in = std::ranges::any_of(
+          fit.terms, [&](const SizedTerm& in) { return o_.terms[in.term].columns == own; });
+      const bool is_out = contains(out_, o_.terms[t].cause);
+      if (o_.walk == t || (o_.walk && o_.terms[t].along_order) || is_in || is_out ||
+          (o_.terms[t].sharp && !sharp))
         continue;
-      const bool has_parent =
-          own.size() == 1 ||
-          std::any_of(own.begin(), own.end(), [&](std::size_t c) { return parent[c] != 0; });
-      if (round == 0 ? o_.first[t] != 0 : has_parent) all.push_back(t);
+      const bool has_parent = own.size() == 1 || std::ranges::any_of(own, [&](std::size_t c) {
+                                return parent[c] != 0;
+                              });
+      if (round == 0 ? o_.terms[t].first != 0 : has_parent) all.push_back(t);
     }
     return all;
   }
 
   double rarity(const Footing& footing, std::size_t term, double ratio) const {
-    return footing.of_cause[o_.cause[term]].of(footing.of_term[term].of(ratio));
+    return footing.of_cause[o_.terms[term].cause].of(footing.of_term[term].of(ratio));
   }
 
   // Index of the rarest ratio; if several exceed the limit of rarity, of the largest one. A column
@@ -126,12 +121,12 @@ public:
         best = i;
         rarest = own;
       }
-    const auto& columns = o_.columns[terms[best]];
+    const auto& columns = o_.terms[terms[best]].columns;
     double enough = footing.enough / tuning::thresholds_for_ranking_by_likelihood;
     if (columns.size() == 1 || !(enough > 0)) return best;
     for (std::size_t i = 0; i < terms.size(); ++i)
-      if (const auto& own = o_.columns[terms[i]];
-          own.size() == 1 && std::find(columns.begin(), columns.end(), own[0]) != columns.end())
+      if (const auto& own = o_.terms[terms[i]].columns;
+          own.size() == 1 && contains(columns, own[0]))
         if (const double rare = rarity(footing, terms[i], ratios[i]); rare > enough) {
           best = i;
           enough = rare;
@@ -168,7 +163,7 @@ public:
   // Adds the first terms of a path, and re-estimates sizes and noise.
   JointFit taken(const JointFit& from, const Ahead& path, std::size_t terms) const {
     std::vector<SizedTerm> in = from.terms;
-    in.insert(in.end(), path.terms.begin(), path.terms.begin() + static_cast<long>(terms));
+    in.insert(in.end(), path.terms.begin(), path.terms.begin() + terms);
     const Moments& moments = m_.of_data();
     return with_walk(
         m_.tuned(m_.fit(in, from.variance, moments, tuning::noise_rounds_with_new_terms), moments),
@@ -216,12 +211,12 @@ VectorXd root_weights(const JointData& data, const VectorXd& residual, const ByC
     // sum of squares over variance; number of modes
     std::map<std::size_t, std::pair<double, double>> of_test;
     for (Index i = data.first[c]; i < data.first[c + 1]; ++i) {
-      auto& [squares, count] = of_test[data.test[static_cast<std::size_t>(i)]];
+      auto& [squares, count] = of_test[data.test[i]];
       squares += residual(i) * residual(i) / variance[c];
       ++count;
     }
     for (Index i = data.first[c]; i < data.first[c + 1]; ++i) {
-      const auto& [squares, count] = of_test[data.test[static_cast<std::size_t>(i)]];
+      const auto& [squares, count] = of_test[data.test[i]];
       roots(i) = std::sqrt(
           std::min(1.0, (tuning::weight_t_freedom + count) / (tuning::weight_t_freedom + squares)));
     }
@@ -272,8 +267,8 @@ private:
   MatrixXd flipped(const JointFit& fit) {
     const JointData& data = model_->data();
     const VectorXd residual = data.residual(fit);
-    const std::size_t units = *std::max_element(s_.units.begin(), s_.units.end()) + 1;
-    MatrixXd flips(residual.size(), static_cast<Index>(s_.flips));
+    const std::size_t units = *std::ranges::max_element(s_.units) + 1;
+    MatrixXd flips(residual.size(), s_.flips);
     ++draws_;
     for (Index f = 0; f < flips.cols(); ++f) {
       Random random(s_.seed, joint_stream + 100000 * draws_ + static_cast<std::uint64_t>(f));
@@ -281,27 +276,27 @@ private:
       for (double& one : sign)
         one = random.below(2) == 0 ? -1 : 1;
       for (Index i = 0; i < residual.size(); ++i)
-        flips(i, f) = residual(i) * sign[s_.units[data.test[static_cast<std::size_t>(i)]]];
+        flips(i, f) = residual(i) * sign[s_.units[data.test[i]]];
       if (units < s_.units.size()) continue; // tests of a unit resemble each other
-      std::vector<Index> drawn(static_cast<std::size_t>(data.first[1]));
+      std::vector<Index> drawn(data.first[1]);
       std::iota(drawn.begin(), drawn.end(), 0);
       random.shuffle(std::span(drawn));
       for (Index i = 0; i < data.first[1]; ++i)
-        flips(i, f) = residual(drawn[static_cast<std::size_t>(i)]);
+        flips(i, f) = residual(drawn[i]);
     }
     const MatrixXd z = data.columns(Eigen::all, fit.columns);
     MatrixXd weighted = flips;
     for (std::size_t c = 0; c < mode_classes; ++c)
-      weighted.middleRows(data.first[c], data.first[c + 1] - data.first[c]) /= fit.variance[c];
+      weighted.middleRows(data.first[c], data.count(c)) /= fit.variance[c];
     flips -= z * (fit.inverse * (z.transpose() * weighted)).eval();
     for (std::size_t c = 0; c < mode_classes; ++c) {
       const Index begin = data.first[c], rows = data.first[c + 1] - begin;
       if (rows == 0) continue;
       const double size = residual.segment(begin, rows).norm();
-      for (Index f = 0; f < flips.cols(); ++f)
-        flips.col(f).segment(begin, rows) *=
-            size /
-            std::max(flips.col(f).segment(begin, rows).norm(), tuning::smallest_norm_of_flip);
+      for (Index f = 0; f < flips.cols(); ++f) {
+        auto own = flips.col(f).segment(begin, rows);
+        own *= size / std::max(own.norm(), tuning::smallest_norm_of_flip);
+      }
     }
     return flips;
   }
@@ -315,7 +310,7 @@ private:
       if (!by_chance_.count(term)) missing.push_back(term);
     const MatrixXd ratios = model_->ratios_of(fit, flips_, missing);
     for (std::size_t i = 0; i < missing.size(); ++i)
-      by_chance_[missing[i]] = ratios.col(static_cast<Index>(i));
+      by_chance_[missing[i]] = ratios.col(i);
   }
 
   bool step(std::size_t round) {
@@ -346,12 +341,12 @@ private:
     JointFit next = walker.taken(fit, path, take);
     for (std::size_t i = 0; i < take; ++i)
       if (const std::size_t term = path.terms[i].term; !holds(next, term)) {
-        path_.unsure.push_back({term, path.ratios[i], p, {}});
-        path_.record.unsure.push_back(o_.cause[term]);
+        path_.unsure.push_back({term, p, {}});
+        path_.record.unsure.push_back(o_.terms[term].cause);
         return true;
       }
     for (std::size_t i = 0; i < take; ++i)
-      path_.steps.push_back({path.terms[i].term, path.ratios[i], p, {}});
+      path_.steps.push_back({path.terms[i].term, p, {}});
     path_.record.lengths[round] += take;
     path_.record.footings[round].push_back(footing);
     path_.fit = std::move(next);
@@ -381,15 +376,15 @@ private:
 
   // Also returns the largest rarity of each flip.
   std::pair<Footing, VectorXd> footing_of(const std::vector<std::size_t>& terms) const {
-    const std::size_t causes = *std::max_element(o_.cause.begin(), o_.cause.end()) + 1;
-    Footing footing{std::vector<Rarity>(o_.cause.size()), std::vector<Rarity>(causes)};
+    const std::size_t causes = o_.terms.back().cause + 1;
+    Footing footing{std::vector<Rarity>(o_.terms.size()), std::vector<Rarity>(causes)};
     std::vector<VectorXd> of_cause(causes);
     for (const std::size_t term : terms) {
       VectorXd own = by_chance_.at(term);
       Rarity& rarity = footing.of_term[term] = rarity_of(own);
       for (double& value : own)
         value = rarity.of(value);
-      VectorXd& best = of_cause[o_.cause[term]];
+      VectorXd& best = of_cause[o_.terms[term].cause];
       best = best.size() == 0 ? own : VectorXd(best.cwiseMax(own));
     }
     VectorXd largest = VectorXd::Zero(flips_.cols());
@@ -412,8 +407,8 @@ private:
     const std::size_t depth =
         std::min(tuning::look_ahead_terms, tuning::most_terms_found - walker.count(fit));
     Looked looked{walker.ahead(fit, model_->of_data(), footing, 0, depth, false), 0, 1};
-    const Index most = std::min(flips_.cols(), static_cast<Index>(s_.look_ahead));
-    MatrixXd gains(0, static_cast<Index>(depth));
+    const Index most = std::min<Index>(flips_.cols(), s_.look_ahead);
+    MatrixXd gains(0, depth);
     for (const Index count :
          {std::min(tuning::first_look_ahead_flips, most), most}) { // few flips suffice to reject
       const Index known = gains.rows();
@@ -434,7 +429,7 @@ private:
     const std::vector<Moments> moments =
         model_->moments(flips_.middleCols(from, gains.rows() - from));
     parallel_for(moments.size(), [&](std::size_t f) {
-      const Index at = from + static_cast<Index>(f);
+      const Index at = from + f;
       std::vector<double> ratios;
       for (const std::size_t term : terms)
         ratios.push_back(by_chance_.at(term)(at));
@@ -442,9 +437,7 @@ private:
                                       terms[walker.rarest(footing, terms, ratios)]);
       for (Index k = 0; k < gains.cols(); ++k) // a path that ends gains nothing more
         gains(at, k) =
-            path.gains.empty()
-                ? 0
-                : path.gains[std::min(static_cast<std::size_t>(k), path.gains.size() - 1)];
+            path.gains.empty() ? 0 : path.gains[std::min<std::size_t>(k, path.gains.size() - 1)];
     });
   }
 
@@ -471,14 +464,14 @@ private:
   std::vector<std::size_t> rivals_of(std::size_t term) const {
     const JointModel& m = *model_;
     const JointFit fit = m.fit(path_.fit.terms_without(term), path_.fit.variance, m.of_data(), 2);
-    const std::vector<std::size_t> others = walker().open(fit, o_.first[term] ? 0 : 1);
+    const std::vector<std::size_t> others = walker().open(fit, o_.terms[term].first ? 0 : 1);
     const auto ratios = m.ratios(fit, m.of_data(), others);
     const double own = m.ratios(fit, m.of_data(), {term}).front().value;
     std::vector<std::pair<double, std::size_t>> near;
     for (std::size_t i = 0; i < others.size(); ++i)
       if (others[i] != term && ratios[i].value > tuning::near_rival_share_of_ratio * own)
         near.emplace_back(-ratios[i].value, others[i]);
-    std::sort(near.begin(), near.end());
+    std::ranges::sort(near);
     std::vector<std::size_t> names;
     for (const auto& [ratio, other] : near)
       if (names.size() < tuning::most_near_rivals) names.push_back(other);
@@ -491,7 +484,7 @@ private:
   double threshold_of_term(const JointFit& fit, const Footing& footing, std::size_t term,
                            double rarity) const {
     const double ratio =
-        footing.of_term[term].value_at(footing.of_cause[o_.cause[term]].value_at(rarity));
+        footing.of_term[term].value_at(footing.of_cause[o_.terms[term].cause].value_at(rarity));
     const double free = freedom_of(fit, term);
     double z = 1;
     for (int i = 0; i < tuning::threshold_iterations; ++i)
@@ -504,8 +497,7 @@ private:
     double free = 0;
     for (std::size_t c = 0; c < mode_classes; ++c)
       if (model_->squares(term, c) > 0)
-        free += static_cast<double>(model_->data().first[c + 1] - model_->data().first[c]) -
-                fit.used[c];
+        free += static_cast<double>(model_->data().count(c)) - fit.used[c];
     return std::max(free, 1.0);
   }
 
@@ -528,30 +520,27 @@ private:
     };
     for (std::size_t i = 0; i < terms.size(); ++i) {
       own[i] = walker().rarity(footing, terms[i], ratios[i].value);
-      if (!(ratios[i].value > 0) || is_lead(o_.cause[terms[i]])) continue;
-      const auto [at, is_new] = best.try_emplace(o_.cause[terms[i]], i);
+      if (!(ratios[i].value > 0) || is_lead(o_.terms[terms[i]].cause)) continue;
+      const auto [at, is_new] = best.try_emplace(o_.terms[terms[i]].cause, i);
       if (!is_new && before(i, at->second)) at->second = i;
     }
     std::vector<std::size_t> sorted;
     for (const auto& [cause, i] : best)
       sorted.push_back(i);
-    std::stable_sort(sorted.begin(), sorted.end(), before);
+    std::ranges::stable_sort(sorted, before);
     if (sorted.size() > leads_shown) sorted.resize(leads_shown);
     for (const std::size_t i : sorted)
       path_.left.leads.push_back({terms[i], rank_of(own[i], largest),
                                   threshold_of_term(fit, footing, terms[i], rarity), ratios[i].size,
                                   coefficients_of(fit, terms[i], ratios[i].size)});
     auto& leads = path_.left.leads;
-    if (s_.take)
-      std::stable_sort(leads.begin(), leads.end(), [](const JointLead& a, const JointLead& b) {
-        return a.p_value < b.p_value;
-      });
+    if (s_.take) std::ranges::stable_sort(leads, {}, &JointLead::p_value);
   }
 
   bool is_lead(std::size_t cause) const {
     const auto& leads = path_.left.leads;
-    return std::any_of(leads.begin(), leads.end(),
-                       [&](const JointLead& lead) { return o_.cause[lead.term] == cause; });
+    return std::ranges::any_of(
+        leads, [&](const JointLead& lead) { return o_.terms[lead.term].cause == cause; });
   }
 
   // Coefficients of all columns of a term.
@@ -560,7 +549,7 @@ private:
     VectorXd all = VectorXd::Zero(own.count);
     for (std::size_t i = 0; i < fit.columns.size(); ++i)
       if (const Index k = fit.columns[i] - own.first; k >= 0 && k < own.count)
-        all(k) = fit.coefficients(static_cast<Index>(i));
+        all(k) = fit.coefficients(i);
     return all;
   }
 
@@ -575,7 +564,7 @@ private:
                  double rarity) {
     std::vector<std::size_t> terms;
     for (const std::size_t term : open)
-      if (o_.columns[term].size() == 1 && !o_.sharp[term] &&
+      if (o_.terms[term].columns.size() == 1 && !o_.terms[term].sharp &&
           model_->data().terms[term].straight > 0)
         terms.push_back(term);
     if (terms.empty()) return;
@@ -591,7 +580,7 @@ private:
       path_.left.seen.push_back(
           {terms[i], alone > 0 ? beside / alone : 0, needed[i] / std::sqrt(beside)});
     }
-    const auto middle = needed.begin() + static_cast<long>(needed.size() / 2);
+    const auto middle = needed.begin() + needed.size() / 2;
     std::nth_element(needed.begin(), middle, needed.end());
     const double tests = static_cast<double>(model_->data().first[1]) - fit.used[0];
     path_.left.smallest_half = *middle * std::sqrt(fit.variance[0] / std::max(tests, 1.0));
@@ -635,7 +624,7 @@ JointPath walk_again(const JointModel& part, const JointOffer& offer, const Join
       const Footing& footing = footings[std::min(taken, footings.size() - 1)];
       const Ahead next = walker.ahead(path.fit, part.of_data(), footing, round, 1, true);
       if (next.terms.empty()) break;
-      path.steps.push_back({next.terms[0].term, next.ratios[0], 1, {}});
+      path.steps.push_back({next.terms[0].term, 1, {}});
       path.fit = walker.taken(path.fit, next, 1);
     }
   return path;

@@ -44,15 +44,18 @@
 namespace frictab::trace {
 
 struct JointOffer {
-  std::vector<std::size_t> cause;                // per term, from 0
-  std::vector<std::vector<std::size_t>> columns; // per term, of the candidates
-  std::vector<char> first;                       // per term: offered before products
-  std::vector<char> sharp;  // per term: one shape of a cause; skipped by the look-ahead
+  struct Term {
+    std::size_t cause = 0;            // from 0
+    std::vector<std::size_t> columns; // of the candidates
+    bool first = false;               // offered before products
+    bool sharp = false;               // one shape of a cause; skipped by the look-ahead
+    bool along_order = false;         // another form of the order, offered only without the walk
+  };
+  std::vector<Term> terms;
   std::vector<char> in_law; // per candidate
   // Random walk over the order of tests: part of the noise where the likelihood favours it, never
-  // offered as a term; and whether a term is another form of the order, offered only without it.
+  // offered as a term.
   std::optional<std::size_t> walk;
-  std::vector<char> along_order;
 };
 
 struct JointSettings {
@@ -65,7 +68,6 @@ struct JointSettings {
 
 struct JointStep {
   std::size_t term = 0;
-  double ratio = 0;              // log likelihood ratio when it entered
   double p_value = 1;            // over everything that was tried in that step
   std::vector<std::size_t> near; // terms that would explain almost as much in its place, best first
 };
@@ -98,7 +100,7 @@ struct JointLead {
   double p_value = 1;
   double threshold = 0; // standard errors of one coefficient from which on it would have entered
   TermSize size;
-  Eigen::VectorXd coefficients; // estimates for all its columns
+  VectorXd coefficients; // estimates for all its columns
 };
 
 // A single column that did not enter, by its straight part.
@@ -118,7 +120,7 @@ struct JointLeft {
 struct JointPath {
   JointFit fit;
   // square roots, per mode: small where a test scatters far more than others
-  Eigen::VectorXd weights;
+  VectorXd weights;
   std::vector<JointStep> steps, unsure; // unsure: dominated by a few tests that scatter more
   JointRecord record;
   JointLeft left;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <unordered_map>
 
 #include "stats/gram.h"
@@ -16,82 +15,26 @@ using expr::Expr;
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-// Rounds off every minimum that depends on parameters.
-class Smoother {
-public:
-  Smoother(double width, const std::vector<std::string>& parameters)
-      : width_(width), parameters_(parameters.begin(), parameters.end()) {}
-
-  Expr operator()(const Expr& formula) {
-    inside_out(formula, [this](const Expr& e) { done_.emplace(e.id(), smoothed(e)); });
-    return done_.at(formula.id());
-  }
-
-private:
-  Expr smoothed(const Expr& e) const {
-    if (e.operands().empty()) return e;
+// Rounds off every minimum that depends on parameters, over this width.
+Expr smoothed(const Expr& formula, double width, const std::vector<std::string>& parameters) {
+  const auto depends = [&](const Expr& e) {
+    return std::ranges::any_of(expr::symbols(e),
+                               [&](const std::string& s) { return contains(parameters, s); });
+  };
+  std::unordered_map<const Expr::Node*, Expr> done;
+  inside_out(formula, [&](const Expr& e) {
     std::vector<Expr> operands;
     for (const Expr& operand : e.operands())
-      operands.push_back(done_.at(operand.id()));
-    const bool smooth = e.op() == expr::Op::minimum && depends(e);
-    return smooth ? rounded(operands[0], operands[1]) : rebuild(e.op(), operands);
-  }
-  bool depends(const Expr& e) const {
-    const auto used = expr::symbols(e);
-    return std::any_of(used.begin(), used.end(),
-                       [&](const std::string& s) { return parameters_.count(s) > 0; });
-  }
-  Expr rounded(const Expr& a, const Expr& b) const {
-    const Expr d = a - b;
-    return 0.5 * (a + b - sqrt(d * d + width_ * width_));
-  }
-  double width_;
-  std::set<std::string> parameters_;
-  std::unordered_map<const Expr::Node*, Expr> done_;
-};
-
-} // namespace
-
-LawOnBlocks::LawOnBlocks(const models::Law& law, const models::Conventions& conventions,
-                         const BlockColumns& columns, double smooth_MPa)
-    : parameters_(law.parameters) {
-  const auto names = models::inputs(law, conventions);
-  const auto scalars = models::parameter_names(law);
-  Expr formula = models::tau_formula(law, conventions);
-  if (smooth_MPa > 0) formula = Smoother(smooth_MPa, scalars)(formula);
-  program_ = std::make_unique<expr::Program>(formula, names, scalars);
-  std::vector<const double*> bound;
-  for (const std::string& name : names)
-    bound.push_back(columns.at(name).data());
-  count_ = columns.begin()->second.size();
-  bound_ = std::make_unique<expr::BoundProgram>(*program_, static_cast<std::size_t>(count_), bound);
-}
-
-VectorXd LawOnBlocks::predict(std::span<const double> parameters) const {
-  VectorXd tau(count_);
-  bound_->sweep(parameters, false, [&](const expr::BoundProgram::Block& block) {
-    std::copy_n(block.value, block.count, tau.data() + block.first);
+      operands.push_back(done.at(operand.id()));
+    if (e.op() != expr::Op::minimum || !depends(e)) {
+      done.emplace(e.id(), operands.empty() ? e : rebuild(e.op(), operands));
+      return;
+    }
+    const Expr d = operands[0] - operands[1];
+    done.emplace(e.id(), 0.5 * (operands[0] + operands[1] - sqrt(d * d + width * width)));
   });
-  return tau;
+  return done.at(formula.id());
 }
-
-VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd& jacobian) const {
-  VectorXd tau(count_);
-  jacobian.setZero(count_, static_cast<Index>(parameters.size()));
-  bound_->sweep(parameters, true, [&](const expr::BoundProgram::Block& block) {
-    std::copy_n(block.value, block.count, tau.data() + block.first);
-    for (std::size_t p = 0; p < block.derivative.size(); ++p)
-      std::copy_n(block.derivative[p], block.count,
-                  jacobian.col(static_cast<Index>(p)).data() + block.first);
-  });
-  return tau;
-}
-
-namespace {
 
 // Above this number of blocks, a step is first tried without derivatives, which saves those of
 // rejected steps.
@@ -101,23 +44,23 @@ constexpr auto many_blocks = static_cast<Index>(stats::block_budget);
 class BlockSquares : public stats::LeastSquares {
 public:
   BlockSquares(const LawOnBlocks& law, const VectorXd& measured, const stats::Whitener& whitener,
-               const Penalty& penalty, const VectorXd& weight, std::span<const double> start)
-      : law_(law), measured_(measured), whitener_(whitener), penalty_(penalty), weight_(weight),
+               const Penalty& penalty, std::span<const double> start)
+      : law_(law), measured_(measured), whitener_(whitener), penalty_(penalty),
         positive_(law.predict(start).array() > 0) {}
 
   double cost(std::span<const double> parameters) override {
     const VectorXd tau = law_.predict(parameters);
     MatrixXd residual = measured_ - tau;
-    whiten(residual);
+    whitener_.apply(residual);
     return cost_of(residual.col(0), parameters, tau);
   }
 
   stats::NormalEquations normal_equations(std::span<const double> parameters) override {
-    const VectorXd tau = law_.predict(parameters, raw_);
+    const VectorXd tau = law_.predict(parameters, &raw_);
     MatrixXd all(tau.size(), raw_.cols() + 1); // residual and derivatives
     all.col(0) = measured_ - tau;
     all.rightCols(raw_.cols()) = raw_;
-    whiten(all);
+    whitener_.apply(all);
     const auto jacobian = all.rightCols(raw_.cols());
     stats::NormalEquations n{cost_of(all.col(0), parameters, tau),
                              jacobian.transpose() * all.col(0), stats::gram(jacobian)};
@@ -129,11 +72,6 @@ public:
   }
 
 private:
-  void whiten(MatrixXd& columns) const {
-    whitener_.apply(columns);
-    if (weight_.size() > 0) columns = weight_.asDiagonal() * columns;
-  }
-
   VectorXd from_centre(std::span<const double> parameters) const {
     VectorXd off = stats::as_vector(parameters);
     if (penalty_.centre.size() > 0) off -= penalty_.centre;
@@ -159,16 +97,41 @@ private:
   const VectorXd& measured_;
   const stats::Whitener& whitener_;
   const Penalty& penalty_;
-  const VectorXd& weight_;
   const Eigen::Array<bool, Eigen::Dynamic, 1> positive_; // per block, at the start
   MatrixXd raw_;
 };
 
 } // namespace
 
+LawOnBlocks::LawOnBlocks(const models::Law& law, const models::Conventions& conventions,
+                         const BlockColumns& columns, double smooth_MPa)
+    : parameters_(law.parameters) {
+  const auto names = models::inputs(law, conventions);
+  const auto scalars = models::parameter_names(law);
+  Expr formula = models::tau_formula(law, conventions);
+  if (smooth_MPa > 0) formula = smoothed(formula, smooth_MPa, scalars);
+  program_ = std::make_unique<expr::Program>(formula, names, scalars);
+  std::vector<const double*> bound;
+  for (const std::string& name : names)
+    bound.push_back(columns.at(name).data());
+  count_ = columns.begin()->second.size();
+  bound_ = std::make_unique<expr::BoundProgram>(*program_, count_, bound);
+}
+
+VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd* jacobian) const {
+  VectorXd tau(count_);
+  if (jacobian) jacobian->setZero(count_, parameters.size());
+  bound_->sweep(parameters, jacobian, [&](const expr::BoundProgram::Block& block) {
+    std::copy_n(block.value, block.count, tau.data() + block.first);
+    for (std::size_t p = 0; jacobian && p < block.derivative.size(); ++p)
+      std::copy_n(block.derivative[p], block.count, jacobian->col(p).data() + block.first);
+  });
+  return tau;
+}
+
 BlockFit fit_blocks(const LawOnBlocks& law, const VectorXd& measured,
                     const stats::Whitener& whitener, std::vector<double> start,
-                    const Penalty& penalty, const VectorXd& weight, FitEnd end) {
+                    const Penalty& penalty, FitEnd end) {
   std::vector<stats::ParameterRange> ranges;
   for (std::size_t p = 0; p < start.size(); ++p) {
     ranges.push_back({law.parameters()[p].lower, law.parameters()[p].upper});
@@ -177,25 +140,25 @@ BlockFit fit_blocks(const LawOnBlocks& law, const VectorXd& measured,
   // Most fits of a choice end early, so the path shows in their costs, and through the noise of the
   // folds in the scores: by other rules of bounds and damping these changed by up to 5 %, for
   // better or worse.
-  const stats::LevenbergMarquardtOptions options{
-      .tolerance = end.enough,
-      .promise_ends = false,
-      .small_gains_end = 1,
-      .most_trials = static_cast<std::size_t>(end.most_steps),
-      .unit = stats::DampingUnit::current_diagonal,
-      .fall = 0.2,
-      .growth = 8,
-      .growth_of_growth = 1,
-      .least_damping_after_rejection = 0,
-      .most_damping = 1e8,
-      .clamps_at_bounds = true,
-      .derivatives_at_first_trial = measured.size() <= many_blocks,
-      .learns_curvature = false};
-  BlockSquares squares(law, measured, whitener, penalty, weight, start);
+  const stats::LevenbergMarquardtOptions options{.tolerance = end.enough,
+                                                 .promise_ends = false,
+                                                 .small_gains_end = 1,
+                                                 .most_trials = end.most_steps,
+                                                 .unit = stats::DampingUnit::current_diagonal,
+                                                 .fall = 0.2,
+                                                 .growth = 8,
+                                                 .growth_of_growth = 1,
+                                                 .least_damping_after_rejection = 0,
+                                                 .most_damping = 1e8,
+                                                 .clamps_at_bounds = true,
+                                                 .derivatives_at_first_trial =
+                                                     measured.size() <= many_blocks,
+                                                 .learns_curvature = false};
+  BlockSquares squares(law, measured, whitener, penalty, start);
   stats::LevenbergMarquardtFit found =
       stats::levenberg_marquardt(squares, ranges, std::move(start), options);
-  BlockFit fit{std::move(found.parameters), {}, {}, 2 * found.cost};
-  fit.predicted = law.predict(fit.parameters, fit.jacobian);
+  BlockFit fit{std::move(found.parameters), {}, {}};
+  fit.predicted = law.predict(fit.parameters, &fit.jacobian);
   return fit;
 }
 

@@ -11,11 +11,10 @@
 
 #include <memory>
 
-#include <Eigen/Core>
-
 #include "expr/program.h"
 #include "models/law.h"
 #include "stats/noise.h"
+#include "trace/basics.h"
 #include "trace/columns/candidates.h"
 
 namespace frictab::trace {
@@ -29,42 +28,39 @@ public:
               const BlockColumns& columns, double smooth_MPa = 0);
 
   const std::vector<models::Parameter>& parameters() const { return parameters_; }
-  Eigen::VectorXd predict(std::span<const double> parameters) const;
-  Eigen::VectorXd predict(std::span<const double> parameters, Eigen::MatrixXd& jacobian) const;
+  VectorXd predict(std::span<const double> parameters, MatrixXd* jacobian = nullptr) const;
 
 private:
   std::vector<models::Parameter> parameters_;
   std::unique_ptr<expr::Program> program_;
   std::unique_ptr<expr::BoundProgram> bound_;
-  Eigen::Index count_;
+  Index count_;
 };
 
 struct BlockFit {
   std::vector<double> parameters;
-  Eigen::VectorXd predicted;
-  Eigen::MatrixXd jacobian;
-  double cost = 0; // sum of squared whitened residuals
+  VectorXd predicted;
+  MatrixXd jacobian;
 };
 
 // Stopping rule of a fit.
 struct FitEnd {
-  double enough = 1e-11; // the last step is one that reduces the cost by less than this share
-  int most_steps = 60;   // accepted or not
+  double enough = 1e-11;       // the last step is one that reduces the cost by less than this share
+  std::size_t most_steps = 60; // accepted or not
 };
 
 // Adds (p - centre)' matrix (p - centre) to the sum of squares. Empty matrix: no penalty; empty
 // centre: 0.
 struct Penalty {
-  Eigen::MatrixXd matrix;
-  Eigen::VectorXd centre;
+  MatrixXd matrix;
+  VectorXd centre;
 };
 
-// Runs the fit described above. `penalty`: S. `weight`: per block, applied after whitening (empty:
-// 1). Steps that make a positive stress non-positive are rejected: where tests scatter as a whole,
-// a law without friction is only a few standard deviations off, and the fit could go there.
-BlockFit fit_blocks(const LawOnBlocks& law, const Eigen::VectorXd& measured,
+// Runs the fit described above; `penalty`: S. Steps that make a positive stress non-positive are
+// rejected: where tests scatter as a whole, a law without friction is only a few standard
+// deviations off, and the fit could go there.
+BlockFit fit_blocks(const LawOnBlocks& law, const VectorXd& measured,
                     const stats::Whitener& whitener, std::vector<double> start,
-                    const Penalty& penalty = {}, const Eigen::VectorXd& weight = {},
-                    FitEnd end = {});
+                    const Penalty& penalty = {}, FitEnd end = {});
 
 } // namespace frictab::trace

@@ -11,13 +11,9 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // First row: the mean; other rows: orthonormal cosines.
 MatrixXd waves_of(std::size_t pieces) {
-  const auto n = static_cast<Index>(pieces);
+  const Index n = pieces;
   MatrixXd waves = MatrixXd::Constant(n, n, 1 / static_cast<double>(pieces));
   for (Index k = 1; k < n; ++k)
     for (Index i = 0; i < n; ++i)
@@ -41,16 +37,16 @@ Modes::Modes(const stats::Blocks& blocks)
   for (std::size_t pieces = 0; pieces <= most; ++pieces)
     waves_.push_back(waves_of(pieces));
   for (std::size_t c = 0; c < mode_classes; ++c) {
-    first_[c] = static_cast<Index>(test_.size());
+    first_[c] = test_.size();
     for (std::size_t t = 0; t < tests(); ++t)
       for (std::size_t mode = 0; mode < std::min(most, first_block_[t + 1] - first_block_[t]);
            ++mode)
         if (class_of(mode) == c) {
-          of_test_[t].push_back(static_cast<Index>(test_.size()));
+          of_test_[t].push_back(test_.size());
           test_.push_back(t);
         }
   }
-  first_[mode_classes] = static_cast<Index>(test_.size());
+  first_[mode_classes] = test_.size();
 }
 
 MatrixXd Modes::of(const Eigen::Ref<const MatrixXd>& per_block) const {
@@ -58,13 +54,10 @@ MatrixXd Modes::of(const Eigen::Ref<const MatrixXd>& per_block) const {
   for (std::size_t t = 0; t < tests(); ++t) {
     const std::size_t pieces = of_test_[t].size(), begin = first_block_[t],
                       blocks = first_block_[t + 1] - begin;
-    MatrixXd means(static_cast<Index>(pieces), per_block.cols());
+    MatrixXd means(pieces, per_block.cols());
     for (std::size_t i = 0; i < pieces; ++i) {
       const std::size_t from = i * blocks / pieces, to = (i + 1) * blocks / pieces;
-      means.row(static_cast<Index>(i)) =
-          per_block.middleRows(static_cast<Index>(begin + from), static_cast<Index>(to - from))
-              .colwise()
-              .mean();
+      means.row(i) = per_block.middleRows(begin + from, to - from).colwise().mean();
     }
     modes(of_test_[t], Eigen::all) = waves_[pieces] * means;
   }

@@ -11,9 +11,8 @@
 #include <array>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "stats/blocks.h"
+#include "trace/basics.h"
 
 namespace frictab::trace {
 
@@ -24,25 +23,25 @@ public:
   explicit Modes(const stats::Blocks& blocks);
 
   // Transforms columns of block values to modes x columns, sorted by class.
-  Eigen::MatrixXd of(const Eigen::Ref<const Eigen::MatrixXd>& per_block) const;
+  MatrixXd of(const Eigen::Ref<const MatrixXd>& per_block) const;
   // Mean absolute value over the pieces of a test, computed from its modes (`modes` holds those of
   // all tests).
-  double mean_size(const Eigen::VectorXd& modes, std::size_t test) const;
+  double mean_size(const VectorXd& modes, std::size_t test) const;
 
   std::size_t tests() const { return of_test_.size(); }
   // First mode of each class; last, the number of modes.
-  const std::array<Eigen::Index, mode_classes + 1>& first() const { return first_; }
+  const std::array<Index, mode_classes + 1>& first() const { return first_; }
   const std::vector<std::size_t>& test() const { return test_; } // of each mode
   // Positions of a test's modes, from its gain to its fastest wave.
-  const std::vector<Eigen::Index>& of_test(std::size_t test) const { return of_test_[test]; }
+  const std::vector<Index>& of_test(std::size_t test) const { return of_test_[test]; }
   static std::size_t class_of(std::size_t mode);
 
 private:
   std::vector<std::size_t> first_block_; // per test; last, the number of blocks
-  std::array<Eigen::Index, mode_classes + 1> first_{};
+  std::array<Index, mode_classes + 1> first_{};
   std::vector<std::size_t> test_;
-  std::vector<std::vector<Eigen::Index>> of_test_;
-  std::vector<Eigen::MatrixXd> waves_; // by number of pieces: modes x pieces
+  std::vector<std::vector<Index>> of_test_;
+  std::vector<MatrixXd> waves_; // by number of pieces: modes x pieces
 };
 
 } // namespace frictab::trace

@@ -1,5 +1,5 @@
 // Structure along the order of tests: distinguished from effects, removed from the calibration and
-// left out of the law.
+// left out of the law. It does not name a cause, because drift, wear and batches look alike there.
 #pragma once
 
 #include "trace/search/choose_effect.h"
@@ -7,9 +7,27 @@
 
 namespace frictab::trace {
 
+// Permutation test of the null hypothesis that scores of experiments have no structure along the
+// order. Three statistics: likeness of tests up to six apart, the excursion of the cumulated sum,
+// and slow waves. The smallest p-value over statistics and columns of scores (experiments x ways in
+// which friction may differ) is compared with its own permutation distribution.
+struct OrderTest {
+  double p_value = 1;
+  Index column = 0; // column of scores with the largest slow waves
+};
+OrderTest test_order(const MatrixXd& scores, std::vector<std::size_t> order,
+                     std::size_t permutations, std::uint64_t seed);
+
+// Returns slow functions of the order (cosines of the place), per experiment; each has mean 0.
+MatrixXd order_functions(const std::vector<std::size_t>& order, int count);
+
+// Returns sensitivity times the functions, per block of each experiment.
+MatrixXd functions_on_blocks(const MatrixXd& functions, const VectorXd& sensitivity,
+                             const stats::Blocks& blocks);
+
 // Mean logarithm of measured over calculated friction of each test, for a law's predictions per
 // block.
-Eigen::VectorXd log_gains(const Search& search, const Eigen::VectorXd& predicted);
+VectorXd log_gains(const Search& search, const VectorXd& predicted);
 
 // How a column goes with the declared order. `stretches`: a text column each of whose levels is one
 // stretch of it, as of batches; `steps`: friction also steps where the levels change and hardly

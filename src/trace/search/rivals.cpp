@@ -11,7 +11,6 @@
 #include "stats/noise_fit.h"
 #include "stats/resampling.h"
 #include "trace/columns/shapes.h"
-#include "trace/search/plausibility.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
@@ -19,16 +18,6 @@ namespace frictab::trace {
 using effects::PlacedEffect;
 
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-void take_fit(Rival& rival, BlockFit fit) {
-  rival.parameters = std::move(fit.parameters);
-  rival.predicted = std::move(fit.predicted);
-  rival.jacobian = std::move(fit.jacobian);
-}
 
 void take_parameters(Rival& rival) {
   for (std::size_t i = 0; i < rival.effects.size(); ++i)
@@ -39,58 +28,26 @@ void take_parameters(Rival& rival) {
 }
 
 VectorXd by_experiment(const VectorXd& whitened, const stats::Whitener& whitener,
-                       std::span<const std::size_t> first) {
-  VectorXd value(static_cast<Index>(first.size() - 1));
-  for (Index e = 0; e < value.size(); ++e) {
-    const auto begin = static_cast<Index>(first[static_cast<std::size_t>(e)]);
-    const auto end = static_cast<Index>(first[static_cast<std::size_t>(e) + 1]);
-    value(e) = -0.5 * (whitened.segment(begin, end - begin).squaredNorm() + whitener.log_det()(e));
-  }
+                       const stats::Blocks& blocks) {
+  VectorXd value(blocks.experiments());
+  for (Index e = 0; e < value.size(); ++e)
+    value(e) = -0.5 * (blocks.part(whitened, e).squaredNorm() + whitener.log_det()(e));
   return value;
 }
 
 bool on_limit(const std::vector<PlacedEffect>& effects) {
-  return std::any_of(effects.begin(), effects.end(),
-                     [](const PlacedEffect& e) { return e.acts_on == effects::ActsOn::m; });
+  return contains(effects, effects::ActsOn::m, &PlacedEffect::acts_on);
 }
-
-} // namespace
-
-MatrixXd penalty_of(const Rival& rival) {
-  MatrixXd all;
-  const auto count = static_cast<Index>(rival.parameters.size());
-  for (std::size_t i = 0; i < rival.effects.size(); ++i) {
-    const PlacedEffect& effect = rival.effects[i];
-    if (!effect.form->penalty || !(effect.stiffness > 0)) continue;
-    if (all.size() == 0) all = MatrixXd::Zero(count, count);
-    const MatrixXd one = roughness_of(effect);
-    const auto first = static_cast<Index>(first_parameter(rival, i));
-    all.block(first, first, one.rows(), one.cols()) = effect.stiffness * one;
-  }
-  return all;
-}
-
-void tie_parameters(Campaign& campaign, const Rival& base, double share) {
-  const stats::Whitener whitener(base.noise, base.predicted, campaign.blocks);
-  MatrixXd jacobian = base.jacobian;
-  whitener.apply(jacobian);
-  campaign.own = {share * jacobian.transpose() * jacobian,
-                  Eigen::Map<const VectorXd>(base.parameters.data(),
-                                             static_cast<Index>(base.parameters.size()))};
-}
-
-namespace {
 
 // Penalties of smooth effects and on the law's own parameters.
 Penalty penalties(const Campaign& campaign, const Rival& rival) {
   Penalty all{penalty_of(rival), {}};
   const Index own = campaign.own.centre.size();
   const auto of_the_law = [&](const Cause& cause) {
-    return std::any_of(cause.columns.begin(), cause.columns.end(),
-                       [&](std::size_t c) { return campaign.candidates.columns[c].in_law; });
+    return std::ranges::any_of(campaign.candidates.of(cause), &CandidateColumn::in_law);
   };
-  if (own == 0 || std::none_of(rival.causes.begin(), rival.causes.end(), of_the_law)) return all;
-  const auto count = static_cast<Index>(rival.parameters.size());
+  if (own == 0 || std::ranges::none_of(rival.causes, of_the_law)) return all;
+  const Index count = rival.parameters.size();
   if (all.matrix.size() == 0) all.matrix = MatrixXd::Zero(count, count);
   all.centre = VectorXd::Zero(count);
   all.matrix.topLeftCorner(own, own) += campaign.own.matrix;
@@ -100,7 +57,7 @@ Penalty penalties(const Campaign& campaign, const Rival& rival) {
 
 // Effective number of parameters: penalised ones count by their remaining freedom.
 double freedom_of(const Rival& rival, const stats::Whitener& whitener) {
-  const auto count = static_cast<Index>(rival.parameters.size());
+  const Index count = rival.parameters.size();
   const MatrixXd penalty = penalty_of(rival);
   if (penalty.size() == 0) return static_cast<double>(count);
   MatrixXd jacobian = rival.jacobian;
@@ -114,7 +71,7 @@ double freedom_of(const Rival& rival, const stats::Whitener& whitener) {
 // Whether the fit is finite and no effect makes friction negative.
 bool is_possible(const Rival& rival, const Campaign& campaign) {
   return std::isfinite(rival.total) && std::isfinite(rival.freedom) &&
-         std::all_of(rival.effects.begin(), rival.effects.end(), [&](const PlacedEffect& effect) {
+         std::ranges::all_of(rival.effects, [&](const PlacedEffect& effect) {
            return effect.acts_on == effects::ActsOn::tau ||
                   factor_on(effect, campaign.candidates.by_symbol).minCoeff() > 0;
          });
@@ -124,42 +81,17 @@ void evaluate(Rival& rival, const Campaign& campaign) {
   const stats::Whitener whitener(rival.noise, rival.predicted, campaign.blocks, campaign.nuisance);
   MatrixXd residual = campaign.measured - rival.predicted;
   whitener.apply(residual);
-  rival.log_likelihood = by_experiment(residual.col(0), whitener, campaign.blocks.first);
+  rival.log_likelihood = by_experiment(residual.col(0), whitener, campaign.blocks);
   rival.total = rival.log_likelihood.sum();
   rival.freedom = freedom_of(rival, whitener);
   double cost = tuning::parameter_cost * rival.freedom;
   for (const Cause& cause : rival.causes)
     cost += tuning::rival_step_cost * complexity(cause, campaign.candidates);
   for (std::size_t i = 0; i < rival.effects.size(); ++i)
-    cost +=
-        implausibility(rival.effects[i], campaign.candidates.columns[rival.causes[i].columns[0]]);
+    cost += implausibility(rival.effects[i], campaign.candidates.first_of(rival.causes[i]));
   rival.penalised =
       is_possible(rival, campaign) ? rival.total - cost : -std::numeric_limits<double>::infinity();
 }
-
-} // namespace
-
-std::vector<double> start_of(const models::Law& extended, std::span<const double> own,
-                             std::size_t count, std::span<const PlacedEffect> effects) {
-  std::vector<double> start(own.begin(), own.begin() + static_cast<long>(count));
-  for (const PlacedEffect& effect : effects)
-    for (const double value : effects::fitted_values(effect))
-      start.push_back(value);
-  while (start.size() < extended.parameters.size()) // m_limit
-    start.push_back(own.size() > count ? own.back() : extended.parameters[start.size()].start);
-  return start;
-}
-
-models::Law bounded_law(const Campaign& campaign, const Rival& rival) {
-  const std::size_t own = campaign.law.parameters.size();
-  models::Law law = effects::extended_law(campaign.law, campaign.conventions,
-                                          std::span(rival.parameters).first(own), rival.effects,
-                                          campaign.law.name);
-  bound_shapes(law, own, rival.effects, campaign.candidates);
-  return law;
-}
-
-namespace {
 
 // Start values of the law's own parameters, followed by m_limit if an effect acts on the limit.
 std::vector<double> own_parameters(const Campaign& campaign, const Rival& from) {
@@ -207,8 +139,8 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
     rival.predicted = with.predict(rival.parameters);
     const stats::Whitener whitener(rival.noise, rival.predicted, campaign.blocks,
                                    campaign.nuisance);
-    take_fit(rival,
-             fit_blocks(with, campaign.measured, whitener, rival.parameters, penalty, {}, end));
+    static_cast<BlockFit&>(rival) =
+        fit_blocks(with, campaign.measured, whitener, rival.parameters, penalty, end);
   };
   // First with the limit rounded off, otherwise rows below it have no influence on it.
   if (!from_selection && on_limit(rival.effects)) {
@@ -223,7 +155,7 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
     const stats::NoiseData data{residual, rival.predicted, campaign.blocks, rival.jacobian,
                                 campaign.nuisance};
     if (first)
-      rival.noise = refit_campaign_noise(campaign, data, rival.noise);
+      rival.noise = campaign_noise(campaign, data, &rival.noise);
     else if (!campaign.quick)
       rival.noise = stats::refine_noise(data, rival.noise).noise;
     else
@@ -237,6 +169,48 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
 }
 
 } // namespace
+
+MatrixXd penalty_of(const Rival& rival) {
+  MatrixXd all;
+  const Index count = rival.parameters.size();
+  for (std::size_t i = 0; i < rival.effects.size(); ++i) {
+    const PlacedEffect& effect = rival.effects[i];
+    if (!effect.form->penalty || !(effect.stiffness > 0)) continue;
+    if (all.size() == 0) all = MatrixXd::Zero(count, count);
+    const MatrixXd one = roughness_of(effect);
+    const Index first = first_parameter(rival, i);
+    all.block(first, first, one.rows(), one.cols()) = effect.stiffness * one;
+  }
+  return all;
+}
+
+void tie_parameters(Campaign& campaign, const Rival& base, double share) {
+  const stats::Whitener whitener(base.noise, base.predicted, campaign.blocks);
+  MatrixXd jacobian = base.jacobian;
+  whitener.apply(jacobian);
+  campaign.own = {share * jacobian.transpose() * jacobian,
+                  Eigen::Map<const VectorXd>(base.parameters.data(), base.parameters.size())};
+}
+
+std::vector<double> start_of(const models::Law& extended, std::span<const double> own,
+                             std::size_t count, std::span<const PlacedEffect> effects) {
+  std::vector<double> start(own.begin(), own.begin() + count);
+  for (const PlacedEffect& effect : effects)
+    for (const double value : effects::fitted_values(effect))
+      start.push_back(value);
+  while (start.size() < extended.parameters.size()) // m_limit
+    start.push_back(own.size() > count ? own.back() : extended.parameters[start.size()].start);
+  return start;
+}
+
+models::Law bounded_law(const Campaign& campaign, const Rival& rival) {
+  const std::size_t own = campaign.law.parameters.size();
+  models::Law law = effects::extended_law(campaign.law, campaign.conventions,
+                                          std::span(rival.parameters).first(own), rival.effects,
+                                          campaign.law.name);
+  bound_shapes(law, own, rival.effects, campaign.candidates);
+  return law;
+}
 
 Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
                 std::vector<Cause> causes, std::span<const double> parameters,
@@ -265,34 +239,22 @@ Rival with_effect(const Campaign& campaign, const Rival& from, PlacedEffect effe
   return fit_rival(campaign, from, std::move(effects), std::move(causes), noise, search);
 }
 
-namespace {
-
-// Fits noise to the selected tests if there is a selection, else to all.
-template <class Fit>
-stats::NoiseModel noise_by(const Campaign& campaign, const stats::NoiseData& data, const Fit& fit) {
-  if (!campaign.selection) return fit(data).noise;
+stats::NoiseModel campaign_noise(const Campaign& campaign, const stats::NoiseData& data,
+                                 const stats::NoiseModel* earlier) {
+  const auto fit = [&](const stats::NoiseData& part) {
+    if (!earlier) return stats::fit_noise(part).noise;
+    return (campaign.quick ? stats::refit_noise_coarsely(part, *earlier)
+                           : stats::refit_noise(part, *earlier))
+        .noise;
+  };
+  if (!campaign.selection) return fit(data);
   const auto& rows = campaign.selection->rows;
   const auto some = [&](const MatrixXd& all) {
     return all.cols() == 0 ? MatrixXd{} : MatrixXd(all(rows, Eigen::all));
   };
   const VectorXd residual = data.residual(rows), tau = data.tau(rows);
   const MatrixXd fitted = some(data.fitted), nuisance = some(data.nuisance);
-  return fit({residual, tau, campaign.selection->blocks, fitted, nuisance, data.slope}).noise;
-}
-
-} // namespace
-
-stats::NoiseModel fit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data) {
-  return noise_by(campaign, data,
-                  [](const stats::NoiseData& part) { return stats::fit_noise(part); });
-}
-
-stats::NoiseModel refit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data,
-                                       const stats::NoiseModel& earlier) {
-  return noise_by(campaign, data, [&](const stats::NoiseData& part) {
-    return campaign.quick ? stats::refit_noise_coarsely(part, earlier)
-                          : stats::refit_noise(part, earlier);
-  });
+  return fit({residual, tau, campaign.selection->blocks, fitted, nuisance});
 }
 
 Campaign selected(const Campaign& campaign) {
@@ -321,8 +283,8 @@ Rival with_weights(const Campaign& campaign, Rival rival, const stats::NoiseMode
   const LawOnBlocks law(bounded_law(campaign, rival), campaign.conventions,
                         campaign.candidates.by_symbol);
   const stats::Whitener whitener(weights, rival.predicted, campaign.blocks, campaign.nuisance);
-  take_fit(rival, fit_blocks(law, campaign.measured, whitener, rival.parameters,
-                             penalties(campaign, rival), {}, end));
+  static_cast<BlockFit&>(rival) = fit_blocks(law, campaign.measured, whitener, rival.parameters,
+                                             penalties(campaign, rival), end);
   rival.weights = weights;
   take_parameters(rival);
   evaluate(rival, campaign);
@@ -337,17 +299,15 @@ std::size_t first_parameter(const Rival& rival, std::size_t effect) {
 }
 
 std::size_t site_of(const PlacedEffect& effect) {
-  return static_cast<std::size_t>(std::find(sites.begin(), sites.end(), effect.acts_on) -
-                                  sites.begin());
+  return std::ranges::find(sites, effect.acts_on) - sites.begin();
 }
 
 Rival less_effect(Rival rival, std::size_t index) {
   const bool limit = rival.parameters.size() > first_parameter(rival, rival.effects.size());
-  const auto first = rival.parameters.begin() + static_cast<long>(first_parameter(rival, index));
-  rival.parameters.erase(
-      first, first + static_cast<long>(effects::fitted_parameters(rival.effects[index]).size()));
-  rival.effects.erase(rival.effects.begin() + static_cast<long>(index));
-  rival.causes.erase(rival.causes.begin() + static_cast<long>(index));
+  const auto first = rival.parameters.begin() + first_parameter(rival, index);
+  rival.parameters.erase(first, first + effects::fitted_parameters(rival.effects[index]).size());
+  rival.effects.erase(rival.effects.begin() + index);
+  rival.causes.erase(rival.causes.begin() + index);
   if (limit && !on_limit(rival.effects)) rival.parameters.pop_back(); // m_limit, after them
   return rival;
 }
@@ -360,10 +320,10 @@ Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t i
 
 std::vector<bool> indistinguishable_rivals(const std::vector<Rival>& rivals, std::uint64_t seed) {
   const Index experiments = rivals.front().log_likelihood.size();
-  MatrixXd times(static_cast<Index>(tuning::rival_resamples), experiments);
-  std::vector<double> counts(static_cast<std::size_t>(experiments));
+  MatrixXd times(tuning::rival_resamples, experiments);
+  std::vector<double> counts(experiments);
   for (Index b = 0; b < times.rows(); ++b) {
-    stats::resample(seed, static_cast<std::size_t>(b), counts);
+    stats::resample(seed, b, counts);
     times.row(b) = Eigen::Map<const VectorXd>(counts.data(), experiments);
   }
   std::vector<bool> same;

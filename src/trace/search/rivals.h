@@ -21,7 +21,12 @@ inline constexpr std::size_t on_mu = 0, on_both = 3;
 
 // Derivative of tau_R by an effect's factor, per block, at each site; of size 0 where the law has
 // no such site.
-using Sensitivities = std::array<Eigen::VectorXd, sites.size()>;
+using Sensitivities = std::array<VectorXd, sites.size()>;
+
+// Site at which effects are searched: mu, with the limit where a law has its own.
+inline std::size_t searched_site(const Sensitivities& all) {
+  return all[on_both].size() > 0 ? on_both : on_mu;
+}
 
 // Data and settings that all fits of a campaign share.
 struct Campaign {
@@ -29,9 +34,9 @@ struct Campaign {
   models::Conventions conventions;
   const stats::Blocks& blocks;
   const Candidates& candidates;
-  Eigen::VectorXd measured; // per block; minus the error of evaluating the law at block means
-  Eigen::MatrixXd nuisance; // per block: directions that may not explain anything
-  bool quick = false;       // the noise is fitted only as accurately as weights need
+  VectorXd measured;  // per block; minus the error of evaluating the law at block means
+  MatrixXd nuisance;  // per block: directions that may not explain anything
+  bool quick = false; // the noise is fitted only as accurately as weights need
   // For more than 200 tests: the tests with which fits start, and to which the noise is fitted.
   std::shared_ptr<const Selection> selection = nullptr;
   bool of_selected = false; // this campaign consists of selected tests
@@ -42,17 +47,15 @@ struct Campaign {
 // Returns the campaign of its selected tests; itself where it has no selection.
 Campaign selected(const Campaign& campaign);
 
-// The law with some effects, fitted together with the noise.
-struct Rival {
+// The law with some effects, fitted together with the noise; `parameters` are those of the extended
+// law.
+struct Rival : BlockFit {
   std::vector<effects::PlacedEffect> effects; // with fitted parameters
   std::vector<Cause> causes;                  // one per effect
-  std::vector<double> parameters;             // of the extended law
   std::size_t own = 0; // number of the law's own parameters, which come first
   stats::NoiseModel noise;
   stats::NoiseModel weights; // weights of the fit: the noise model, or equal for all rows
-  Eigen::VectorXd predicted;
-  Eigen::MatrixXd jacobian;
-  Eigen::VectorXd log_likelihood; // per experiment
+  VectorXd log_likelihood;   // per experiment
   double total = 0;
   double freedom = 0; // effective number of parameters; stiff smooths have fewer than knots
   // Total minus the costs of parameters, complexity and implausibility; -infinity where friction
@@ -84,13 +87,12 @@ Rival with_effect(const Campaign& campaign, const Rival& from, effects::PlacedEf
 
 // Fits the noise of a residual of the campaign's law, to the selected tests where it has a
 // selection: from scratch, or from an earlier fit of a residual that has changed since.
-stats::NoiseModel fit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data);
-stats::NoiseModel refit_campaign_noise(const Campaign& campaign, const stats::NoiseData& data,
-                                       const stats::NoiseModel& earlier);
+stats::NoiseModel campaign_noise(const Campaign& campaign, const stats::NoiseData& data,
+                                 const stats::NoiseModel* earlier = nullptr);
 
 // Penalty matrix of the smooth effects over all parameters, which a fit adds to its normal
 // equations. Empty if no effect is penalised.
-Eigen::MatrixXd penalty_of(const Rival& rival);
+MatrixXd penalty_of(const Rival& rival);
 
 // Ties the law's own parameters p to those of this rival, p0, in further fits in which an effect
 // follows an input of the law. Such an effect can take the place of a parameter; the tests then

@@ -1,10 +1,12 @@
-// Start of a search: candidates, the law on blocks, its fit without effects.
+// Start of a search: candidates, the law on blocks, its fit without effects; directions that a fit
+// has used up.
 #include "trace/search/search.h"
+
+#include <set>
 
 #include "core/progress.h"
 #include "stats/noise_fit.h"
 #include "stats/projection.h"
-#include "trace/search/directions.h"
 #include "trace/tuning.h"
 
 namespace frictab::trace {
@@ -13,10 +15,6 @@ using expr::Expr;
 using models::Model;
 
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 bool is_trained(const models::Law& law) {
   return models::is_trained(law.calibrated);
@@ -33,15 +31,12 @@ MatrixXd trained_directions(const std::vector<std::string>& inputs, const BlockC
       u = u.array().log().matrix();
     if (stats::standardise(u)) z.push_back(std::move(u));
   }
-  std::vector<VectorXd> all;
+  MatrixXd directions(predicted.size(), 0);
   for (std::size_t i = 0; i < z.size(); ++i) {
-    all.push_back(predicted.cwiseProduct(z[i]));
+    stats::append_columns(directions, predicted.cwiseProduct(z[i]));
     for (std::size_t j = i; j < z.size(); ++j)
-      all.push_back(predicted.cwiseProduct(z[i]).cwiseProduct(z[j]));
+      stats::append_columns(directions, predicted.cwiseProduct(z[i]).cwiseProduct(z[j]));
   }
-  MatrixXd directions(predicted.size(), static_cast<Index>(all.size()));
-  for (std::size_t i = 0; i < all.size(); ++i)
-    directions.col(static_cast<Index>(i)) = all[i];
   return directions;
 }
 
@@ -66,6 +61,96 @@ models::Law with_piece_as_column(const Model& model, const stats::Blocks& blocks
   return surrogate;
 }
 
+// Piecewise linear functions with seven knots: they span any form of the quantity.
+MatrixXd hat_functions(const VectorXd& x) {
+  std::vector<double> sorted(x.data(), x.data() + x.size());
+  std::ranges::sort(sorted);
+  std::set<double> knots;
+  for (int i = 0; i < tuning::knots_of_any_form; ++i)
+    knots.insert(sorted[i * (sorted.size() - 1) / (tuning::knots_of_any_form - 1)]);
+  MatrixXd columns(x.size(), knots.size());
+  Index next = 0;
+  for (const double knot : knots)
+    columns.col(next++) = (x.array() - knot).max(0.0).matrix();
+  columns.col(next - 1) = x; // the last hinge is zero everywhere
+  return columns;
+}
+
+MatrixXd any_form(const Cause& cause, const Candidates& candidates) {
+  const CandidateColumn& x = candidates.first_of(cause);
+  if (!cause.is_joint()) return x.levels.empty() ? hat_functions(x.values) : level_columns(x);
+  MatrixXd levels = MatrixXd::Ones(x.values.size(), 1);
+  VectorXd product = levels.col(0);
+  for (const CandidateColumn* one : candidates.of(cause))
+    if (one->levels.empty())
+      product.array() *= one->values.array() - one->values.mean();
+    else
+      levels = level_columns(*one);
+  MatrixXd all;
+  for (Index l = 0; l < levels.cols(); ++l)
+    stats::append_columns(all, levels.col(l).asDiagonal() * hat_functions(product));
+  return all;
+}
+
+// Directions that count as fitted: those of all parameters and, for each effect in the law, of any
+// form of its quantity (straight lines between seven values). Otherwise the misfit of the chosen
+// form would be found as another effect of the same quantity.
+MatrixXd fitted_directions(const Campaign& campaign, const Rival& rival,
+                           const Sensitivities& sensitivities) {
+  MatrixXd all = rival.jacobian;
+  for (std::size_t i = 0; i < rival.effects.size(); ++i) {
+    const VectorXd& sensitivity = sensitivities[site_of(rival.effects[i])];
+    if (sensitivity.size() == 0) continue;
+    stats::append_columns(all, sensitivity.asDiagonal() *
+                                   any_form(rival.causes[i], campaign.candidates));
+  }
+  return all;
+}
+
+// Derivatives of tau_R by a factor on mu, on the limit, on both, and by an addition of tau_scale.
+// Central differences over +-6 %, so that rows near the limit respond to mu as well as to the
+// limit.
+Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, double tau_scale_MPa) {
+  const std::size_t own = campaign.law.parameters.size();
+  BlockColumns columns = campaign.candidates.by_symbol;
+  columns["everywhere"] = VectorXd::Ones(campaign.measured.size());
+  const auto change = [&](effects::ActsOn acts_on) {
+    effects::PlacedEffect everywhere;
+    everywhere.form = effects::find_effect("linear");
+    everywhere.inputs = {{"everywhere", {}, 0, 1}};
+    everywhere.acts_on = acts_on;
+    everywhere.parameters = {0, 0, 1}; // 1 + a x, x = 1
+    std::vector<effects::PlacedEffect> effects = rival.effects;
+    effects.push_back(everywhere);
+    const models::Law law =
+        effects::extended_law(campaign.law, campaign.conventions,
+                              std::span(rival.parameters).first(own), effects, "sensitivity");
+    const LawOnBlocks on(law, campaign.conventions, columns);
+    std::vector<double> at = start_of(law, rival.parameters, own, effects);
+    const auto amplitude = static_cast<std::size_t>(
+        std::ranges::find_if(law.parameters,
+                             [&](const models::Parameter& p) {
+                               return p.name == "e" + std::to_string(effects.size()) + "_a";
+                             }) -
+        law.parameters.begin());
+    at[amplitude] = tuning::factor_step;
+    const VectorXd up = on.predict(at);
+    at[amplitude] = -tuning::factor_step;
+    return VectorXd((up - on.predict(at)) / (2 * tuning::factor_step));
+  };
+  Sensitivities all;
+  all[on_mu] = change(effects::ActsOn::mu);
+  if (effects::has_limit(campaign.law, campaign.conventions)) {
+    all[1] = change(effects::ActsOn::m);
+    if (all[1].squaredNorm() < tuning::felt_share_of_squares * all[0].squaredNorm())
+      all[1].resize(0);
+  }
+  if (effects::has_own_limit(campaign.law, campaign.conventions))
+    all[on_both] = change(effects::ActsOn::mu_m);
+  all[2] = VectorXd::Constant(campaign.measured.size(), tau_scale_MPa);
+  return all;
+}
+
 } // namespace
 
 Search::Ground::Ground(const TraceInput& in) : input(in), blocks(stats::make_blocks(in.training)) {
@@ -87,25 +172,21 @@ Search::Ground::Ground(const TraceInput& in) : input(in), blocks(stats::make_blo
   one_factor = one_factor_at_a_time(state_means(candidates, blocks));
 }
 
-Campaign Search::campaign_on(bool quick) const {
-  const Ground& g = *ground_;
-  return {g.surrogate, g.input.fit.model.conventions,
-          g.blocks,    g.candidates,
-          g.measured,  {},
-          quick,       select_tests(g.blocks, g.candidates, g.input.seed)};
-}
-
 Search::Search(const TraceInput& in, const stats::NoiseModel* earlier) {
   const Progress progress("columns and noise", 0);
   ground_ = std::make_shared<const Ground>(in);
-  Campaign campaign = campaign_on(earlier != nullptr);
+  const Ground& g = *ground_;
+  Campaign campaign{g.surrogate,        in.fit.model.conventions,
+                    g.blocks,           g.candidates,
+                    g.measured,         {},
+                    earlier != nullptr, select_tests(g.blocks, g.candidates, in.seed)};
   const Model& model = in.fit.model;
   const LawOnBlocks law(campaign.law, model.conventions, candidates().by_symbol);
   MatrixXd jacobian;
-  const VectorXd predicted = law.predict(model.parameters, jacobian);
+  const VectorXd predicted = law.predict(model.parameters, &jacobian);
   const VectorXd residual = campaign.measured - predicted;
   const stats::NoiseData data{residual, predicted, blocks(), jacobian, trained()};
-  const stats::NoiseModel noise = earlier ? *earlier : fit_campaign_noise(campaign, data);
+  const stats::NoiseModel noise = earlier ? *earlier : campaign_noise(campaign, data);
   base_ = std::make_shared<const Rival>(
       fit_rival(campaign, {}, {}, model.parameters, noise, NoiseSearch::again));
   tie_parameters(campaign, *base_,

@@ -22,6 +22,8 @@ struct Finding {
   std::vector<Rival> others; // best rival of each other cause, best first
   std::vector<bool> in_set;  // of `others`
   bool between = false;      // constant within tests
+
+  const Cause& cause() const { return rival.causes.back(); }
 };
 
 // A term that correlates with the residual and was not found.
@@ -29,8 +31,8 @@ struct Left {
   Cause cause;
   effects::PlacedEffect effect; // not fitted
   double p_value = 1;
-  double threshold = 0;   // in standard errors, from which on it would have been found
-  Eigen::VectorXd change; // per block, of ln tau_R, as estimated
+  double threshold = 0; // in standard errors, from which on it would have been found
+  VectorXd change;      // per block, of ln tau_R, as estimated
 };
 
 // Smallest effect of a column that would have been found with a probability of 80 %.
@@ -68,7 +70,7 @@ public:
   // The same campaign with another law, or with this one fitted again after a change of the
   // directions (per block) that may not explain anything.
   Search at(Rival rival) const;
-  Search fitted_again(Eigen::MatrixXd nuisance) const;
+  Search fitted_again(MatrixXd nuisance) const;
   Search fitted_again() const { return fitted_again(campaign_->nuisance); }
 
   const TraceInput& input() const { return ground_->input; }
@@ -78,15 +80,15 @@ public:
   double tau_scale_MPa() const { return ground_->tau_scale_MPa; }
   bool one_factor() const { return ground_->one_factor; } // tests change one state at a time
   // Directions that a trained law (a network) could have absorbed; no columns for other laws.
-  const Eigen::MatrixXd& trained() const { return ground_->trained; }
+  const MatrixXd& trained() const { return ground_->trained; }
   const Rival& base() const { return *base_; } // without effects
 
   const Campaign& campaign() const { return *campaign_; }
   const Rival& last() const { return last_; } // with all effects so far
   const Sensitivities& sensitivities() const { return sensitivities_; }
   // Directions of everything that is, or could have been, fitted in `last`: blocks x directions.
-  const Eigen::MatrixXd& known() const { return known_; }
-  Eigen::VectorXd residual() const { return campaign_->measured - last_.predicted; }
+  const MatrixXd& known() const { return known_; }
+  VectorXd residual() const { return campaign_->measured - last_.predicted; }
   stats::Whitener whitener() const;
   // Whether the residual is only rounding, so that nothing can be found.
   bool negligible() const;
@@ -100,19 +102,18 @@ private:
     stats::Blocks blocks;
     Candidates candidates;
     models::Law surrogate; // of a trained law: its trained part as a column
-    Eigen::VectorXd measured;
-    Eigen::MatrixXd trained;
+    VectorXd measured;
+    MatrixXd trained;
     double tau_scale_MPa = 1;
     bool one_factor = false;
   };
-  Campaign campaign_on(bool quick) const;
 
   std::shared_ptr<const Ground> ground_;
   std::shared_ptr<const Campaign> campaign_;
   std::shared_ptr<const Rival> base_;
   Rival last_;
   Sensitivities sensitivities_;
-  Eigen::MatrixXd known_;
+  MatrixXd known_;
 };
 
 // A cause that a drift over the order of tests explains as well.

@@ -43,10 +43,9 @@ private:
   // Notes the first of its causes that is constant within tests: it would have been found if
   // nothing followed the order of tests.
   void note_confounded(const JointFinding& finding) {
-    const auto first =
-        std::find_if(finding.suspects.begin(), finding.suspects.end(), [&](const Suspect& one) {
-          return constant_in_experiments(one.cause, law().candidates());
-        });
+    const auto first = std::ranges::find_if(finding.suspects, [&](const Suspect& one) {
+      return constant_in_experiments(one.cause, law().candidates());
+    });
     if (first != finding.suspects.end()) f_.confounded.push_back({first->cause, finding.p_value});
   }
 
@@ -88,11 +87,11 @@ private:
                Finding& finding) {
     const Rival all = law().last();
     const Cause own = all.causes[index];
+    // A product with a column says more than the column: it is found by itself, or not at all.
     std::erase_if(suspects, [&](const Suspect& other) {
-      return other.cause != own && (is_in(other.cause) || is_product_of(other.cause, own));
+      return other.cause != own && (is_in(other.cause) || other.cause.is_product_with(own));
     });
-    if (std::all_of(suspects.begin(), suspects.end(),
-                    [&](const Suspect& other) { return other.cause == own; })) {
+    if (std::ranges::all_of(suspects, [&](const Suspect& other) { return other.cause == own; })) {
       rename_in_folds(one.cause, own);
       return;
     }
@@ -109,34 +108,23 @@ private:
     if (cause != own) move_to(choose_form(law(), law().last(), index).front());
   }
 
-  // A product with a column says more than the column: it is found by itself, or not at all.
-  static bool is_product_of(const Cause& product, const Cause& cause) {
-    return product.is_joint() && !cause.is_joint() &&
-           std::find(product.columns.begin(), product.columns.end(), cause.columns[0]) !=
-               product.columns.end();
-  }
-
   // Moves the last effect to position `index`.
   Rival in_place(const Rival& rival, std::size_t index) const {
     std::vector<effects::PlacedEffect> effects = rival.effects;
     std::vector<Cause> causes = rival.causes;
-    std::rotate(effects.begin() + static_cast<long>(index), effects.end() - 1, effects.end());
-    std::rotate(causes.begin() + static_cast<long>(index), causes.end() - 1, causes.end());
+    std::rotate(effects.begin() + index, effects.end() - 1, effects.end());
+    std::rotate(causes.begin() + index, causes.end() - 1, causes.end());
     return fit_rival(law().campaign(), rival, std::move(effects), std::move(causes), rival.noise,
                      NoiseSearch::again);
   }
 
-  bool is_in(const Cause& cause) const {
-    const std::vector<Cause>& in = law().last().causes;
-    return std::find(in.begin(), in.end(), cause) != in.end();
-  }
+  bool is_in(const Cause& cause) const { return contains(law().last().causes, cause); }
 
   // Renames a cause in folds that have found the same one, because it would have been replaced
   // there too.
   void rename_in_folds(const Cause& from, const Cause& to) {
     for (CauseFold& fold : f_.folds)
-      if (std::find(fold.causes.begin(), fold.causes.end(), to) == fold.causes.end())
-        std::replace(fold.causes.begin(), fold.causes.end(), from, to);
+      if (!contains(fold.causes, to)) std::ranges::replace(fold.causes, from, to);
   }
 
   // Whether the predictions converge: an effect of a history of the stress itself may have no
@@ -160,7 +148,7 @@ private:
         without = without_effect(law().campaign(), law().last(), out = i);
       reject(law().last().causes[out], found[out].p_value,
              "depends on the shear stress, and none agrees with it everywhere");
-      found.erase(found.begin() + static_cast<long>(out));
+      found.erase(found.begin() + out);
       move_to(std::move(without));
     }
   }

@@ -10,8 +10,6 @@ namespace frictab::trace {
 
 namespace {
 
-using Eigen::Index;
-
 constexpr std::uint64_t selection_stream = 91;
 
 std::vector<std::size_t> draw(std::size_t tests, std::uint64_t seed) {
@@ -39,8 +37,8 @@ stats::Blocks blocks_of(const stats::Blocks& all, const std::vector<std::size_t>
       some.first_row.push_back(before + all.first_row[b + 1] - begin);
     some.first.push_back(some.first_row.size() - 1);
     if (!all.weights.empty())
-      some.weights.insert(some.weights.end(), all.weights.begin() + static_cast<long>(begin),
-                          all.weights.begin() + static_cast<long>(end));
+      some.weights.insert(some.weights.end(), all.weights.begin() + begin,
+                          all.weights.begin() + end);
   }
   return some;
 }
@@ -55,7 +53,7 @@ std::shared_ptr<const Selection> select_tests(const stats::Blocks& blocks,
   some->blocks = blocks_of(blocks, tests);
   for (const std::size_t e : tests)
     for (std::size_t b = blocks.first[e]; b < blocks.first[e + 1]; ++b)
-      some->rows.push_back(static_cast<Index>(b));
+      some->rows.push_back(b);
   some->blocks.position = blocks.position(some->rows);
   some->share = static_cast<double>(some->rows.size()) / static_cast<double>(blocks.count());
   some->candidates.lowest_pressure_MPa = candidates.lowest_pressure_MPa;

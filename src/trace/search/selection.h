@@ -10,10 +10,10 @@
 namespace frictab::trace {
 
 struct Selection {
-  std::vector<Eigen::Index> rows; // indices of the selected tests' blocks
-  stats::Blocks blocks;           // blocks of these tests; `usual_rows` is that of all tests
-  Candidates candidates;          // with values in by_symbol only, none in the columns
-  double share = 1;               // of all blocks
+  std::vector<Index> rows; // indices of the selected tests' blocks
+  stats::Blocks blocks;    // blocks of these tests; `usual_rows` is that of all tests
+  Candidates candidates;   // with values in by_symbol only, none in the columns
+  double share = 1;        // of all blocks
 };
 
 // Selects evenly over the tests in their sorted order: from each of 200 runs of neighbours one,
