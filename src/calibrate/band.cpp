@@ -26,7 +26,7 @@ std::vector<double> experiment_gains(const data::Dataset& data, std::span<const 
 
 std::vector<double> gains_of_new_experiments(std::vector<double> gains, std::size_t parameters) {
   std::erase_if(gains, [](double g) { return !(g > 0) || !std::isfinite(g); });
-  std::sort(gains.begin(), gains.end());
+  std::ranges::sort(gains);
   if (gains.size() <= parameters) return {};
   const double count = static_cast<double>(gains.size());
   const double wider = std::sqrt(count / (count - static_cast<double>(parameters)));

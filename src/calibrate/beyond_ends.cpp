@@ -17,7 +17,7 @@ void RowsBeyond::add(const models::Law& law, const std::vector<std::string>& nam
     return static_cast<std::size_t>(data.row_weight(row));
   };
   for (const auto& [name, ends] : law.clamped_inputs) {
-    const auto found = std::find(names.begin(), names.end(), name);
+    const auto found = std::ranges::find(names, name);
     if (found == names.end()) continue;
     const auto values = columns[static_cast<std::size_t>(found - names.begin())];
     auto& [below, above] = sides[name];

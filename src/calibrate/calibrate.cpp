@@ -43,7 +43,7 @@ std::size_t most_kin(const CalibrationInput& input) {
   std::vector<std::size_t> size(units.count, 0);
   for (const std::size_t unit : units.of)
     ++size[unit];
-  return *std::max_element(size.begin(), size.end());
+  return *std::ranges::max_element(size);
 }
 
 // Whether some state varies without each experiment: a state may vary in a single experiment only,
@@ -71,7 +71,7 @@ std::vector<std::string> missing_for(const models::Law& law, const models::Conve
   }
   for (const Dataset* data : {&input.training, &input.validation})
     for (const std::string& name : missing_inputs(needed, *data))
-      if (std::find(missing.begin(), missing.end(), name) == missing.end()) missing.push_back(name);
+      if (std::ranges::find(missing, name) == missing.end()) missing.push_back(name);
   return missing;
 }
 
@@ -115,7 +115,7 @@ void report_missing(const models::Law& law, const std::vector<std::string>& miss
 // Whether a law is a constant from the literature for comparison only, i.e. not named by the job.
 bool is_reference(const models::Law& law, const ModelOptions& options) {
   return law.calibrated == Calibrated::fixed && models::is_registered(law) &&
-         std::find(options.use.begin(), options.use.end(), law.name) == options.use.end();
+         std::ranges::find(options.use, law.name) == options.use.end();
 }
 
 struct Selection {
@@ -128,7 +128,7 @@ Selection select_laws(const CalibrationInput& input, const models::Conventions& 
   FaultList faults;
   const auto& use = input.models.use;
   for (const models::Law* law : input.models.laws.all()) {
-    const bool asked = std::find(use.begin(), use.end(), law->name) != use.end();
+    const bool asked = std::ranges::find(use, law->name) != use.end();
     if (!use.empty() && !asked) continue;
     const auto missing = missing_for(*law, conventions, input);
     check_parameters(*law, input.training, input.models.place, faults);
@@ -322,10 +322,8 @@ Calibration calibrate(const CalibrationInput& input) {
   for (ModelFit& fit : calibration.fits)
     fits.push_back(&fit);
   const ScatterWithin scatter = judge_on_rows(fits, input);
-  std::stable_sort(calibration.fits.begin(), calibration.fits.end(),
-                   [](const ModelFit& a, const ModelFit& b) {
-                     return a.validation.mae_MPa < b.validation.mae_MPa;
-                   });
+  std::ranges::stable_sort(calibration.fits, {},
+                           [](const ModelFit& fit) { return fit.validation.mae_MPa; });
   add_comparisons(calibration, input);
   add_influence(calibration, conventions, input);
   add_other_splits(calibration, conventions, input);
@@ -343,8 +341,7 @@ std::vector<double> predict(const models::Model& model, const Dataset& data) {
 
 bool is_synthetic(const Dataset& data) {
   const data::Column* origin = data.find(data::origin_column);
-  return origin &&
-         std::any_of(origin->levels.begin(), origin->levels.end(), [](const std::string& level) {
+  return origin && std::ranges::any_of(origin->levels, [](const std::string& level) {
            return level.find("synthetic") != std::string::npos;
          });
 }

@@ -2,6 +2,7 @@
 #include "calibrate/choice.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -69,9 +70,9 @@ std::size_t best_of(Laws laws, std::span<const double> times) {
   std::vector<double> mae;
   for (const LawErrors& law : laws)
     mae.push_back(mae_of(law, times));
-  const double least = *std::min_element(mae.begin(), mae.end());
-  const auto first = std::find_if(mae.begin(), mae.end(),
-                                  [&](double one) { return one <= least * (1 + same_error); });
+  const double least = *std::ranges::min_element(mae);
+  const auto first =
+      std::ranges::find_if(mae, [&](double one) { return one <= least * (1 + same_error); });
   return static_cast<std::size_t>(first - mae.begin());
 }
 
@@ -125,16 +126,15 @@ void add_split_shares(Choice& choice, Laws laws, std::size_t held, std::uint64_t
 std::string share_sentence(const Choice& choice) {
   constexpr std::size_t most = 4;
   std::vector<Choice::Share> shares = choice.best_in;
-  std::stable_sort(shares.begin(), shares.end(),
-                   [](const auto& a, const auto& b) { return a.share > b.share; });
+  std::ranges::stable_sort(shares, std::greater{}, &Choice::Share::share);
   std::vector<std::string> named;
   for (const Choice::Share& one : shares)
     if (one.share >= 0.005 && named.size() < most)
       named.push_back(
           fmt::format("{:.0f} % {}{}", 100 * one.share, named.empty() ? "choose " : "", one.law));
   if (named.empty()) return "";
-  const bool all = std::any_of(choice.best_in.begin(), choice.best_in.end(),
-                               [&](const Choice::Share& one) { return one.law == choice.law; });
+  const bool all = std::ranges::any_of(
+      choice.best_in, [&](const Choice::Share& one) { return one.law == choice.law; });
   return fmt::format("of {} {} {}{}", thousands(choice.draws),
                      choice.splits ? "other splits of all tests" : "resamples of the tests",
                      join(named, ", "),

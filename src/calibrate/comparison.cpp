@@ -141,7 +141,7 @@ Difference difference_of(const Studentised& s, std::size_t pair) {
   for (const double t : s.again[pair])
     size.push_back(std::abs(t));
   const double now = std::abs(s.t[pair]);
-  const auto beyond = std::count_if(size.begin(), size.end(), [&](double t) { return t >= now; });
+  const auto beyond = std::ranges::count_if(size, [&](double t) { return t >= now; });
   Difference d;
   d.value_MPa = s.difference[pair];
   d.p_value = share_beyond(static_cast<std::size_t>(beyond), size.size());
@@ -163,9 +163,9 @@ PairRanks ranks_of(const Studentised& s, std::size_t pair) {
   for (const double t : s.again[pair])
     size.push_back(std::abs(t));
   std::vector<double> sorted = size;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   for (double& one : size) {
-    const auto below = std::lower_bound(sorted.begin(), sorted.end(), one) - sorted.begin();
+    const auto below = std::ranges::lower_bound(sorted, one) - sorted.begin();
     one = static_cast<double>(sorted.size() - static_cast<std::size_t>(below)) /
           static_cast<double>(sorted.size());
   }
@@ -186,7 +186,7 @@ double best_p_value(const Studentised& s, const std::vector<PairRanks>& ranks,
     for (std::size_t b = 0; b < resamples; ++b)
       least[b] = std::min(least[b], ranks[pair].again[b]);
   }
-  const auto beyond = std::count_if(least.begin(), least.end(), [&](double p) { return p <= now; });
+  const auto beyond = std::ranges::count_if(least, [&](double p) { return p <= now; });
   return share_beyond(static_cast<std::size_t>(beyond), resamples);
 }
 
@@ -208,8 +208,8 @@ std::vector<double> best_p_values_of(const Studentised& s, std::span<const LawEr
   std::vector<std::size_t> worst_first;
   for (std::size_t i = 0; i < laws.size(); ++i)
     if (laws[i].candidate) worst_first.push_back(i);
-  std::stable_sort(worst_first.begin(), worst_first.end(),
-                   [&](std::size_t a, std::size_t b) { return s.value[a] > s.value[b]; });
+  std::ranges::stable_sort(worst_first,
+                           [&](std::size_t a, std::size_t b) { return s.value[a] > s.value[b]; });
   double at_least = 0;
   for (const std::size_t i : worst_first) {
     p[i] = std::max(at_least, best_p_value(s, ranks, laws, i));
@@ -257,7 +257,7 @@ std::vector<std::string> as_good_as_first(const Comparisons& comparisons) {
   std::vector<std::string> names;
   for (const Comparison& pair : comparisons.pairs)
     if (pair.law == laws.front() && !pair.mae.distinguishable() &&
-        std::find(laws.begin(), laws.end(), pair.other) != laws.end())
+        std::ranges::find(laws, pair.other) != laws.end())
       names.push_back(pair.other);
   return names;
 }

@@ -140,12 +140,12 @@ ConditionalFit fit_of(const ModelFit& judged, const CalibrationInput& input, dou
 
 double longest(const Dataset& data) {
   const Rows s = data.values("s_mm");
-  return s.empty() ? 0 : *std::max_element(s.begin(), s.end());
+  return s.empty() ? 0 : *std::ranges::max_element(s);
 }
 
 bool has_both_parts(const Dataset& data, std::size_t e, double x_mm) {
   const Rows s = range_of(data, e).of(data.values("s_mm"));
-  const auto [low, high] = std::minmax_element(s.begin(), s.end());
+  const auto [low, high] = std::ranges::minmax_element(s);
   return *low <= x_mm && *high > x_mm;
 }
 
@@ -254,7 +254,7 @@ void add_conditional(Calibration& calibration, const CalibrationInput& input) {
   c.n_experiments = input.validation.experiments.size();
   for (std::size_t e = 0; e < c.n_experiments; ++e) {
     const Rows own = range_of(input.validation, e).of(s);
-    const auto [low, high] = std::minmax_element(own.begin(), own.end());
+    const auto [low, high] = std::ranges::minmax_element(own);
     c.n_without_start += !(*low <= c.condition_on_mm);
     c.n_without_rest += !(*high > c.condition_on_mm);
   }
@@ -267,10 +267,8 @@ void add_conditional(Calibration& calibration, const CalibrationInput& input) {
     c.laws[i] = fit_of(calibration.fits[i], input, c.condition_on_mm);
     progress.tick();
   });
-  std::stable_sort(c.laws.begin(), c.laws.end(),
-                   [](const ConditionalFit& a, const ConditionalFit& b) {
-                     return a.conditional.mae_MPa < b.conditional.mae_MPa;
-                   });
+  std::ranges::stable_sort(c.laws, {},
+                           [](const ConditionalFit& fit) { return fit.conditional.mae_MPa; });
 }
 
 } // namespace frictab::calibrate

@@ -52,7 +52,7 @@ CrossValidation cross_validate(std::span<const models::Law* const> laws,
                                const models::Conventions& conventions, const Dataset& data,
                                const CalibrationOptions& options,
                                std::span<const std::size_t> fold_of) {
-  const std::size_t folds = *std::max_element(fold_of.begin(), fold_of.end()) + 1;
+  const std::size_t folds = *std::ranges::max_element(fold_of) + 1;
   CrossValidation cross;
   cross.without.assign(laws.size(), std::vector<models::Model>(folds));
   cross.errors.assign(laws.size(), std::vector<ExperimentError>(fold_of.size()));

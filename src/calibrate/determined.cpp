@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include <fmt/format.h>
@@ -98,9 +99,8 @@ private:
         if (correlation(a, b) != 0)
           fit_.determination.pairs.push_back({name(a), name(b), correlation(a, b)});
     auto& pairs = fit_.determination.pairs;
-    std::stable_sort(pairs.begin(), pairs.end(), [](const auto& x, const auto& y) {
-      return std::abs(x.correlation) > std::abs(y.correlation);
-    });
+    std::ranges::stable_sort(pairs, std::greater{},
+                             [](const auto& pair) { return std::abs(pair.correlation); });
     pairs.resize(std::min<std::size_t>(pairs.size(), 2));
   }
 

@@ -60,7 +60,7 @@ std::size_t count_unloaded(const Dataset& data, std::size_t e, std::span<const d
   if (!has_uncertainties(data)) return data.source_rows(e) - static_cast<std::size_t>(ratio.rows);
   const auto of_test = per.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e]);
   return static_cast<std::size_t>(
-      std::count_if(of_test.begin(), of_test.end(), [](double x) { return !(x > 0); }));
+      std::ranges::count_if(of_test, [](double x) { return !(x > 0); }));
 }
 
 // Covariance of means of experiments, and their values without each experiment.
@@ -128,9 +128,7 @@ void fit_means(ModelFit& fit, const Dataset& data) {
 }
 
 void remark_constant_inputs(ModelFit& fit, const InputColumns& columns) {
-  if (std::none_of(fit.std_error.begin(), fit.std_error.end(),
-                   [](double e) { return std::isnan(e); }))
-    return;
+  if (std::ranges::none_of(fit.std_error, [](double e) { return std::isnan(e); })) return;
   const auto ranges = columns.ranges();
   for (const std::string& name : columns.names()) // in the order of inputs
     if (const auto range = ranges.find(name);

@@ -49,8 +49,8 @@ Influence moved_by(const ModelFit& fit, const std::string& experiment,
                                  std::sqrt(without.covariance[p * size + p])};
     if (moved.std_error > 0 && size_of(moved) > 1) found.moved.push_back(moved);
   }
-  std::stable_sort(found.moved.begin(), found.moved.end(),
-                   [](const auto& a, const auto& b) { return size_of(a) > size_of(b); });
+  std::ranges::stable_sort(found.moved,
+                           [](const auto& a, const auto& b) { return size_of(a) > size_of(b); });
   return found;
 }
 
@@ -64,7 +64,7 @@ std::vector<std::size_t> suspects(const Uncertainty& u) {
         most = std::max(most, std::abs(u.moved_without(p, e)) / error);
     if (most > nearly) found.emplace_back(-most, static_cast<std::size_t>(e));
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   std::vector<std::size_t> tests;
   for (const auto& [size, e] : found)
     if (tests.size() < most_refits) tests.push_back(e);
@@ -88,8 +88,8 @@ std::vector<Influence> of_law(const ModelFit& fit, const models::Conventions& co
     for (const std::size_t e : suspects(*fit.uncertainty))
       add(e, fit_law(*fit.model.law, conventions, without_kin(input.training, e), input.options)
                  .model);
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Influence& a, const Influence& b) { return size_of(a) > size_of(b); });
+  std::ranges::stable_sort(
+      found, [](const Influence& a, const Influence& b) { return size_of(a) > size_of(b); });
   return found;
 }
 
@@ -107,10 +107,9 @@ std::size_t first_without(const std::vector<std::vector<stats::ErrorSums>>& laws
       }
     mae.push_back(rows > 0 ? absolute / rows : 0);
   }
-  const double least = *std::min_element(mae.begin(), mae.end());
+  const double least = *std::ranges::min_element(mae);
   return static_cast<std::size_t>(
-      std::find_if(mae.begin(), mae.end(),
-                   [&](double one) { return one <= least * (1 + same_error); }) -
+      std::ranges::find_if(mae, [&](double one) { return one <= least * (1 + same_error); }) -
       mae.begin());
 }
 
@@ -131,9 +130,9 @@ void add_first_places(Calibration& calibration, const CalibrationInput& input) {
   for (std::size_t e = 0; e < judges.size(); ++e) {
     const std::size_t first = first_without(laws, e);
     if (first == 0) continue;
-    const auto known = std::find_if(
-        calibration.influence.begin(), calibration.influence.end(),
-        [&](const Influence& one) { return one.law == leader && one.experiment == judges[e]; });
+    const auto known = std::ranges::find_if(calibration.influence, [&](const Influence& one) {
+      return one.law == leader && one.experiment == judges[e];
+    });
     Influence& one = known != calibration.influence.end()
                          ? *known
                          : *calibration.influence.insert(calibration.influence.begin(),
@@ -160,10 +159,10 @@ std::string influence_sentence(const Calibration& calibration) {
   const auto& all = calibration.influence;
   if (all.empty()) return "";
   // A large shift of a better law comes first, then a change of the first place, then any shift.
-  const auto far = std::find_if(all.begin(), all.end(),
-                                [](const Influence& one) { return size_of(one) > far_moved; });
+  const auto far =
+      std::ranges::find_if(all, [](const Influence& one) { return size_of(one) > far_moved; });
   const auto first =
-      std::find_if(all.begin(), all.end(), [](const Influence& one) { return !one.first.empty(); });
+      std::ranges::find_if(all, [](const Influence& one) { return !one.first.empty(); });
   const Influence& most = far != all.end() ? *far : first != all.end() ? *first : all.front();
   std::string text = fmt::format("test '{}'", most.experiment);
   if (!most.moved.empty()) {

@@ -70,8 +70,7 @@ std::vector<double> direct_start(const FitProblem& problem, const LossFunction& 
 
 // Keeps the best fits, sorted, without duplicates of a minimum and without hopeless ones.
 void keep_best(std::vector<FitResult>& fits, double slack) {
-  std::stable_sort(fits.begin(), fits.end(),
-                   [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
+  std::ranges::stable_sort(fits, {}, &FitResult::cost);
   std::vector<FitResult> kept;
   for (FitResult& fit : fits) {
     if (!kept.empty() && (fit.cost > kept.front().cost * (1 + slack) ||
@@ -89,7 +88,7 @@ std::vector<std::vector<double>> best_starts(const FitProblem& problem,
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < starts.size(); ++i)
     order.emplace_back(mean_cost(problem, {Loss::l2, 0}, starts[i]), i);
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   std::vector<std::vector<double>> best;
   for (std::size_t i = 0; i < std::min(few, order.size()); ++i)
     best.push_back(starts[order[i].second]);
@@ -166,8 +165,8 @@ LawProblem::Starts LawProblem::law_starts() const {
   if (law_.name != "orowan" || !law_.base.empty()) return {};
   const auto column = [&](const char* name) {
     const auto& names = columns_.names();
-    return columns_[static_cast<std::size_t>(
-        std::find(names.begin(), names.end(), std::string(name)) - names.begin())];
+    return columns_[static_cast<std::size_t>(std::ranges::find(names, std::string(name)) -
+                                             names.begin())];
   };
   const std::span<const double> sigma_f = column("sigma_f_MPa");
   std::vector<double> k(sigma_f.begin(), sigma_f.end());

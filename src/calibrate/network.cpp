@@ -262,7 +262,7 @@ std::vector<VectorXd> without_failed(const TrainingSet& set, std::vector<VectorX
     squares.push_back(
         network_residual(set.bins, network_tau(set.bins, set.shape, set.mu0, w)).squaredNorm());
   std::vector<double> sorted = squares;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   const double most = 4 * sorted[sorted.size() / 2];
   std::size_t kept = 0;
   for (std::size_t m = 0; m < members.size(); ++m)
@@ -311,7 +311,7 @@ std::vector<std::string> network_inputs(const models::Law& law, const data::Data
   for (const std::string& name : law.may_use) {
     if (!data.has(name)) continue;
     const auto values = data.values(name);
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const auto [low, high] = std::ranges::minmax_element(values);
     if (*low < *high) names.push_back(name);
   }
   return names;
@@ -329,8 +329,7 @@ TrainedNetwork train_network(const models::Law& law, const data::Dataset& traini
   const auto paths = nets.all_paths(repeats, scatter, decays);
 
   const std::vector<double> cv_rmse = held_out_rmse(paths);
-  const auto best =
-      static_cast<std::size_t>(std::min_element(cv_rmse.begin(), cv_rmse.end()) - cv_rmse.begin());
+  const auto best = static_cast<std::size_t>(std::ranges::min_element(cv_rmse) - cv_rmse.begin());
   std::vector<VectorXd> members;
   for (const auto& path : paths)
     members.push_back(path[best].weights);

@@ -48,7 +48,7 @@ public:
   Partner(const data::Dataset& data)
       : first_(data.first_row), s_(data.has("s_mm") ? data.values("s_mm") : Rows{}) {
     if (s_.empty()) return;
-    const auto [low, high] = std::minmax_element(s_.begin(), s_.end());
+    const auto [low, high] = std::ranges::minmax_element(s_);
     tolerance_ = replicate_tolerance * (*high - *low);
   }
   std::size_t row_of(std::size_t own, std::size_t row, std::size_t other) const {
@@ -213,7 +213,7 @@ void add_noise_floors(Calibration& calibration, const CalibrationInput& input,
         floor->part = part_and_name.second;
         both.push_back(*floor);
       }
-    std::stable_sort(both.begin(), both.end(), [](const NoiseFloor& a, const NoiseFloor& b) {
+    std::ranges::stable_sort(both, [](const NoiseFloor& a, const NoiseFloor& b) {
       return a.n_groups > b.n_groups; // 0 except for replicates
     });
     calibration.noise_floors.insert(calibration.noise_floors.end(), both.begin(), both.end());

@@ -13,7 +13,7 @@ namespace {
 // Returns row numbers in the order of sigma_N/k. A first pass deals them into buckets of equal
 // width, so that each sort is short; ratios that all fall into one bucket only make it slower.
 std::vector<std::uint32_t> in_order(const std::vector<double>& ratio) {
-  const auto [least, most] = std::minmax_element(ratio.begin(), ratio.end());
+  const auto [least, most] = std::ranges::minmax_element(ratio);
   const double low = *least, high = *most;
   const std::size_t buckets = ratio.size() / 4 + 1;
   const double per = high > low ? static_cast<double>(buckets - 1) / (high - low) : 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -154,10 +155,8 @@ std::vector<PolynomialTerm> listed_terms(const models::Polynomial& polynomial,
   for (std::size_t t = 0; t < polynomial.terms.size(); ++t)
     terms.push_back({models::term_text(polynomial.terms[t], polynomial.states),
                      polynomial.coefficients[t], errors(static_cast<Index>(t) + 1)});
-  std::stable_sort(terms.begin(), terms.end(),
-                   [](const PolynomialTerm& a, const PolynomialTerm& b) {
-                     return std::abs(a.coefficient) > std::abs(b.coefficient);
-                   });
+  std::ranges::stable_sort(terms, std::greater{},
+                           [](const PolynomialTerm& term) { return std::abs(term.coefficient); });
   return terms;
 }
 

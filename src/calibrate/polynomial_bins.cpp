@@ -43,7 +43,7 @@ double exceeded_by_most(const data::Dataset& data, std::span<const double> rows)
     std::nth_element(positive.begin(), small, positive.end());
     return small->first;
   }
-  std::sort(positive.begin(), positive.end());
+  std::ranges::sort(positive);
   double below = std::floor(all / 20);
   for (const auto& [value, weight] : positive) {
     if (weight > below) return value;
@@ -154,8 +154,7 @@ public:
   std::vector<Index> cuts(Index from, Index to) const {
     std::vector<Part> parts{best_cut(from, to)};
     while (parts.size() < bins_of_an_experiment) {
-      const auto widest = std::max_element(
-          parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.gain < b.gain; });
+      const auto widest = std::ranges::max_element(parts, {}, &Part::gain);
       if (widest->cut < 0) break;
       const Part whole = *widest;
       *widest = best_cut(whole.from, whole.cut);

@@ -126,15 +126,15 @@ void add_recommended(Calibration& calibration, const CalibrationInput& input,
   std::vector<const ModelFit*> fits;
   std::vector<std::size_t> numbers;
   for (const ModelFit& fit : calibration.fits) {
-    const auto is_out = std::find(overruled.begin(), overruled.end(), fit.model.law->name);
+    const auto is_out = std::ranges::find(overruled, fit.model.law->name);
     if (fit.reference || is_out != overruled.end()) continue;
     fits.push_back(&fit);
     numbers.push_back(numbers_of(fit, calibration.fits));
   }
   const std::size_t tests = calibration.all_experiments.size();
-  const bool over_all = input.undivided && tests > 0 &&
-                        std::all_of(fits.begin(), fits.end(),
-                                    [&](const auto* fit) { return fit->over_all.size() == tests; });
+  const bool over_all =
+      input.undivided && tests > 0 &&
+      std::ranges::all_of(fits, [&](const auto* fit) { return fit->over_all.size() == tests; });
   std::vector<LawErrors> laws(fits.size());
   parallel_for(laws.size(), [&](std::size_t i) {
     laws[i] = {fits[i]->model.law->name,

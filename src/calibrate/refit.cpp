@@ -147,7 +147,7 @@ void refit_on_all(Calibration& calibration, const models::Conventions& conventio
   const CrossValidation cross = cross_validate(laws, conventions, all, input.options, fold_of);
   cross_validate_fits(fits, cross, input.options);
   judge_on_rows(fits, cross, fold_of, all, input.options);
-  calibration.delivery_folds = *std::max_element(fold_of.begin(), fold_of.end()) + 1;
+  calibration.delivery_folds = *std::ranges::max_element(fold_of) + 1;
   for (std::size_t i = 0; i < fits.size(); ++i)
     calibration.fits[i].on_all = std::make_shared<const ModelFit>(std::move(fits[i]));
 }
@@ -160,8 +160,8 @@ std::string delivery_sentence(const Calibration& c, int decimals) {
     return fmt::format("delivered: fitted to the {} of the training; calibration.deliver = \"all\" "
                        "fits again to all",
                        trained);
-  const auto first = std::find_if(c.fits.begin(), c.fits.end(),
-                                  [](const ModelFit& fit) { return fit.on_all != nullptr; });
+  const auto first =
+      std::ranges::find_if(c.fits, [](const ModelFit& fit) { return fit.on_all != nullptr; });
   if (first == c.fits.end()) return "";
   const ModelFit& fit = *first->on_all;
   return fmt::format("delivered: fitted again to all {}; cross-validated over these {} errs by "

@@ -107,8 +107,7 @@ SlipDistance find_slip_distance(const Law& law, std::size_t parameter,
   std::vector<double> losses(tries);
   parallel_for(
       tries, [&](std::size_t i) { losses[i] = search.loss(low + step * static_cast<double>(i)); });
-  const auto best =
-      static_cast<std::size_t>(std::min_element(losses.begin(), losses.end()) - losses.begin());
+  const auto best = static_cast<std::size_t>(std::ranges::min_element(losses) - losses.begin());
   SlipDistance found{std::exp(low + step * static_cast<double>(best)), false, tries};
   found.at_bound = best == 0 || best + 1 == tries;
   if (!found.at_bound) {
@@ -149,7 +148,7 @@ void add_states(Dataset& data, const std::vector<std::string>& inputs, const std
   constexpr double step = 0.02;
   for (const auto& slip_state : data::slip_states()) {
     const std::string& family = slip_state.first;
-    if (std::find(inputs.begin(), inputs.end(), family + name) == inputs.end()) continue;
+    if (std::ranges::find(inputs, family + name) == inputs.end()) continue;
     const auto at = [&data, rule = slip_state.second](double distance) {
       const std::string state = data::slip_state_name(rule, distance); // rounds the distance
       return std::pair{data::slip_state(state)->distance_mm,

@@ -97,7 +97,7 @@ private:
 
   // Describes an extreme between the ends if it is clearly above or below both.
   std::string extreme(const Curve& curve) const {
-    const auto [low, high] = std::minmax_element(curve.begin(), curve.end());
+    const auto [low, high] = std::ranges::minmax_element(curve);
     const double enough = worth_telling * (*high - *low);
     const auto [small, large] = std::minmax(curve.front(), curve.back());
     std::string text;
@@ -121,7 +121,7 @@ private:
       changes.push_back(names[level] + " " + change(factor[0], factor[level]));
     std::string more;
     if (names.size() > levels_shown) {
-      const auto [low, high] = std::minmax_element(factor.begin(), factor.end());
+      const auto [low, high] = std::ranges::minmax_element(factor);
       changes.clear();
       for (const auto at : {low, high})
         changes.push_back(names[static_cast<std::size_t>(at - factor.begin())] + " " +

@@ -43,7 +43,7 @@ const char* acts_on_name(ActsOn acts_on) {
 }
 
 std::optional<ActsOn> find_acts_on(std::string_view name) {
-  const auto at = std::find(acts_on_names.begin(), acts_on_names.end(), name);
+  const auto at = std::ranges::find(acts_on_names, name);
   if (at == acts_on_names.end()) return std::nullopt;
   return static_cast<ActsOn>(at - acts_on_names.begin());
 }
@@ -61,8 +61,8 @@ double Spread::positive() const {
 Spread spread_of(std::span<const double> values) {
   std::vector<double> finite;
   finite.reserve(values.size());
-  std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
-               [](double value) { return std::isfinite(value); });
+  std::ranges::copy_if(values, std::back_inserter(finite),
+                       [](double value) { return std::isfinite(value); });
   if (finite.empty()) return {};
   const auto rank = [&](double share) {
     return static_cast<std::size_t>(share * static_cast<double>(finite.size() - 1) + 0.5);
@@ -103,7 +103,7 @@ std::size_t amplitudes_of(const PlacedEffect& effect) {
 
 const EffectInput* input_of(const models::Parameter& parameter, const PlacedEffect& effect) {
   const auto symbols = input_symbols(*effect.form);
-  const auto at = std::find(symbols.begin(), symbols.end(), parameter.unit);
+  const auto at = std::ranges::find(symbols, parameter.unit);
   return at == symbols.end() ? nullptr
                              : &effect.inputs[static_cast<std::size_t>(at - symbols.begin())];
 }

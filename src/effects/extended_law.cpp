@@ -54,8 +54,7 @@ bool uses_parameter(const Expr& formula, const std::string& name) {
 
 // Whether `combine` contains the law's own limit parameter.
 bool own_limit(const Law& law, const models::Formula& formula) {
-  return std::any_of(law.parameters.begin(), law.parameters.end(),
-                     [](const Parameter& p) { return p.name == "m"; }) &&
+  return std::ranges::any_of(law.parameters, [](const Parameter& p) { return p.name == "m"; }) &&
          uses_parameter(formula.combine, "m");
 }
 

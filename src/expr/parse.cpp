@@ -261,8 +261,7 @@ std::size_t letter_length(std::string_view text) {
 // Names that are written into routines have letters of ASCII alone.
 bool is_name(std::string_view text) {
   return !text.empty() && is_ascii_letter(text.front()) &&
-         std::all_of(text.begin(), text.end(),
-                     [](char c) { return is_ascii_letter(c) || is_digit(c); });
+         std::ranges::all_of(text, [](char c) { return is_ascii_letter(c) || is_digit(c); });
 }
 
 Expr parse_expr(std::string_view text, std::string_view file) {

@@ -102,7 +102,7 @@ Sensitivity::Sensitivity(const Expr& formula, const std::vector<std::string>& co
                          const std::string& of) {
   std::unordered_map<const Expr::Node*, std::size_t> done;
   const auto index = [&](const std::string& name) {
-    const auto found = std::find(columns.begin(), columns.end(), name);
+    const auto found = std::ranges::find(columns, name);
     if (found == columns.end())
       throw std::logic_error("formula has the unknown symbol '" + name + "'");
     return static_cast<std::size_t>(found - columns.begin());

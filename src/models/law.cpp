@@ -107,7 +107,7 @@ std::string checked_model_name(const std::string& name, const std::string& file)
     return (c < 0x80 && std::isalnum(c)) || c == '_' || c == '.' || c == '-';
   };
   if (name.empty() || name.size() > 100 || name.front() == '.' ||
-      !std::all_of(name.begin(), name.end(), is_plain))
+      !std::ranges::all_of(name, is_plain))
     throw InputError({file, 0, 0}, "the model is called '" + name + "'",
                      "a name of 1 to 100 letters, digits, '_', '.' and '-'");
   return name;

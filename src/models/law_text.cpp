@@ -67,7 +67,7 @@ bool is_pressure(const Expr& e) {
 bool has_pressure_factor(const Expr& e) {
   std::vector<Expr> factors;
   add_factors(e, factors);
-  return std::any_of(factors.begin(), factors.end(), is_pressure);
+  return std::ranges::any_of(factors, is_pressure);
 }
 
 // Removes the factor sigma_n_MPa from a product.
@@ -130,9 +130,7 @@ public:
     const auto rank = [](const Candidate& c) {
       return std::tuple(c.is_mu, c.states, c.operations);
     };
-    return *std::max_element(
-        found_.begin(), found_.end(),
-        [&](const Candidate& x, const Candidate& y) { return rank(x) < rank(y); });
+    return *std::ranges::max_element(found_, {}, rank);
   }
 
 private:
@@ -159,9 +157,8 @@ bool is_positive(const Expr& formula, const std::vector<Parameter>& parameters) 
   const auto is = [&](const Expr& e) { return positive.count(e.id()) > 0; };
   inside_out(formula, [&](const Expr& e) {
     const auto& a = e.operands();
-    const auto found = std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) {
-      return e.op() == Op::symbol && p.name == e.name();
-    });
+    const auto found = std::ranges::find_if(
+        parameters, [&](const Parameter& p) { return e.op() == Op::symbol && p.name == e.name(); });
     bool yes = false;
     switch (e.op()) {
     case Op::constant:
@@ -198,7 +195,7 @@ bool is_positive(const Expr& formula, const std::vector<Parameter>& parameters) 
 bool is_product(const Expr& e) {
   std::vector<Expr> factors;
   add_factors(e, factors);
-  return std::any_of(factors.begin(), factors.end(), [](const Expr& factor) {
+  return std::ranges::any_of(factors, [](const Expr& factor) {
     return factor.op() == Op::exp || factor.op() == Op::power;
   });
 }
@@ -290,8 +287,8 @@ private:
   }
 
   void read_parameters() {
-    const bool any_fitted = std::any_of(text_.parameters.begin(), text_.parameters.end(),
-                                        [](const ParameterText& p) { return !p.value; });
+    const bool any_fitted =
+        std::ranges::any_of(text_.parameters, [](const ParameterText& p) { return !p.value; });
     law_.calibrated = !any_fitted || text_.calibrated == "fixed" ? Calibrated::fixed
                       : text_.calibrated == "mean"               ? Calibrated::mean
                                                                  : Calibrated::fit;
@@ -467,8 +464,7 @@ private:
 
   // Checks the distance within the name of a slip state: D_c of aging_state_over_D_c.
   void check_distance(const std::string& state, const std::string& distance) {
-    const auto found = std::find_if(law_.parameters.begin(), law_.parameters.end(),
-                                    [&](const Parameter& p) { return p.name == distance; });
+    const auto found = std::ranges::find(law_.parameters, distance, &Parameter::name);
     if (found == law_.parameters.end())
       faults_.add(place_of(state),
                   fmt::format("law {} has no parameter '{}' for {}", text_.name, distance, state),
@@ -536,7 +532,7 @@ private:
       out += fmt::format("; {} = {}", name, formula.text);
     for (const auto& [name, number] : constants_)
       out += fmt::format("; {} = {}", name, shortest(number));
-    std::replace(out.begin(), out.end(), '\n', ' ');
+    std::ranges::replace(out, '\n', ' ');
     return out;
   }
 

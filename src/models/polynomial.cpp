@@ -56,10 +56,7 @@ std::vector<PolynomialDegrees> polynomial_terms(std::size_t states, unsigned ord
       }
   }
   terms.erase(terms.begin()); // the constant is mu0
-  std::stable_sort(terms.begin(), terms.end(),
-                   [](const PolynomialDegrees& a, const PolynomialDegrees& b) {
-                     return order_of(a) < order_of(b);
-                   });
+  std::ranges::stable_sort(terms, {}, order_of);
   return terms;
 }
 

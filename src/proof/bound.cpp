@@ -88,8 +88,7 @@ public:
             table::with_value(ranges), "value") {
     for (const TableAxis& axis : table.axes) {
       coordinates_.push_back(axis.coordinates());
-      const auto range = std::find_if(ranges.begin(), ranges.end(),
-                                      [&](const StateRange& r) { return r.name == axis.name; });
+      const auto range = std::ranges::find(ranges, axis.name, &StateRange::name);
       range_of_axis_.push_back(static_cast<std::size_t>(range - ranges.begin()));
     }
   }
@@ -158,7 +157,7 @@ public:
 
 private:
   std::size_t axis_of(std::size_t range) const {
-    const auto found = std::find(range_of_axis_.begin(), range_of_axis_.end(), range);
+    const auto found = std::ranges::find(range_of_axis_, range);
     return static_cast<std::size_t>(found - range_of_axis_.begin());
   }
 
@@ -351,7 +350,7 @@ std::string obstacle(const models::AssembledLaw& law, const Table& table,
     return "the table is combined to tau_R by a formula that is not the law's";
   const std::vector<std::string> axes = axis_names(table);
   for (const std::string& name : law.piece_inputs)
-    if (std::find(axes.begin(), axes.end(), name) == axes.end())
+    if (std::ranges::find(axes, name) == axes.end())
       return "the law's piece depends on " + name + ", which is not an axis of the table";
   double cells = 1, nodes = 1;
   for (const TableAxis& axis : table.axes)

@@ -60,7 +60,7 @@ AxisPlan plan_axis(const models::Law& law, const StateRange& range, const TableO
     for (const double kink : kinks->second)
       if (kink > range.low && kink < range.high) plan.axis.kinks.push_back(kink);
   plan.fixed.insert(plan.fixed.end(), plan.axis.kinks.begin(), plan.axis.kinks.end());
-  std::sort(plan.fixed.begin(), plan.fixed.end());
+  std::ranges::sort(plan.fixed);
   if (asked != options.axes.end() && asked->second.nodes) {
     plan.cells = *asked->second.nodes - 1;
     plan.by_user = true;
@@ -125,7 +125,7 @@ bool has_log_value(const models::AssembledLaw& law, const Pieces& pieces,
                    const TableOptions& options) {
   if (!law.model.law->log_value || options.coordinates != "law") return false;
   const std::vector<double> values = sample(pieces, ranges, axes);
-  return *std::min_element(values.begin(), values.end()) > 0;
+  return *std::ranges::min_element(values) > 0;
 }
 
 // Says in the record to what the table was made.
@@ -443,9 +443,7 @@ Table table_on_nodes(const models::AssembledLaw& law, const std::vector<StateRan
   for (const AxisPlan& plan : plan_axes(law, ranges, options)) {
     least.push_back(axis_with(plan, plan.cells));
     axes.push_back(least.back());
-    const auto own = std::find_if(grid.axes.begin(), grid.axes.end(), [&](const TableAxis& axis) {
-      return axis.name == plan.axis.name;
-    });
+    const auto own = std::ranges::find(grid.axes, plan.axis.name, &TableAxis::name);
     if (own == grid.axes.end()) continue;
     axes.back().nodes = own->nodes;
     axes.back().nodes.front() = plan.fixed.front();

@@ -25,13 +25,13 @@ constexpr std::size_t most_states = 200000; // limit for each kind
 std::vector<std::string> inputs_of(const Table& a, const Table& b) {
   std::vector<std::string> names = a.inputs();
   for (const std::string& name : b.inputs())
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   return names;
 }
 
 bool needs(const Table& table, const std::string& name) {
   const auto inputs = table.inputs();
-  return std::find(inputs.begin(), inputs.end(), name) != inputs.end();
+  return std::ranges::find(inputs, name) != inputs.end();
 }
 
 StateRange common_range(const Table& a, const Table& b, const std::string& name) {
@@ -83,7 +83,7 @@ States node_points(const std::vector<TableAxis>& axes) {
   for (const TableAxis& axis : axes)
     count *= static_cast<double>(axis.nodes.size());
   auto stride = static_cast<std::size_t>(count / most_states) + 1;
-  while (stride > 1 && std::any_of(axes.begin(), axes.end(), [&](const TableAxis& axis) {
+  while (stride > 1 && std::ranges::any_of(axes, [&](const TableAxis& axis) {
            return axis.nodes.size() % stride == 0;
          }))
     ++stride;
@@ -158,8 +158,7 @@ TableDifference difference(const Table& a, const Table& b, const FixedStates& he
     sum += apart[i];
     squares += apart[i] * apart[i];
   }
-  const auto worst =
-      static_cast<std::size_t>(std::max_element(apart.begin(), apart.end()) - apart.begin());
+  const auto worst = static_cast<std::size_t>(std::ranges::max_element(apart) - apart.begin());
   out.drift.max_abs = apart[worst];
   out.drift.mean_abs = sum / static_cast<double>(apart.size());
   out.drift.rms = std::sqrt(squares / static_cast<double>(apart.size()));

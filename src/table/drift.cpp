@@ -67,8 +67,8 @@ States cell_points(const std::vector<StateRange>& ranges, const std::vector<Tabl
   }
   // Takes every n-th cell, where n shares no factor with the counts of the axes.
   std::size_t stride = cells / wanted + 1;
-  while (stride > 1 && std::any_of(grid.begin(), grid.end(),
-                                   [&](const auto& g) { return g.size() % stride == 0; }))
+  while (stride > 1 &&
+         std::ranges::any_of(grid, [&](const auto& g) { return g.size() % stride == 0; }))
     ++stride;
   for (std::size_t i = 0; i < cells; i += stride) {
     std::size_t rest = i;

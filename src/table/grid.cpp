@@ -155,7 +155,7 @@ std::vector<double> AxisErrors::by_cell(const AxisPlan& plan, const TableAxis& a
 
 double AxisErrors::largest(const AxisPlan& plan, std::size_t cells) const {
   const std::vector<double> errors = by_cell(plan, axis_with(plan, cells));
-  return *std::max_element(errors.begin(), errors.end());
+  return *std::ranges::max_element(errors);
 }
 
 std::size_t AxisErrors::cells_for(const AxisPlan& plan, double target) const {
@@ -186,7 +186,7 @@ void AxisErrors::distribute_nodes(AxisPlan& plan, double target) const {
     const TableAxis axis = axis_with(graded, resolution);
     const std::vector<double> u = axis.coordinates();
     std::vector<double> errors = by_cell(graded, axis);
-    const double worst = *std::max_element(errors.begin(), errors.end());
+    const double worst = *std::ranges::max_element(errors);
     if (!(worst > 0) || std::isinf(worst)) return;
     const double least = 1e-4 * worst;
     std::vector<double> density;

@@ -19,7 +19,7 @@ const char* interpolation_name(Interpolation interpolation) {
 }
 
 std::optional<Interpolation> find_interpolation(std::string_view name) {
-  const auto at = std::find(interpolation_names.begin(), interpolation_names.end(), name);
+  const auto at = std::ranges::find(interpolation_names, name);
   if (at == interpolation_names.end()) return std::nullopt;
   return static_cast<Interpolation>(at - interpolation_names.begin());
 }

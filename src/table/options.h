@@ -46,7 +46,7 @@ struct TableOptions {
 
   // Whether `model` consists of names, without "best", "recommended" or "all".
   bool names_laws() const {
-    return std::none_of(model.begin(), model.end(), [](const std::string& name) {
+    return std::ranges::none_of(model, [](const std::string& name) {
       return name == "best" || name == "recommended" || name == "all";
     });
   }

@@ -60,14 +60,13 @@ void write_csv(const PlainRequest& request, std::ostream& out) {
         const double x = nodes[rest % nodes.size()];
         rest /= nodes.size();
         row.insert(row.begin(), shortest(x));
-        state[static_cast<std::size_t>(std::find(inputs.begin(), inputs.end(), table.axes[a].name) -
+        state[static_cast<std::size_t>(std::ranges::find(inputs, table.axes[a].name) -
                                        inputs.begin())] = x;
       }
       for (const std::string& name : held) {
         const double x = request.fixed.at(name);
         row.push_back(shortest(x));
-        state[static_cast<std::size_t>(std::find(inputs.begin(), inputs.end(), name) -
-                                       inputs.begin())] = x;
+        state[static_cast<std::size_t>(std::ranges::find(inputs, name) - inputs.begin())] = x;
       }
       row.push_back(shortest(block[i]));
       if (known) row.push_back(shortest(function(state)));

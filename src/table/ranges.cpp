@@ -89,8 +89,8 @@ StateRange asked_range(const data::Quantity& quantity, const AxisOptions& axis, 
 // is.
 void check_outside(const models::AssembledLaw& law, const std::string& name,
                    const AxisOptions& axis) {
-  const auto other = std::find_if(axis.outside.begin(), axis.outside.end(),
-                                  [](const std::string& side) { return side != "law"; });
+  const auto other =
+      std::ranges::find_if(axis.outside, [](const std::string& side) { return side != "law"; });
   if (other == axis.outside.end() || law.piece_inputs.count(name)) return;
   throw InputError(
       axis.place,
@@ -167,8 +167,7 @@ std::vector<StateRange> table_ranges(const Table& table, const data::Dataset* da
   std::vector<StateRange> ranges;
   for (const std::string& name : table.inputs()) {
     const InputRecord& input = table.record.input(name);
-    const auto axis = std::find_if(table.axes.begin(), table.axes.end(),
-                                   [&](const TableAxis& a) { return a.name == name; });
+    const auto axis = std::ranges::find(table.axes, name, &TableAxis::name);
     if (axis != table.axes.end())
       ranges.push_back({name, axis->nodes.front(), axis->nodes.back(), "axis"});
     else if (input.low && input.high && *input.low <= *input.high)

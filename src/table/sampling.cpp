@@ -92,7 +92,7 @@ Table describe_table(const models::AssembledLaw& law, const std::vector<StateRan
   table.axes = std::move(axes);
   table.combine = law.combine;
   add_constants(table, law, table.combine);
-  if (std::any_of(table.axes.begin(), table.axes.end(), [](const TableAxis& axis) {
+  if (std::ranges::any_of(table.axes, [](const TableAxis& axis) {
         return axis.below == Outside::law || axis.above == Outside::law;
       }))
     add_extension(table, law);
