@@ -78,20 +78,6 @@ void set_knots(PlacedEffect& effect, const std::vector<std::span<const double>>&
       effect.inputs[i].knots = spline_knots(values[i], effect.form->knots[i]);
 }
 
-Expr value_by_level(const Expr& x, std::span<const Expr> values) {
-  Expr chosen = values.back();
-  for (std::size_t level = values.size() - 1; level-- > 0;)
-    chosen = where_le(x, static_cast<double>(level) + 0.5, values[level], chosen);
-  return chosen;
-}
-
-std::vector<double> growing_pattern(const PlacedEffect& effect) {
-  std::vector<double> values(amplitudes_of(effect));
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = static_cast<double>(i + 1) / static_cast<double>(values.size());
-  return values;
-}
-
 std::vector<models::Parameter> parameters_of(const PlacedEffect& effect) {
   const EffectForm& form = *effect.form;
   return form.parameters_of ? form.parameters_of(effect) : form.parameters;
