@@ -49,7 +49,7 @@ struct BandCheck {
 };
 BandCheck check_band(const models::Model& model, std::span<const double> predicted,
                      const data::Dataset& data);
-// The same from the experiments' own factors.
-BandCheck check_band(const models::Model& model, std::span<const double> gains);
+// The same from the experiments' own factors; without any, the ends of the band alone.
+BandCheck check_band(const models::Model& model, std::span<const double> gains = {});
 
 } // namespace frictab::calibrate

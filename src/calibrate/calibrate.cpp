@@ -1,6 +1,5 @@
 // Calibration stage: laws that the columns allow, their parameters, their errors, the ranking.
 #include <algorithm>
-#include <chrono>
 #include <set>
 
 #include <fmt/format.h>
@@ -11,7 +10,6 @@
 #include "calibrate/comparison.h"
 #include "calibrate/conditional.h"
 #include "calibrate/cross_validation.h"
-#include "calibrate/determined.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/fit_law.h"
 #include "calibrate/folds.h"
@@ -151,27 +149,23 @@ Metrics errors_on(const Dataset& data, const std::vector<double>& predicted,
   return metrics(data, predicted, options.bootstrap, options.seed);
 }
 
-void remark_rows_outside_range(ModelFit& fit, const models::AssembledLaw& law,
-                               const InputColumns& columns, const CalibrationInput& input) {
-  const auto add = [&](const InputColumns& of, const Dataset& data, const char* called) {
-    RowsBeyond beyond;
-    beyond.add(*law.model.law, law.inputs, of, data);
-    for (std::string& remark : beyond.told(*law.model.law, called))
-      fit.remarks.push_back(std::move(remark));
-  };
-  if (law.model.law->clamped_inputs.empty()) return;
-  add(columns, input.training, "training");
-  if (on_other_experiments(input.judged_by))
-    add(input_columns(law, law.inputs, input.validation), input.validation, "validation");
+void remark_rows_beyond(ModelFit& fit, const InputColumns& columns, const Dataset& data,
+                        const char* rows_of) {
+  RowsBeyond beyond;
+  beyond.add(*fit.model.law, columns, data);
+  beyond.add_remark(fit.remarks, *fit.model.law, rows_of);
 }
 
 // Judges the law on the rows in memory; for condensed data judge_on_rows does this.
-void judge_fit(ModelFit& fit, const models::AssembledLaw& law, const Predicted& trained,
+void judge_fit(ModelFit& fit, const models::AssembledLaw& law, const Predicted& fitted,
                const CalibrationInput& input) {
-  remark_rows_outside_range(fit, law, trained.columns, input);
-  fit.training = errors_on(input.training, trained.tau_MPa, input.options);
+  check_stress(fit.model.law->name, fitted, input.training);
+  if (input.training.condensed) return;
+  remark_rows_beyond(fit, fitted.columns, input.training, "training");
+  fit.training = errors_on(input.training, fitted.tau_MPa, input.options);
   if (!on_other_experiments(input.judged_by)) return;
   const Predicted unseen = predict_with_columns(law, law.inputs, input.validation);
+  remark_rows_beyond(fit, unseen.columns, input.validation, "validation");
   check_stress(law.model.law->name, unseen, input.validation);
   fit.validation = errors_on(input.validation, unseen.tau_MPa, input.options);
   fit.band = check_band(fit.model, unseen.tau_MPa, input.validation);
@@ -179,16 +173,9 @@ void judge_fit(ModelFit& fit, const models::AssembledLaw& law, const Predicted& 
 
 ModelFit calibrated(const models::Law& law, const models::Conventions& conventions,
                     const CalibrationInput& input) {
-  const auto begin = std::chrono::steady_clock::now();
-  ModelFit fit = fit_law(law, conventions, input.training, input.options);
-  const models::AssembledLaw assembled(fit.model);
-  const Predicted trained = predict_with_columns(assembled, assembled.inputs, input.training);
-  check_stress(law.name, trained, input.training);
-  fit.data_range = trained.columns.ranges();
-  add_determination(fit, trained.columns, input.training.experiments.size());
-  if (!input.training.condensed) judge_fit(fit, assembled, trained, input);
-  fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return fit;
+  return fit_and_judge(law, conventions, input.training, input.options,
+                       [&](ModelFit& fit, const models::AssembledLaw& assembled,
+                           const Predicted& fitted) { judge_fit(fit, assembled, fitted, input); });
 }
 
 void judge_by_leaving_out(std::vector<ModelFit>& fits, const std::vector<const models::Law*>& laws,
@@ -197,12 +184,11 @@ void judge_by_leaving_out(std::vector<ModelFit>& fits, const std::vector<const m
   CrossValidation cross =
       cross_validate(laws, conventions, input.training, input.options, units.of);
   for (std::size_t i = 0; i < fits.size(); ++i) {
-    fits[i].validation =
-        metrics(sums_of(cross.errors[i]), input.options.bootstrap, input.options.seed);
+    fits[i].validation = metrics_of(cross.errors[i], input.options);
     fits[i].unseen = std::move(cross.errors[i]);
     for (const std::size_t unit : units.of)
       fits[i].without.push_back(cross.without[i][unit]);
-    fits[i].band = check_band(fits[i].model, {}, input.training.subset({}));
+    fits[i].band = check_band(fits[i].model);
     fits[i].band.inside = cross.bands[i].inside;
     fits[i].band.experiments = cross.bands[i].experiments;
   }
@@ -212,7 +198,7 @@ void judge_by_the_fit(std::vector<ModelFit>& fits, const CalibrationInput& input
   for (ModelFit& fit : fits) {
     fit.validation = fit.training;
     fit.unseen = experiment_errors(fit.model, input.training, false);
-    fit.band = check_band(fit.model, {}, input.training.subset({}));
+    fit.band = check_band(fit.model);
   }
 }
 
@@ -252,7 +238,6 @@ void add_other_splits(Calibration& calibration, const models::Conventions& conve
     for (ModelFit& fit : calibration.fits)
       for (std::size_t i = 0; i < laws.size(); ++i)
         if (laws[i]->name == fit.model.law->name) fit.over_all = cross.errors[i];
-    add_recommended(calibration, input);
   }
   add_split_shares(calibration.choice, errors, held, input.options.seed);
 }
@@ -327,6 +312,7 @@ Calibration calibrate(const CalibrationInput& input) {
   add_comparisons(calibration, input);
   add_influence(calibration, conventions, input);
   add_other_splits(calibration, conventions, input);
+  add_recommended(calibration, input);
   add_noise_floors(calibration, input, scatter);
   add_conditional(calibration, input);
   if (input.options.deliver == Deliver::all && on_other_experiments(input.judged_by))

@@ -11,7 +11,6 @@
 #include "calibrate/choice.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/noise_floor.h"
-#include "calibrate/recommended.h"
 #include "core/no_value.h"
 #include "core/parallel.h"
 #include "core/text.h"
@@ -27,50 +26,6 @@ constexpr double rounding = 1e-12; // of the sum of two errors
 // the few experiments in which two laws differ would otherwise claim an arbitrarily precise
 // difference.
 constexpr double least_error = 0.1;
-
-// One measure of error of all laws in one resample.
-struct Estimates {
-  std::vector<double> value;     // per law
-  std::vector<double> influence; // law-major, one entry per experiment
-};
-
-struct Problem {
-  std::vector<std::vector<double>> x; // per law, one entry per experiment
-  std::vector<double> rows;
-  stats::Measure measure;
-
-  std::size_t laws() const { return x.size(); }
-  std::size_t experiments() const { return rows.size(); }
-
-  Estimates at(std::span<const double> times) const {
-    Estimates all{std::vector<double>(laws()), std::vector<double>(laws() * experiments())};
-    for (std::size_t l = 0; l < laws(); ++l)
-      all.value[l] = stats::ratio_of(x[l], rows, times, measure,
-                                     {all.influence.data() + l * experiments(), experiments()});
-    return all;
-  }
-
-  // Standard error of the difference between laws i and j.
-  double error_of(const Estimates& all, std::size_t i, std::size_t j,
-                  std::span<const double> times) const {
-    std::vector<double> difference(experiments());
-    for (std::size_t e = 0; e < experiments(); ++e)
-      difference[e] = all.influence[j * experiments() + e] - all.influence[i * experiments() + e];
-    return stats::standard_error(difference, times);
-  }
-};
-
-Problem problem_of(std::span<const LawErrors> laws, stats::Measure measure) {
-  Problem problem{{}, {}, measure};
-  for (const stats::ErrorSums& one : laws.front().sums)
-    problem.rows.push_back(one.rows);
-  for (const LawErrors& law : laws) {
-    problem.x.emplace_back();
-    for (const stats::ErrorSums& one : law.sums)
-      problem.x.back().push_back(measure == stats::Measure::mean ? one.absolute : one.square);
-  }
-  return problem;
-}
 
 // A difference in standard errors; `scale` is the sum of the two errors. A difference without
 // scatter is infinite; one of at most `least` of the scale is 0.
@@ -91,25 +46,26 @@ struct Studentised {
   std::vector<std::vector<double>> again;   // per pair, one entry per resample
 };
 
-void fill_pairs(const Problem& p, const Estimates& now, const Estimates& all,
-                std::span<const double> times, Studentised& s, std::size_t b) {
+void fill_pairs(const PairedErrors& p, const PairedErrors::Estimates& now,
+                const PairedErrors::Estimates& all, std::span<const double> times, Studentised& s,
+                std::size_t b) {
   for (std::size_t i = 0, pair = 0; i < p.laws(); ++i)
     for (std::size_t j = i + 1; j < p.laws(); ++j, ++pair)
-      s.again[pair][b] =
-          studentised(all.value[j] - all.value[i] - s.difference[pair],
-                      std::max(p.error_of(all, i, j, times), least_error * s.error[pair]),
-                      now.value[i] + now.value[j], rounding);
+      s.again[pair][b] = studentised(
+          all.value[j] - all.value[i] - s.difference[pair],
+          std::max(p.error_of_difference(all, i, j, times), least_error * s.error[pair]),
+          now.value[i] + now.value[j], rounding);
 }
 
-Studentised studentise(const Problem& p, std::size_t resamples, std::uint64_t seed) {
+Studentised studentise(const PairedErrors& p, std::size_t resamples, std::uint64_t seed) {
   const std::vector<double> once(p.experiments(), 1.0);
-  const Estimates now = p.at(once);
+  const PairedErrors::Estimates now = p.at(once);
   Studentised s;
   s.value = now.value;
   for (std::size_t i = 0; i < p.laws(); ++i)
     for (std::size_t j = i + 1; j < p.laws(); ++j) {
       s.difference.push_back(now.value[j] - now.value[i]);
-      s.error.push_back(p.error_of(now, i, j, once));
+      s.error.push_back(p.error_of_difference(now, i, j, once));
       s.t.push_back(studentised(s.difference.back(), s.error.back(), now.value[i] + now.value[j],
                                 same_error / 2));
     }
@@ -228,13 +184,41 @@ std::vector<std::string> candidates_of(const Comparisons& c) {
 
 } // namespace
 
+PairedErrors::PairedErrors(std::span<const LawErrors> laws, stats::Measure measure)
+    : measure_(measure) {
+  for (const stats::ErrorSums& one : laws.front().sums)
+    rows_.push_back(one.rows);
+  for (const LawErrors& law : laws) {
+    x_.emplace_back();
+    for (const stats::ErrorSums& one : law.sums)
+      x_.back().push_back(measure == stats::Measure::mean ? one.absolute : one.square);
+  }
+}
+
+PairedErrors::Estimates PairedErrors::at(std::span<const double> times) const {
+  Estimates all{std::vector<double>(laws()), std::vector<double>(laws() * experiments())};
+  for (std::size_t l = 0; l < laws(); ++l)
+    all.value[l] =
+        stats::ratio_of(x_[l], rows_, times, measure_,
+                        std::span(all.influence).subspan(l * experiments(), experiments()));
+  return all;
+}
+
+double PairedErrors::error_of_difference(const Estimates& all, std::size_t i, std::size_t j,
+                                         std::span<const double> times) const {
+  std::vector<double> difference(experiments());
+  for (std::size_t e = 0; e < experiments(); ++e)
+    difference[e] = all.influence[j * experiments() + e] - all.influence[i * experiments() + e];
+  return stats::standard_error(difference, times);
+}
+
 Comparisons compare(std::span<const LawErrors> laws, std::size_t resamples, std::uint64_t seed) {
   Comparisons result;
   if (laws.empty() || laws.front().sums.size() < 2 || resamples == 0) return result;
   result.n_experiments = laws.front().sums.size();
   result.resamples = std::min(resamples, most_resamples);
-  const auto mae = studentise(problem_of(laws, stats::Measure::mean), result.resamples, seed);
-  const auto rmse = studentise(problem_of(laws, stats::Measure::root_mean), result.resamples, seed);
+  const auto mae = studentise({laws, stats::Measure::mean}, result.resamples, seed);
+  const auto rmse = studentise({laws, stats::Measure::root_mean}, result.resamples, seed);
   result.best_p_values = best_p_values_of(mae, laws);
   for (std::size_t i = 0, pair = 0; i < laws.size(); ++i) {
     result.laws.push_back(laws[i].law);
@@ -296,7 +280,6 @@ void add_comparisons(Calibration& calibration, const CalibrationInput& input) {
   const Choice before = std::move(calibration.choice);
   std::erase_if(laws, [](const LawErrors& law) { return !law.candidate; });
   calibration.choice = choose_again(laws, input.options.bootstrap, input.options.seed);
-  add_recommended(calibration, input);
   if (!before.splits) return;
   calibration.choice.best_in = before.best_in; // traced laws are not fitted to other splits
   calibration.choice.splits = true;

@@ -2,10 +2,12 @@
 #include "calibrate/fit_law.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "calibrate/determined.h"
 #include "calibrate/fit_weights.h"
 #include "calibrate/law_problem.h"
 #include "calibrate/slip_distance.h"
@@ -317,6 +319,20 @@ ModelFit fit_law(const models::Law& law, const models::Conventions& conventions,
     fit.model.experiment_gains =
         gains_of_new_experiments(experiment_gains(data, predict(fit.model, data)),
                                  law.calibrated == Calibrated::fixed ? 0 : law.parameters.size());
+  return fit;
+}
+
+ModelFit fit_and_judge(const models::Law& law, const models::Conventions& conventions,
+                       const Dataset& data, const CalibrationOptions& options,
+                       const JudgeFit& judge) {
+  const auto begin = std::chrono::steady_clock::now();
+  ModelFit fit = fit_law(law, conventions, data, options);
+  const models::AssembledLaw assembled(fit.model);
+  const Predicted fitted = predict_with_columns(assembled, assembled.inputs, data);
+  fit.data_range = fitted.columns.ranges();
+  add_determination(fit, fitted.columns, data.experiments.size());
+  judge(fit, assembled, fitted);
+  fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return fit;
 }
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/comparison.h"
+#include "calibrate/choice.h"
 #include "calibrate/cross_validation.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/fit_law.h"
@@ -93,42 +93,20 @@ std::vector<Influence> of_law(const ModelFit& fit, const models::Conventions& co
   return found;
 }
 
-// Law with the least error when one test does not judge (`test` = number of tests: all judge); the
-// first of equal ones.
-std::size_t first_without(const std::vector<std::vector<stats::ErrorSums>>& laws,
-                          std::size_t test) {
-  std::vector<double> mae;
-  for (const std::vector<stats::ErrorSums>& sums : laws) {
-    double absolute = 0, rows = 0;
-    for (std::size_t e = 0; e < sums.size(); ++e)
-      if (e != test) {
-        absolute += sums[e].absolute;
-        rows += sums[e].rows;
-      }
-    mae.push_back(rows > 0 ? absolute / rows : 0);
-  }
-  const double least = *std::ranges::min_element(mae);
-  return static_cast<std::size_t>(
-      std::ranges::find_if(mae, [&](double one) { return one <= least * (1 + same_error); }) -
-      mae.begin());
-}
-
 void add_first_places(Calibration& calibration, const CalibrationInput& input) {
   const std::vector<std::string>& judges = input.validation.experiments;
   if (judges.size() < 3) return;
-  std::vector<std::string> names;
-  std::vector<std::vector<stats::ErrorSums>> laws;
-  for (const ModelFit& fit : calibration.fits) {
-    if (fit.reference) continue;
-    names.push_back(fit.model.law->name);
-    laws.push_back(unseen_sums(fit, input.validation));
-  }
+  std::vector<LawErrors> laws;
+  for (const ModelFit& fit : calibration.fits)
+    if (!fit.reference) laws.push_back({fit.model.law->name, unseen_sums(fit, input.validation)});
   if (laws.size() < 2) return;
-  // it was ranked on rows that are not in memory
-  if (first_without(laws, judges.size()) != 0) return;
-  const std::string& leader = names.front();
+  std::vector<double> times(judges.size(), 1.0);
+  if (best_of(laws, times) != 0) return; // it was ranked on rows that are not in memory
+  const std::string& leader = laws.front().law;
   for (std::size_t e = 0; e < judges.size(); ++e) {
-    const std::size_t first = first_without(laws, e);
+    times[e] = 0;
+    const std::size_t first = best_of(laws, times);
+    times[e] = 1;
     if (first == 0) continue;
     const auto known = std::ranges::find_if(calibration.influence, [&](const Influence& one) {
       return one.law == leader && one.experiment == judges[e];
@@ -137,7 +115,7 @@ void add_first_places(Calibration& calibration, const CalibrationInput& input) {
                          ? *known
                          : *calibration.influence.insert(calibration.influence.begin(),
                                                          {leader, judges[e], {}, ""});
-    one.first = names[first];
+    one.first = laws[first].law;
   }
 }
 
