@@ -411,8 +411,8 @@ TEST(ExperimentErrors, AddUpToThoseOfTheRankingAndNameTheOutlier) {
     gain = factor;
   }
   EXPECT_EQ(count, 4 * training.experiments.size()) << "two laws, two sets";
-  const auto fit = std::find_if(calibration.fits.begin(), calibration.fits.end(),
-                                [](const ModelFit& f) { return f.model.law->name == "coulomb"; });
+  const auto fit = std::ranges::find_if(
+      calibration.fits, [](const ModelFit& f) { return f.model.law->name == "coulomb"; });
   const auto rows = static_cast<double>(validation.rows());
   EXPECT_NEAR(sum / rows, fit->validation.mae_MPa, 1e-4);
   EXPECT_NEAR(bias / rows, fit->validation.bias_MPa, 1e-4);

@@ -141,7 +141,7 @@ TEST_P(EveryLaw, WithoutTheShearLimitNeedsNoFlowStressUnlessItsFormulaDoes) {
   const auto limited = inputs(law(), {});
   const auto free = inputs(law(), conventions);
   EXPECT_LE(free.size(), limited.size());
-  EXPECT_NE(std::find(limited.begin(), limited.end(), "sigma_f_MPa"), limited.end());
+  EXPECT_NE(std::ranges::find(limited, "sigma_f_MPa"), limited.end());
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryLaw, testing::ValuesIn(models::law_names()),

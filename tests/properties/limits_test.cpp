@@ -79,7 +79,7 @@ std::vector<std::vector<double>> parameters_of(const Model& model) {
 }
 
 std::size_t place_of(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
 std::string words(const std::vector<double>& values) {

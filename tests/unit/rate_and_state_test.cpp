@@ -64,7 +64,7 @@ TEST(RateAndState, StateStaysAtOneSpeedAndStartsAnewInEveryExperiment) {
 TEST(RateAndState, StateStartsWithTheFirstRowThatSlides) {
   std::vector<double> rested(20, 0.0), v(12, 0.02);
   v[5] = 0;
-  std::copy(v.begin(), v.end(), rested.begin() + 8);
+  std::ranges::copy(v, rested.begin() + 8);
   for (const char* name : {"aging_state_over_0p02mm", "slip_state_over_0p02mm"}) {
     const std::vector<double> theta = state(name, strokes({rested, v}, 2));
     for (std::size_t i = 0; i < 8; ++i)

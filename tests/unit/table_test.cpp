@@ -127,7 +127,7 @@ TEST(Table, ClampOfALawGetsANode) {
   const Table table = table_of("wzl");
   const auto& v = table.axes[1];
   ASSERT_EQ(v.name, "v_rel_mm_s");
-  EXPECT_NE(std::find(v.nodes.begin(), v.nodes.end(), 10.0), v.nodes.end());
+  EXPECT_NE(std::ranges::find(v.nodes, 10.0), v.nodes.end());
   EXPECT_LT(worst_of("wzl", table), 1e-11);
 }
 
