@@ -2,7 +2,7 @@
 #include "codegen/variables.h"
 
 #include "codegen/step_names.h"
-#include "expr/several.h"
+#include "expr/expr.h"
 
 namespace frictab::codegen {
 

@@ -215,14 +215,11 @@ std::map<std::string, std::vector<double>> kinks_of(const Expr& piece) {
 
 // Returns the kind of thing that already has this name; empty if the name is free.
 std::string taken_by(const std::string& name) {
-  static const std::set<std::string> functions = {
-      "exp",  "log", "ln",   "sqrt", "sin",     "tanh", "atan",    "arctan", "arccos",
-      "acos", "abs", "sign", "min",  "minimum", "max",  "maximum", "where"};
   const std::string lower = lower_case(name);
   for (const data::Quantity& quantity : data::quantities())
     if (lower == lower_case(quantity.name)) return "a quantity";
   if (data::find_derived(lower)) return "a history";
-  if (functions.count(lower)) return "a function";
+  if (expr::is_function(lower)) return "a function";
   if (lower == "value") return "the piece, in `combine`";
   if (lower == lower_case(shear_yield_symbol)) return "the shear yield stress";
   if (lower == "pi") return "a number";
