@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/names.h"
 #include "core/order_statistics.h"
 #include "data/derived.h"
 #include "data/quantity.h"
@@ -145,10 +146,7 @@ const EffectForm* find_effect(std::string_view name) {
 }
 
 std::vector<std::string> effect_names() {
-  std::vector<std::string> names;
-  for (const EffectForm& form : all_effects())
-    names.push_back(form.name);
-  return names;
+  return all_names(all_effects());
 }
 
 } // namespace frictab::effects

@@ -381,7 +381,7 @@ private:
       return parts.formula;
     }
     Formula formula{formula_of(text_.piece), text_.combine.text.empty()
-                                                 ? state::value() * state::sigma_n()
+                                                 ? state::value_times_pressure()
                                                  : formula_of(text_.combine)};
     const auto used = expr::symbols(formula.combine);
     if (!used.count("value"))
@@ -537,7 +537,7 @@ private:
   void check_numbers() {
     const Expr tau = tau_formula(law_, {});
     const std::vector<std::string> names = inputs_of(tau, law_);
-    std::vector<double> row, start;
+    std::vector<double> row;
     std::string state;
     for (const std::string& name : names) {
       const data::Quantity* quantity = data::find_quantity(name);
@@ -546,9 +546,8 @@ private:
       row.push_back(std::sqrt(range.first * range.second));
       state += fmt::format("{}{} = {:.4g}", state.empty() ? "" : ", ", name, row.back());
     }
-    for (const Parameter& p : law_.parameters)
-      start.push_back(p.start);
-    const double value = expr::Program(tau, names, parameter_names(law_))(row, start);
+    const double value =
+        expr::Program(tau, names, parameter_names(law_))(row, start_values(law_.parameters));
     if (!std::isfinite(value))
       faults_.add(
           text_.place,
@@ -570,7 +569,7 @@ Parts parts_of(const Expr& tau_R, const std::vector<Parameter>& parameters) {
   splitter.look(tau_R, false);
   const Candidate& best = splitter.best();
   const Expr piece = best.times_pressure ? without_pressure(best.part) : best.part;
-  const Expr in_place = best.times_pressure ? state::value() * state::sigma_n() : state::value();
+  const Expr in_place = best.times_pressure ? state::value_times_pressure() : state::value();
   using Nodes = std::vector<std::pair<Expr, Expr>>;
   return {{piece, substitute(tau_R, Nodes{{best.part, in_place}})},
           best.is_mu ? PieceQuantity::mu : PieceQuantity::tau_R};

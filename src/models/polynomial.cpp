@@ -74,10 +74,6 @@ std::string term_text(const PolynomialDegrees& degrees,
 
 namespace {
 
-Formula with_mu(const Expr& mu) {
-  return {mu, state::value() * state::sigma_n()};
-}
-
 // Returns P_0 .. P_3 of one state.
 std::vector<Expr> legendre_of(const PolynomialState& state) {
   const Expr held = minimum(maximum(Expr::symbol(state.name), state.low), state.high);
@@ -137,7 +133,9 @@ Law before_data() {
   law.parameters = {
       {"mu0", "1", "geometric mean of the coefficient over the range of the data", 0.08, 0, 1e6}};
   law.log_value = true;
-  law.build = [](const Conventions&) { return with_mu(Expr::symbol("mu0")); };
+  law.build = [](const Conventions&) {
+    return Formula{Expr::symbol("mu0"), state::value_times_pressure()};
+  };
   return law;
 }
 
@@ -148,7 +146,7 @@ const Registered<Law> registered_polynomial{before_data};
 Law polynomial(const Polynomial& polynomial) {
   Law law = before_data();
   const Expr mu = coefficient_of(polynomial);
-  law.build = [mu](const Conventions&) { return with_mu(mu); };
+  law.build = [mu](const Conventions&) { return Formula{mu, state::value_times_pressure()}; };
   for (const PolynomialState& state : polynomial.states) {
     law.log_axes[state.name] = state.log;
     law.kinks[state.name] = {state.low, state.high};

@@ -149,13 +149,8 @@ std::vector<double> at_nodes(const Table& table, const TestRows& rows) {
   std::vector<double> distances(table.nodes());
   parallel_for((distances.size() + sample_block - 1) / sample_block, [&](std::size_t block) {
     const std::size_t end = std::min(distances.size(), (block + 1) * sample_block);
-    std::vector<double> state(table.axes.size());
-    for (std::size_t i = block * sample_block; i < end; ++i) {
-      std::size_t rest = i;
-      for (std::size_t a = state.size(); a-- > 0; rest /= table.axes[a].nodes.size())
-        state[a] = table.axes[a].nodes[rest % table.axes[a].nodes.size()];
-      distances[i] = rows.distance(state);
-    }
+    for (std::size_t i = block * sample_block; i < end; ++i)
+      distances[i] = rows.distance(values_at(table.axes, i));
   });
   return distances;
 }

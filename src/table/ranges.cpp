@@ -13,6 +13,7 @@
 #include "data/quantity.h"
 #include "table/build.h"
 #include "table/outside.h"
+#include "table/states.h"
 
 namespace frictab::table {
 
@@ -167,8 +168,7 @@ std::vector<StateRange> table_ranges(const Table& table, const data::Dataset* da
   std::vector<StateRange> ranges;
   for (const std::string& name : table.inputs()) {
     const InputRecord& input = table.record.input(name);
-    const auto axis = std::ranges::find(table.axes, name, &TableAxis::name);
-    if (axis != table.axes.end())
+    if (const TableAxis* axis = find_axis(table, name))
       ranges.push_back({name, axis->nodes.front(), axis->nodes.back(), "axis"});
     else if (input.low && input.high && *input.low <= *input.high)
       ranges.push_back({name, *input.low, *input.high, "attribute"});

@@ -32,6 +32,13 @@ double TableAxis::per_step() const {
   return table::per_step(coordinates());
 }
 
+std::vector<double> values_at(const std::vector<TableAxis>& axes, std::size_t node) {
+  std::vector<double> values(axes.size());
+  for (std::size_t a = axes.size(); a-- > 0; node /= axes[a].nodes.size())
+    values[a] = axes[a].nodes[node % axes[a].nodes.size()];
+  return values;
+}
+
 std::vector<std::string> Table::inputs() const {
   std::set<std::string> used = expr::symbols(combine);
   for (const TableAxis& axis : axes)
