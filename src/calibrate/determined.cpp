@@ -14,6 +14,7 @@
 #include "calibrate/stress_error.h"
 #include "core/text.h"
 #include "data/meaning.h"
+#include "data/middle.h"
 
 namespace frictab::calibrate {
 
@@ -89,9 +90,7 @@ public:
 private:
   std::size_t size() const { return law_.parameters.size(); }
   const std::string& name(std::size_t p) const { return law_.parameters[p].name; }
-  double correlation(std::size_t a, std::size_t b) const {
-    return u_.correlation(static_cast<Index>(a), static_cast<Index>(b));
-  }
+  double correlation(std::size_t a, std::size_t b) const { return u_.correlation(a, b); }
 
   void add_pairs() {
     for (std::size_t a = 0; a < size(); ++a)
@@ -146,8 +145,7 @@ private:
       std::vector<std::size_t> which;
       for (std::size_t p = 0; p < size(); ++p)
         if (fit_.std_error[p] > 0 && !open_.count(p) &&
-            std::abs(with(static_cast<Index>(p))) >
-                its_own * fit_.std_error[p] * error_.of(contrast))
+            std::abs(with(p)) > its_own * fit_.std_error[p] * error_.of(contrast))
           which.push_back(p);
       if (!which.empty())
         add(which, fmt::format("; tests at {} {} and {} would", reach.name,
@@ -173,7 +171,7 @@ private:
 
   // Whether the stress is nearly proportional to the parameter over the data.
   bool is_level(std::size_t p) const {
-    const auto at = static_cast<Index>(p);
+    const Index at = p;
     const auto here = error_.slope(middle_);
     if (!here || (*here)(at) == 0) return false;
     for (const Reach& reach : reaches_)
@@ -229,9 +227,7 @@ std::vector<double> middle_of(const InputColumns& columns) {
     std::vector<double> values;
     for (std::size_t row = 0; row < all.size(); row += step)
       if (!std::isnan(all[row])) values.push_back(all[row]);
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    if (!values.empty()) std::nth_element(values.begin(), at, values.end());
-    middle.push_back(values.empty() ? 0 : *at);
+    middle.push_back(values.empty() ? 0 : data::upper_median(std::move(values)));
   }
   return middle;
 }

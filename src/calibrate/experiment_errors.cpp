@@ -65,7 +65,7 @@ std::vector<stats::ErrorSums> unseen_sums(const ModelFit& fit, const data::Datas
   if (!fit.unseen.empty()) return sums_of(fit.unseen, validation);
   if (!fit.on_rows.empty()) {
     const auto end = fit.on_rows.end();
-    return sums_of({end - static_cast<std::ptrdiff_t>(validation.experiments.size()), end});
+    return sums_of({end - validation.experiments.size(), end});
   }
   return stats::error_sums(validation, predict(fit.model, validation));
 }

@@ -29,13 +29,6 @@ private:
   const LossFunction& loss_;
 };
 
-double mean_square(std::span<const double> values) {
-  double sum = 0;
-  for (const double v : values)
-    sum += v * v;
-  return sum / static_cast<double>(values.size());
-}
-
 std::string text(stats::FitEnding ending, const FitOptions& options) {
   using stats::FitEnding;
   switch (ending) {
@@ -62,6 +55,13 @@ std::string text(stats::FitEnding ending, const FitOptions& options) {
 }
 
 } // namespace
+
+double mean_square(std::span<const double> values) {
+  double sum = 0;
+  for (const double v : values)
+    sum += v * v;
+  return sum / static_cast<double>(values.size());
+}
 
 FitResult fit_from(const FitProblem& problem, const LossFunction& loss, std::vector<double> start,
                    FitOptions options) {

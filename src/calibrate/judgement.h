@@ -131,15 +131,9 @@ struct Influence {
 };
 
 // Remaining error of a law that is exact in the state.
-struct NoiseFloor {
-  std::string method; // oracle | replicates | within_experiments
-  std::string part;   // validation | training | all
-  double mae_MPa = 0;
-  double rmse_MPa = 0;
-  Interval mae_interval;
-  Interval rmse_interval;
-  std::size_t n_rows = 0;
-  std::size_t n_experiments = 0;
+struct NoiseFloor : Metrics {
+  std::string method = {};  // oracle | replicates | within_experiments
+  std::string part = {};    // validation | training | all
   std::size_t n_groups = 0; // replicates: groups of experiments with the same set levels
   bool lower_bound = false; // the scatter between experiments is not included
   // original MAE if it exceeded the best law's error, to which the floor was lowered

@@ -158,7 +158,7 @@ double mean_cost(const FitProblem& problem, const LossFunction& loss,
 
 NormalEquations normal_equations(const FitProblem& problem, const LossFunction& loss,
                                  std::span<const double> parameters) {
-  const auto size = static_cast<Eigen::Index>(parameters.size());
+  const Eigen::Index size = parameters.size();
   NormalEquations n{0, Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
   Terms terms;
   problem.law.sweep(parameters, true, [&](const expr::BoundProgram::Block& b) {
@@ -177,7 +177,7 @@ NormalEquations normal_equations(const FitProblem& problem, const LossFunction& 
 std::vector<ExperimentSums> sums_by_experiment(const FitProblem& problem, const LossFunction& loss,
                                                std::span<const double> parameters,
                                                std::span<const std::size_t> first_row) {
-  const auto size = static_cast<Eigen::Index>(parameters.size());
+  const Eigen::Index size = parameters.size();
   std::vector<ExperimentSums> sums(
       first_row.size() - 1, {Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)});
   std::size_t experiment = 0;

@@ -27,7 +27,7 @@ std::vector<std::uint32_t> in_order(const std::vector<double>& ratio) {
     order[end[bucket(ratio[i])]++] = i;
   auto begin = order.begin();
   for (std::size_t b = 0; b < buckets; ++b) {
-    const auto stop = order.begin() + static_cast<std::ptrdiff_t>(end[b]);
+    const auto stop = order.begin() + end[b];
     std::sort(begin, stop, [&](std::uint32_t a, std::uint32_t c) { return ratio[a] < ratio[c]; });
     begin = stop;
   }

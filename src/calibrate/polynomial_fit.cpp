@@ -158,9 +158,9 @@ PolynomialFit fit_polynomial(const PolynomialProblem& problem) {
   for (std::size_t k = noise_logs; k < best.logs.size(); ++k)
     fit.spread.push_back(std::exp(best.logs[k]));
   const std::size_t experiments = problem.first.size() - 1;
-  fit.without.resize(fit.coefficients.size(), static_cast<Index>(experiments));
+  fit.without.resize(fit.coefficients.size(), experiments);
   for (std::size_t e = 0; e < experiments; ++e)
-    fit.without.col(static_cast<Index>(e)) = likelihood.reml().without(e);
+    fit.without.col(e) = likelihood.reml().without(e);
   return fit;
 }
 

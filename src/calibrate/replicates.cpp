@@ -172,11 +172,11 @@ Setting means_in_tests(const data::Column& column, const data::Dataset& data) {
   Setting setting;
   std::vector<double> means, ranges;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-    const auto first = column.values.begin() + static_cast<std::ptrdiff_t>(data.first_row[e]),
-               last = column.values.begin() + static_cast<std::ptrdiff_t>(data.first_row[e + 1]);
-    const auto [low, high] = std::minmax_element(first, last);
+    const std::span<const double> test = data.of_test(column.values, e);
+    const auto [low, high] = std::ranges::minmax_element(test);
     ranges.push_back(*high - *low);
-    means.push_back(std::accumulate(first, last, 0.0) / static_cast<double>(last - first));
+    means.push_back(std::accumulate(test.begin(), test.end(), 0.0) /
+                    static_cast<double>(test.size()));
     setting.of_tests.push_back({means.back()});
   }
   const auto [low, high] = std::ranges::minmax_element(means);
@@ -210,11 +210,10 @@ Setting setting_of(const data::Column& column, const data::Dataset& data) {
     return {};
   std::vector<double> values;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-    const auto first = column.values.begin() + static_cast<long>(data.first_row[e]);
-    const auto last = column.values.begin() + static_cast<long>(data.first_row[e + 1]);
-    if (std::any_of(first, last, [&](double v) { return v != *first; }))
+    const std::span<const double> test = data.of_test(column.values, e);
+    if (std::ranges::any_of(test, [&](double v) { return v != test.front(); }))
       return set_within_tests(column, data);
-    values.push_back(*first);
+    values.push_back(test.front());
   }
   return set_by_test(column, values);
 }
@@ -236,9 +235,7 @@ std::vector<std::vector<std::size_t>> replicate_groups(const data::Dataset& data
     if (in.x.empty()) continue;
     inputs += in.differs;
     for (std::size_t e = 0; e < profiles.size(); ++e)
-      append_means(profiles[e],
-                   {in.x.data() + data.first_row[e], data.first_row[e + 1] - data.first_row[e]},
-                   replicate_tolerance / in.tolerance);
+      append_means(profiles[e], data.of_test(in.x, e), replicate_tolerance / in.tolerance);
   }
   for (const data::Column& column : data.columns) {
     const Setting setting = setting_of(column, data);
