@@ -12,9 +12,9 @@
 #include "calibrate/comparison.h"
 #include "calibrate/metrics.h"
 #include "calibrate/recommended.h"
-#include "core/parallel.h"
 #include "core/random.h"
 #include "support/sample_data.h"
+#include "support/threads.h"
 
 namespace frictab::comparison_test {
 
@@ -414,13 +414,12 @@ TEST(Recommended, TakesTheSimplerOfTwoWaysToWriteALaw) {
 TEST(SlowComparison, IsTheSameForAnyNumberOfThreads) {
   Random random(3);
   const auto laws = exchangeable(5, 12, random);
-  calibrate::Calibration one, two;
-  set_threads(1);
-  one.comparisons = compare(laws, 300, 1);
-  set_threads(2);
-  two.comparisons = compare(laws, 300, 1);
-  set_threads(0);
-  EXPECT_EQ(calibrate::calibration_json(one), calibrate::calibration_json(two));
+  const auto text = [&] {
+    calibrate::Calibration calibration;
+    calibration.comparisons = compare(laws, 300, 1);
+    return calibrate::calibration_json(calibration);
+  };
+  EXPECT_EQ(test::with_threads(1, text), test::with_threads(2, text));
 }
 
 TEST(SlowComparison, OfOneExperimentOrWithoutResamplesIsNotMade) {

@@ -164,8 +164,7 @@ TEST_P(EveryLawOfTheLiteratureFarOut, StaysFiniteAndBetweenZeroAndK) {
   const std::size_t sigma_f = place_of(names, "sigma_f_MPa");
   Model model;
   model.law = models::unregistered_law(law);
-  for (const models::Parameter& parameter : law.parameters)
-    model.parameters.push_back(parameter.start);
+  model.parameters = models::start_values(law.parameters);
   for (const std::vector<double>& row : far_states(names)) {
     const double tau = program(row, model.parameters);
     ASSERT_TRUE(std::isfinite(tau)) << words(row) << "| " << words(model.parameters);

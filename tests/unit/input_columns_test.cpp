@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "data/derived.h"
 #include "expr/program.h"
+#include "support/refusal.h"
 #include "support/traced_law.h"
 
 namespace frictab::input_columns_test {
@@ -16,17 +17,9 @@ using calibrate::predict;
 using data::Column;
 using data::Dataset;
 using models::Model;
+using test::refusal;
 
 namespace {
-
-std::string refusal(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 Column& column(Dataset& data, const std::string& name) {
   return *std::ranges::find(data.columns, name, &Column::name);
