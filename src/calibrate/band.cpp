@@ -37,11 +37,6 @@ std::vector<double> gains_of_new_experiments(std::vector<double> gains, std::siz
   return gains;
 }
 
-QuantileRange attainable_quantiles(std::size_t experiments) {
-  const double count = static_cast<double>(experiments);
-  return {1 / (count + 1), count / (count + 1)};
-}
-
 std::optional<double> gain_at_quantile(std::span<const double> gains, double quantile) {
   constexpr double rounding = 1e-12; // 0.05 of 19 experiments is exactly the first one
   const double rank = quantile * (static_cast<double>(gains.size()) + 1) - 1;
@@ -60,14 +55,14 @@ models::Model at_quantile(const models::Model& model, double quantile, const Pla
   const auto gain = gain_at_quantile(model.experiment_gains, quantile);
   if (!gain) {
     const std::size_t experiments = model.experiment_gains.size();
-    const QuantileRange range = attainable_quantiles(experiments);
-    throw InputError(
-        place,
-        fmt::format("{} experiments do not give the quantile {} of '{}'", experiments, quantile,
-                    model.law->name),
-        experiments == 0
-            ? "calibrate this law, fixed or not, on experiments first"
-            : fmt::format("between {:.3g} and {:.3g}, or more experiments", range.low, range.high));
+    const auto count = static_cast<double>(experiments);
+    throw InputError(place,
+                     fmt::format("{} experiments do not give the quantile {} of '{}'", experiments,
+                                 quantile, model.law->name),
+                     experiments == 0
+                         ? "calibrate this law, fixed or not, on experiments first"
+                         : fmt::format("between {:.3g} and {:.3g}, or more experiments",
+                                       1 / (count + 1), count / (count + 1)));
   }
   end.gain = *gain;
   return end;

@@ -66,16 +66,8 @@ private:
   }
 
   std::string what() const {
-    switch (e_.acts_on) {
-    case ActsOn::m:
-      return "limit";
-    case ActsOn::tau:
-      return "tau_R";
-    case ActsOn::mu:
-    case ActsOn::mu_m:
-      break;
-    }
-    return "friction";
+    if (e_.acts_on == ActsOn::m) return "limit";
+    return e_.acts_on == ActsOn::tau ? "tau_R" : "friction";
   }
 
   std::string change(double from, double to) const {

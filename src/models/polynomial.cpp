@@ -18,16 +18,9 @@ double PolynomialState::u(double x) const {
 }
 
 double legendre(unsigned degree, double z) {
-  switch (degree) {
-  case 0:
-    return 1;
-  case 1:
-    return z;
-  case 2:
-    return (3 * z * z - 1) / 2;
-  default:
-    return (5 * z * z - 3) * z / 2;
-  }
+  if (degree == 0) return 1;
+  if (degree == 1) return z;
+  return degree == 2 ? (3 * z * z - 1) / 2 : (5 * z * z - 3) * z / 2;
 }
 
 namespace {
