@@ -78,7 +78,7 @@ std::size_t best_of(Laws laws, std::span<const double> times) {
 
 RepeatedChoice repeat_choice(Laws laws, const Rule& rule, std::size_t resamples,
                              std::uint64_t seed) {
-  RepeatedChoice out{std::vector<std::size_t>(laws.size()), 0, {}};
+  RepeatedChoice out{std::vector<std::size_t>(laws.size()), {}};
   std::vector<double> times(laws.front().sums.size());
   LeftOutErrors left_out(times.size());
   for (std::size_t b = 0; b < resamples; ++b) {
@@ -88,8 +88,7 @@ RepeatedChoice repeat_choice(Laws laws, const Rule& rule, std::size_t resamples,
     ++out.wins[winner];
   }
   const Metrics expected = metrics(left_out.sums(laws.front().sums), resamples, seed);
-  out.expected_mae_MPa = expected.mae_MPa;
-  out.interval = expected.mae_interval;
+  out.expected = {expected.mae_MPa, expected.mae_interval};
   return out;
 }
 
@@ -100,7 +99,7 @@ Choice choose_again(Laws laws, std::size_t resamples, std::uint64_t seed) {
   choice.mae_MPa = mae_of(laws.front(), std::vector<double>(laws.front().sums.size(), 1.0));
   const RepeatedChoice again = repeat_choice(
       laws, [&](std::span<const double> times) { return best_of(laws, times); }, resamples, seed);
-  choice.expected_mae_MPa = again.expected_mae_MPa;
+  choice.expected_mae_MPa = again.expected.mae_MPa;
   choice.best_in = shares_of(laws, again.wins);
   choice.draws = resamples;
   return choice;

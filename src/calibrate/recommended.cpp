@@ -70,14 +70,12 @@ Recommended recommend(std::span<const LawErrors> laws, std::span<const std::size
   out.numbers_of_best = numbers[best];
   out.behind_MPa = simplest.behind_MPa;
   out.std_error_MPa = simplest.std_error_MPa;
-  out.expected_mae_MPa = errors.at(once).value[simplest.law];
+  out.expected.mae_MPa = errors.at(once).value[simplest.law];
   if (experiments < 2 || resamples == 0) return out;
   const auto rule = [&](std::span<const double> times) {
     return simplest_near(errors, times, best_of(laws, times), numbers).law;
   };
-  const RepeatedChoice again = repeat_choice(laws, rule, resamples, seed);
-  out.expected_mae_MPa = again.expected_mae_MPa;
-  out.expected_interval = again.interval;
+  out.expected = repeat_choice(laws, rule, resamples, seed).expected;
   return out;
 }
 
@@ -126,7 +124,7 @@ Expected expected_error(const Calibration& calibration) {
   const ModelFit& fit = recommended_fit(calibration);
   const Recommended& r = calibration.recommended;
   const Metrics& judged = fit.on_all ? fit.on_all->validation : fit.validation;
-  if (!fit.on_all && r.expected_mae_MPa > 0) return {r.expected_mae_MPa, r.expected_interval};
+  if (!fit.on_all && r.expected.mae_MPa > 0) return r.expected;
   return {judged.mae_MPa, judged.mae_interval};
 }
 
