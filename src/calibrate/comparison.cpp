@@ -25,7 +25,7 @@ constexpr double rounding = 1e-12; // of the sum of two errors
 // Minimum ratio of a resample's standard error to that of the data: a resample with hardly any of
 // the few experiments in which two laws differ would otherwise claim an arbitrarily precise
 // difference.
-constexpr double least_error = 0.1;
+constexpr double least_error_ratio = 0.1;
 
 // A difference in standard errors; `scale` is the sum of the two errors. A difference without
 // scatter is infinite; one of at most `least` of the scale is 0.
@@ -53,7 +53,7 @@ void fill_pairs(const PairedErrors& p, const PairedErrors::Estimates& now,
     for (std::size_t j = i + 1; j < p.laws(); ++j, ++pair)
       s.again[pair][b] = studentised(
           all.value[j] - all.value[i] - s.difference[pair],
-          std::max(p.error_of_difference(all, i, j, times), least_error * s.error[pair]),
+          std::max(p.error_of_difference(all, i, j, times), least_error_ratio * s.error[pair]),
           now.value[i] + now.value[j], rounding);
 }
 

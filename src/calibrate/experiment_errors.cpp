@@ -74,8 +74,8 @@ namespace {
 
 // Reads the rows for laws that were not judged on the rows of condensed data, such as those of an
 // earlier run.
-void look_where_unknown(std::vector<ErrorsOfLaw>& laws, const Calibration& calibration,
-                        const data::Dataset& training, const data::Dataset& validation) {
+void judge_rows_where_unknown(std::vector<ErrorsOfLaw>& laws, const Calibration& calibration,
+                              const data::Dataset& training, const data::Dataset& validation) {
   std::vector<std::size_t> unknown;
   RowsToJudge fitted{&training, false}, unseen{&validation, true};
   for (std::size_t i = 0; i < laws.size(); ++i)
@@ -85,7 +85,7 @@ void look_where_unknown(std::vector<ErrorsOfLaw>& laws, const Calibration& calib
     }
   if (unknown.empty()) return;
   unseen.laws = fitted.laws;
-  for (const RowFindings& found : look_at_rows(std::array{fitted, unseen}))
+  for (const RowFindings& found : judge_rows(std::array{fitted, unseen}))
     for (std::size_t l = 0; l < unknown.size(); ++l) {
       std::vector<ExperimentError>& errors = laws[unknown[l]].experiments;
       errors.insert(errors.end(), found.errors[l].begin(), found.errors[l].end());
@@ -98,7 +98,7 @@ std::vector<ErrorsOfLaw> errors_by_experiment(const Calibration& calibration,
                                               const data::Dataset& training,
                                               const data::Dataset& validation) {
   std::vector<ErrorsOfLaw> laws(calibration.fits.size());
-  if (training.condensed) look_where_unknown(laws, calibration, training, validation);
+  if (training.condensed) judge_rows_where_unknown(laws, calibration, training, validation);
   parallel_for(laws.size(), [&](std::size_t i) {
     const ModelFit& fit = calibration.fits[i];
     laws[i].law = fit.model.law->name;

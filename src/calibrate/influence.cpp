@@ -24,10 +24,10 @@ namespace {
 // Tests per law without which it is refitted if one step indicates their influence.
 constexpr std::size_t most_refits = 3;
 // Tolerance for the first step, which is slightly off if a law is not linear.
-constexpr double nearly = 0.8;
+constexpr double first_step_slack = 0.8;
 
 // Shift in standard errors above which a test is reported first.
-constexpr double far_moved = 2;
+constexpr double far_shift = 2;
 
 double size_of(const Influence::Moved& m) {
   return std::abs(m.without - m.value) / m.std_error;
@@ -62,7 +62,7 @@ std::vector<std::size_t> suspects(const Uncertainty& u) {
     for (Index p = 0; p < u.moved_without.rows(); ++p)
       if (const double error = u.error_without(p, e); error > 0)
         most = std::max(most, std::abs(u.moved_without(p, e)) / error);
-    if (most > nearly) found.emplace_back(-most, static_cast<std::size_t>(e));
+    if (most > first_step_slack) found.emplace_back(-most, static_cast<std::size_t>(e));
   }
   std::ranges::sort(found);
   std::vector<std::size_t> tests;
@@ -138,7 +138,7 @@ std::string influence_sentence(const Calibration& calibration) {
   if (all.empty()) return "";
   // A large shift of a better law comes first, then a change of the first place, then any shift.
   const auto far =
-      std::ranges::find_if(all, [](const Influence& one) { return size_of(one) > far_moved; });
+      std::ranges::find_if(all, [](const Influence& one) { return size_of(one) > far_shift; });
   const auto first =
       std::ranges::find_if(all, [](const Influence& one) { return !one.first.empty(); });
   const Influence& most = far != all.end() ? *far : first != all.end() ? *first : all.front();

@@ -65,7 +65,7 @@ void judge_on_rows(std::vector<ModelFit>& fits, const CrossValidation& cross,
     for (const std::size_t fold : fold_of)
       left_out.laws.back().push_back(folds[fold]);
   }
-  const std::vector<RowFindings> found = look_at_rows(std::array{fitted, left_out});
+  const std::vector<RowFindings> found = judge_rows(std::array{fitted, left_out});
   for (std::size_t i = 0; i < fits.size(); ++i) {
     fits[i].training = metrics_of(found[0].errors[i], options);
     fits[i].validation = metrics_of(found[1].errors[i], options);

@@ -22,7 +22,7 @@ ExperimentError judged(const models::AssembledLaw& law, const Dataset& rows,
 
 } // namespace
 
-std::vector<RowFindings> look_at_rows(std::span<const RowsToJudge> all) {
+std::vector<RowFindings> judge_rows(std::span<const RowsToJudge> all) {
   std::vector<RowFindings> found;
   std::vector<const Dataset*> data;
   for (const RowsToJudge& one : all) {
@@ -98,7 +98,7 @@ ScatterWithin judge_on_rows(const std::vector<ModelFit*>& fits, const Calibratio
     if (on_others) all.back().laws.push_back(all.front().laws.back());
     if (leaves_out) all.back().laws.emplace_back(fit->without.begin(), fit->without.end());
   }
-  std::vector<RowFindings> found = look_at_rows(all);
+  std::vector<RowFindings> found = judge_rows(all);
   for (std::size_t l = 0; l < fits.size(); ++l)
     take(*fits[l], l, found, input);
   ScatterWithin scatter{std::move(found.front().scatter), {}};

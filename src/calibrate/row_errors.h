@@ -28,7 +28,7 @@ struct RowFindings {
 
 // Reads and judges the rows; one entry per dataset. Throws InputError if files have changed since
 // they were condensed.
-std::vector<RowFindings> look_at_rows(std::span<const RowsToJudge> all);
+std::vector<RowFindings> judge_rows(std::span<const RowsToJudge> all);
 
 // Fills ModelFit::on_rows and results derived from it: errors and band on training and validation
 // experiments (judged_by; in leave-one-out by `without`), remarks on rows outside the clamped

@@ -504,8 +504,12 @@ TEST(Report, ShowsAllPairsAsATriangleWithTheirShades) {
 TEST(Report, ShowsTheNoiseFloorBelowTheLawsAndSaysWhatItIs) {
   ReportSample sample = report_sample(2, 4, 50);
   sample.calibration.noise_floors = {
-      {"oracle", "validation", 8.34, 10.71, {6.68, 11.18}, {8.4, 15.2}, 16500, 30, 0, false},
-      {"within_experiments", "validation", 2.8, 3.6, {2.7, 2.9}, {3.5, 3.8}, 16500, 30, 0, true}};
+      {{8.34, 10.71, 0, {6.68, 11.18}, {8.4, 15.2}, {}, 16500, 30}, "oracle", "validation"},
+      {{2.8, 3.6, 0, {2.7, 2.9}, {3.5, 3.8}, {}, 16500, 30},
+       "within_experiments",
+       "validation",
+       0,
+       true}};
   const std::string page = report_html(sample.input());
   EXPECT_EQ(xml_fault(page), "");
   EXPECT_THAT(
