@@ -147,21 +147,12 @@ std::optional<NoiseFloor> replicate_floor(const data::Dataset& data, std::size_t
   return floor;
 }
 
-namespace {
-
 std::vector<stats::ErrorSums> scatter_in_tests(const data::Dataset& data) {
   const Rows tau = data.values("tau_R_MPa");
   std::vector<stats::ErrorSums> sums;
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
     sums.push_back(scatter_within(data.of_test(tau, e)));
   return sums;
-}
-
-} // namespace
-
-std::optional<NoiseFloor> within_floor(const data::Dataset& data, std::size_t resamples,
-                                       std::uint64_t seed) {
-  return within_floor(scatter_in_tests(data), resamples, seed);
 }
 
 std::optional<NoiseFloor> within_floor(std::vector<stats::ErrorSums> sums, std::size_t resamples,
@@ -179,9 +170,11 @@ void add_noise_floors(Calibration& calibration, const CalibrationInput& input,
       {&input.validation, "validation"}, {&input.training, "training"}};
   if (!on_other_experiments(input.judged_by)) parts = {{&input.training, "all"}};
   const auto within = [&](const data::Dataset& data, std::size_t resamples, std::uint64_t seed) {
-    if (!data.condensed) return within_floor(data, resamples, seed);
-    return within_floor(&data == &input.training ? known.training : known.validation, resamples,
-                        seed);
+    const bool training = &data == &input.training;
+    return within_floor(!data.condensed ? scatter_in_tests(data)
+                        : training      ? known.training
+                                        : known.validation,
+                        resamples, seed);
   };
   using Method =
       std::function<std::optional<NoiseFloor>(const data::Dataset&, std::size_t, std::uint64_t)>;

@@ -155,38 +155,33 @@ private:
 bool is_positive(const Expr& formula, const std::vector<Parameter>& parameters) {
   std::unordered_set<const Expr::Node*> positive;
   const auto is = [&](const Expr& e) { return positive.count(e.id()) > 0; };
-  inside_out(formula, [&](const Expr& e) {
+  const auto follows = [&](const Expr& e) { // from its operands
     const auto& a = e.operands();
-    const auto found = std::ranges::find_if(
-        parameters, [&](const Parameter& p) { return e.op() == Op::symbol && p.name == e.name(); });
-    bool yes = false;
     switch (e.op()) {
     case Op::constant:
-      yes = e.value() > 0;
-      break;
+      return e.value() > 0;
     case Op::symbol:
-      yes = e.name() == "psi" || (found != parameters.end() && found->lower > 0);
-      break;
+      return e.name() == "psi" || std::ranges::any_of(parameters, [&](const Parameter& p) {
+               return p.name == e.name() && p.lower > 0;
+             });
     case Op::exp:
-      yes = true;
-      break;
+      return true;
     case Op::sqrt:
     case Op::power:
-      yes = is(a[0]);
-      break;
+      return is(a[0]);
     case Op::maximum:
-      yes = is(a[0]) || is(a[1]);
-      break;
+      return is(a[0]) || is(a[1]);
     case Op::add:
     case Op::multiply:
     case Op::divide:
     case Op::minimum:
-      yes = is(a[0]) && is(a[1]);
-      break;
+      return is(a[0]) && is(a[1]);
     default:
-      break;
+      return false;
     }
-    if (yes) positive.insert(e.id());
+  };
+  inside_out(formula, [&](const Expr& e) {
+    if (follows(e)) positive.insert(e.id());
   });
   return is(formula);
 }

@@ -26,7 +26,7 @@ using Counts = std::vector<std::size_t>; // per axis
 
 AxisPlan plan_axis(const models::Law& law, const StateRange& range, const TableOptions& options) {
   const data::Meaning quantity = data::meaning_of(range.name);
-  const auto asked = options.axes.find(range.name);
+  const AxisOptions asked = options.axis(range.name);
   AxisPlan plan;
   plan.axis.name = range.name;
   plan.axis.unit = quantity.unit;
@@ -36,24 +36,24 @@ AxisPlan plan_axis(const models::Law& law, const StateRange& range, const TableO
   const bool plain = options.coordinates == "plain";
   plan.axis.log =
       !plain && (own == law.log_axes.end() ? quantity.log_axis : own->second) && range.low > 0;
-  if (asked != options.axes.end() && asked->second.spacing) {
-    plan.axis.log = *asked->second.spacing == "log";
+  if (asked.spacing) {
+    plan.axis.log = *asked.spacing == "log";
     plan.even = true;
     if (plan.axis.log && plain)
-      throw InputError(asked->second.place,
+      throw InputError(asked.place,
                        "table.coordinates is \"plain\", and the axis " + range.name +
                            " is asked to be logarithmic",
                        "spacing = \"linear\", or table.coordinates = \"law\"");
     if (plan.axis.log && range.low <= 0)
-      throw InputError(asked->second.place,
+      throw InputError(asked.place,
                        fmt::format("the axis {} cannot be logarithmic: its range starts at {}",
                                    range.name, range.low),
                        "spacing = \"linear\", or a range that starts above 0");
   }
   plan.axis.below = range.below.value_or(usual_below(range.name));
-  if (asked != options.axes.end() && !asked->second.outside.empty()) {
-    plan.axis.below = *find_outside(asked->second.outside.front());
-    plan.axis.above = *find_outside(asked->second.outside.back());
+  if (!asked.outside.empty()) {
+    plan.axis.below = *find_outside(asked.outside.front());
+    plan.axis.above = *find_outside(asked.outside.back());
   }
   plan.fixed = {range.low, range.high};
   if (const auto kinks = law.kinks.find(range.name); kinks != law.kinks.end())
@@ -61,8 +61,8 @@ AxisPlan plan_axis(const models::Law& law, const StateRange& range, const TableO
       if (kink > range.low && kink < range.high) plan.axis.kinks.push_back(kink);
   plan.fixed.insert(plan.fixed.end(), plan.axis.kinks.begin(), plan.axis.kinks.end());
   std::ranges::sort(plan.fixed);
-  if (asked != options.axes.end() && asked->second.nodes) {
-    plan.cells = *asked->second.nodes - 1;
+  if (asked.nodes) {
+    plan.cells = *asked.nodes - 1;
     plan.by_user = true;
   }
   return plan;

@@ -149,16 +149,15 @@ std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data
   for (std::size_t i = 0; i < columns.names().size(); ++i) {
     const std::string& name = columns.names()[i];
     const data::Quantity* quantity = data::find_quantity(name);
-    const auto found = options.axes.find(name);
-    if (found != options.axes.end()) check_outside(law, name, found->second);
-    if (quantity && found != options.axes.end() && found->second.range)
-      ranges.push_back(asked_range(*quantity, found->second, columns.range(i)));
+    const AxisOptions axis = options.axis(name);
+    check_outside(law, name, axis);
+    if (quantity && axis.range)
+      ranges.push_back(asked_range(*quantity, axis, columns.range(i)));
     else if (quantity && quantity->state)
       ranges.push_back(default_range(*quantity, columns.range(i), options));
     else
       ranges.push_back(further_range(*law.model.law, name, columns.range(i)));
-    if (found == options.axes.end() || found->second.outside.empty())
-      judge_end(ranges.back(), i, law, columns);
+    if (axis.outside.empty()) judge_end(ranges.back(), i, law, columns);
   }
   return ranges;
 }
