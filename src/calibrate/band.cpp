@@ -26,7 +26,7 @@ std::vector<double> experiment_gains(const data::Dataset& data, std::span<const 
 
 std::vector<double> gains_of_new_experiments(std::vector<double> gains, std::size_t parameters) {
   std::erase_if(gains, [](double g) { return !(g > 0) || !std::isfinite(g); });
-  std::sort(gains.begin(), gains.end());
+  std::ranges::sort(gains);
   if (gains.size() <= parameters) return {};
   const double count = static_cast<double>(gains.size());
   const double wider = std::sqrt(count / (count - static_cast<double>(parameters)));
@@ -35,11 +35,6 @@ std::vector<double> gains_of_new_experiments(std::vector<double> gains, std::siz
   for (double& gain : gains)
     gain = median * std::pow(gain / median, wider);
   return gains;
-}
-
-QuantileRange attainable_quantiles(std::size_t experiments) {
-  const double count = static_cast<double>(experiments);
-  return {1 / (count + 1), count / (count + 1)};
 }
 
 std::optional<double> gain_at_quantile(std::span<const double> gains, double quantile) {
@@ -60,14 +55,14 @@ models::Model at_quantile(const models::Model& model, double quantile, const Pla
   const auto gain = gain_at_quantile(model.experiment_gains, quantile);
   if (!gain) {
     const std::size_t experiments = model.experiment_gains.size();
-    const QuantileRange range = attainable_quantiles(experiments);
-    throw InputError(
-        place,
-        fmt::format("{} experiments do not give the quantile {} of '{}'", experiments, quantile,
-                    model.law->name),
-        experiments == 0
-            ? "calibrate this law, fixed or not, on experiments first"
-            : fmt::format("between {:.3g} and {:.3g}, or more experiments", range.low, range.high));
+    const auto count = static_cast<double>(experiments);
+    throw InputError(place,
+                     fmt::format("{} experiments do not give the quantile {} of '{}'", experiments,
+                                 quantile, model.law->name),
+                     experiments == 0
+                         ? "calibrate this law, fixed or not, on experiments first"
+                         : fmt::format("between {:.3g} and {:.3g}, or more experiments",
+                                       1 / (count + 1), count / (count + 1)));
   }
   end.gain = *gain;
   return end;

@@ -24,16 +24,9 @@ std::vector<double> experiment_gains(const data::Dataset& data, std::span<const 
 // not positive.
 std::vector<double> gains_of_new_experiments(std::vector<double> gains, std::size_t parameters);
 
-// Quantiles that this number of experiments can give: a new one lies below the k-th smallest of E
-// factors with probability k/(E+1), for any distribution (Wilks 1941).
-struct QuantileRange {
-  double low = 1;
-  double high = 0;
-};
-QuantileRange attainable_quantiles(std::size_t experiments);
-
 // Factor that a share `quantile` of new experiments stays below, interpolated between order
-// statistics linearly in the logarithm; none with too few experiments.
+// statistics linearly in the logarithm; none with too few experiments. A new experiment lies below
+// the k-th smallest of E factors with probability k/(E+1), for any distribution (Wilks 1941).
 std::optional<double> gain_at_quantile(std::span<const double> gains, double quantile);
 
 // Returns the law at a quantile of the experiments; 0.5 is the law itself. Throws InputError (at
@@ -49,7 +42,7 @@ struct BandCheck {
 };
 BandCheck check_band(const models::Model& model, std::span<const double> predicted,
                      const data::Dataset& data);
-// The same from the experiments' own factors.
-BandCheck check_band(const models::Model& model, std::span<const double> gains);
+// The same from the experiments' own factors; without any, the ends of the band alone.
+BandCheck check_band(const models::Model& model, std::span<const double> gains = {});
 
 } // namespace frictab::calibrate

@@ -18,14 +18,14 @@ struct RowsBeyond {
   std::map<std::string, std::pair<std::size_t, std::size_t>> sides; // below, above, by input
   std::size_t any = 0, rows = 0;
 
-  // Adds the rows of a dataset. `names` are those of the columns.
-  void add(const models::Law& law, const std::vector<std::string>& names,
-           const InputColumns& columns, const data::Dataset& data);
+  // Adds the rows of a dataset.
+  void add(const models::Law& law, const InputColumns& columns, const data::Dataset& data);
   void add(const RowsBeyond& more);
-  // Formats the counts: "12 of 4,000 training rows lie beyond the ends at which the law is held:
-  // v_rel_mm_s above 200 (12)". Empty if no row lies outside, or the law does not clamp. `data`:
+  // Adds a remark such as "12 of 4,000 training rows lie beyond the ends at which the law is held:
+  // v_rel_mm_s above 200 (12)"; none if no row lies outside, or the law does not clamp. `rows_of`:
   // name of the rows.
-  std::vector<std::string> told(const models::Law& law, const std::string& data) const;
+  void add_remark(std::vector<std::string>& remarks, const models::Law& law,
+                  const char* rows_of) const;
 };
 
 } // namespace frictab::calibrate

@@ -1,6 +1,5 @@
 // Calibration stage: laws that the columns allow, their parameters, their errors, the ranking.
 #include <algorithm>
-#include <chrono>
 #include <set>
 
 #include <fmt/format.h>
@@ -11,7 +10,6 @@
 #include "calibrate/comparison.h"
 #include "calibrate/conditional.h"
 #include "calibrate/cross_validation.h"
-#include "calibrate/determined.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/fit_law.h"
 #include "calibrate/folds.h"
@@ -43,7 +41,7 @@ std::size_t most_kin(const CalibrationInput& input) {
   std::vector<std::size_t> size(units.count, 0);
   for (const std::size_t unit : units.of)
     ++size[unit];
-  return *std::max_element(size.begin(), size.end());
+  return *std::ranges::max_element(size);
 }
 
 // Whether some state varies without each experiment: a state may vary in a single experiment only,
@@ -71,7 +69,7 @@ std::vector<std::string> missing_for(const models::Law& law, const models::Conve
   }
   for (const Dataset* data : {&input.training, &input.validation})
     for (const std::string& name : missing_inputs(needed, *data))
-      if (std::find(missing.begin(), missing.end(), name) == missing.end()) missing.push_back(name);
+      if (std::ranges::find(missing, name) == missing.end()) missing.push_back(name);
   return missing;
 }
 
@@ -115,7 +113,7 @@ void report_missing(const models::Law& law, const std::vector<std::string>& miss
 // Whether a law is a constant from the literature for comparison only, i.e. not named by the job.
 bool is_reference(const models::Law& law, const ModelOptions& options) {
   return law.calibrated == Calibrated::fixed && models::is_registered(law) &&
-         std::find(options.use.begin(), options.use.end(), law.name) == options.use.end();
+         std::ranges::find(options.use, law.name) == options.use.end();
 }
 
 struct Selection {
@@ -128,7 +126,7 @@ Selection select_laws(const CalibrationInput& input, const models::Conventions& 
   FaultList faults;
   const auto& use = input.models.use;
   for (const models::Law* law : input.models.laws.all()) {
-    const bool asked = std::find(use.begin(), use.end(), law->name) != use.end();
+    const bool asked = std::ranges::find(use, law->name) != use.end();
     if (!use.empty() && !asked) continue;
     const auto missing = missing_for(*law, conventions, input);
     check_parameters(*law, input.training, input.models.place, faults);
@@ -151,27 +149,23 @@ Metrics errors_on(const Dataset& data, const std::vector<double>& predicted,
   return metrics(data, predicted, options.bootstrap, options.seed);
 }
 
-void remark_rows_outside_range(ModelFit& fit, const models::AssembledLaw& law,
-                               const InputColumns& columns, const CalibrationInput& input) {
-  const auto add = [&](const InputColumns& of, const Dataset& data, const char* called) {
-    RowsBeyond beyond;
-    beyond.add(*law.model.law, law.inputs, of, data);
-    for (std::string& remark : beyond.told(*law.model.law, called))
-      fit.remarks.push_back(std::move(remark));
-  };
-  if (law.model.law->clamped_inputs.empty()) return;
-  add(columns, input.training, "training");
-  if (on_other_experiments(input.judged_by))
-    add(input_columns(law, law.inputs, input.validation), input.validation, "validation");
+void remark_rows_beyond(ModelFit& fit, const InputColumns& columns, const Dataset& data,
+                        const char* rows_of) {
+  RowsBeyond beyond;
+  beyond.add(*fit.model.law, columns, data);
+  beyond.add_remark(fit.remarks, *fit.model.law, rows_of);
 }
 
 // Judges the law on the rows in memory; for condensed data judge_on_rows does this.
-void judge_fit(ModelFit& fit, const models::AssembledLaw& law, const Predicted& trained,
+void judge_fit(ModelFit& fit, const models::AssembledLaw& law, const Predicted& fitted,
                const CalibrationInput& input) {
-  remark_rows_outside_range(fit, law, trained.columns, input);
-  fit.training = errors_on(input.training, trained.tau_MPa, input.options);
+  check_stress(fit.model.law->name, fitted, input.training);
+  if (input.training.condensed) return;
+  remark_rows_beyond(fit, fitted.columns, input.training, "training");
+  fit.training = errors_on(input.training, fitted.tau_MPa, input.options);
   if (!on_other_experiments(input.judged_by)) return;
   const Predicted unseen = predict_with_columns(law, law.inputs, input.validation);
+  remark_rows_beyond(fit, unseen.columns, input.validation, "validation");
   check_stress(law.model.law->name, unseen, input.validation);
   fit.validation = errors_on(input.validation, unseen.tau_MPa, input.options);
   fit.band = check_band(fit.model, unseen.tau_MPa, input.validation);
@@ -179,16 +173,9 @@ void judge_fit(ModelFit& fit, const models::AssembledLaw& law, const Predicted& 
 
 ModelFit calibrated(const models::Law& law, const models::Conventions& conventions,
                     const CalibrationInput& input) {
-  const auto begin = std::chrono::steady_clock::now();
-  ModelFit fit = fit_law(law, conventions, input.training, input.options);
-  const models::AssembledLaw assembled(fit.model);
-  const Predicted trained = predict_with_columns(assembled, assembled.inputs, input.training);
-  check_stress(law.name, trained, input.training);
-  fit.data_range = trained.columns.ranges();
-  add_determination(fit, trained.columns, input.training.experiments.size());
-  if (!input.training.condensed) judge_fit(fit, assembled, trained, input);
-  fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return fit;
+  return fit_and_judge(law, conventions, input.training, input.options,
+                       [&](ModelFit& fit, const models::AssembledLaw& assembled,
+                           const Predicted& fitted) { judge_fit(fit, assembled, fitted, input); });
 }
 
 void judge_by_leaving_out(std::vector<ModelFit>& fits, const std::vector<const models::Law*>& laws,
@@ -197,12 +184,11 @@ void judge_by_leaving_out(std::vector<ModelFit>& fits, const std::vector<const m
   CrossValidation cross =
       cross_validate(laws, conventions, input.training, input.options, units.of);
   for (std::size_t i = 0; i < fits.size(); ++i) {
-    fits[i].validation =
-        metrics(sums_of(cross.errors[i]), input.options.bootstrap, input.options.seed);
+    fits[i].validation = metrics_of(cross.errors[i], input.options);
     fits[i].unseen = std::move(cross.errors[i]);
     for (const std::size_t unit : units.of)
       fits[i].without.push_back(cross.without[i][unit]);
-    fits[i].band = check_band(fits[i].model, {}, input.training.subset({}));
+    fits[i].band = check_band(fits[i].model);
     fits[i].band.inside = cross.bands[i].inside;
     fits[i].band.experiments = cross.bands[i].experiments;
   }
@@ -212,7 +198,7 @@ void judge_by_the_fit(std::vector<ModelFit>& fits, const CalibrationInput& input
   for (ModelFit& fit : fits) {
     fit.validation = fit.training;
     fit.unseen = experiment_errors(fit.model, input.training, false);
-    fit.band = check_band(fit.model, {}, input.training.subset({}));
+    fit.band = check_band(fit.model);
   }
 }
 
@@ -252,7 +238,6 @@ void add_other_splits(Calibration& calibration, const models::Conventions& conve
     for (ModelFit& fit : calibration.fits)
       for (std::size_t i = 0; i < laws.size(); ++i)
         if (laws[i]->name == fit.model.law->name) fit.over_all = cross.errors[i];
-    add_recommended(calibration, input);
   }
   add_split_shares(calibration.choice, errors, held, input.options.seed);
 }
@@ -322,13 +307,12 @@ Calibration calibrate(const CalibrationInput& input) {
   for (ModelFit& fit : calibration.fits)
     fits.push_back(&fit);
   const ScatterWithin scatter = judge_on_rows(fits, input);
-  std::stable_sort(calibration.fits.begin(), calibration.fits.end(),
-                   [](const ModelFit& a, const ModelFit& b) {
-                     return a.validation.mae_MPa < b.validation.mae_MPa;
-                   });
+  std::ranges::stable_sort(calibration.fits, {},
+                           [](const ModelFit& fit) { return fit.validation.mae_MPa; });
   add_comparisons(calibration, input);
   add_influence(calibration, conventions, input);
   add_other_splits(calibration, conventions, input);
+  add_recommended(calibration, input);
   add_noise_floors(calibration, input, scatter);
   add_conditional(calibration, input);
   if (input.options.deliver == Deliver::all && on_other_experiments(input.judged_by))
@@ -343,8 +327,7 @@ std::vector<double> predict(const models::Model& model, const Dataset& data) {
 
 bool is_synthetic(const Dataset& data) {
   const data::Column* origin = data.find(data::origin_column);
-  return origin &&
-         std::any_of(origin->levels.begin(), origin->levels.end(), [](const std::string& level) {
+  return origin && std::ranges::any_of(origin->levels, [](const std::string& level) {
            return level.find("synthetic") != std::string::npos;
          });
 }

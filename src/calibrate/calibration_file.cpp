@@ -206,7 +206,7 @@ int revision_of(const models::Model& model) {
   if (!models::is_registered(*model.law)) return 0;
   const std::string convention = models::shear_yield_name(model.conventions.shear_yield);
   const std::vector<std::string>& revised = model.law->revisions;
-  return static_cast<int>(std::count(revised.begin(), revised.end(), convention));
+  return static_cast<int>(std::ranges::count(revised, convention));
 }
 
 // Throws InputError if the law's formula has changed, because parameters are valid only with the

@@ -2,6 +2,7 @@
 #include "calibrate/choice.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -69,15 +70,15 @@ std::size_t best_of(Laws laws, std::span<const double> times) {
   std::vector<double> mae;
   for (const LawErrors& law : laws)
     mae.push_back(mae_of(law, times));
-  const double least = *std::min_element(mae.begin(), mae.end());
-  const auto first = std::find_if(mae.begin(), mae.end(),
-                                  [&](double one) { return one <= least * (1 + same_error); });
+  const double least = *std::ranges::min_element(mae);
+  const auto first =
+      std::ranges::find_if(mae, [&](double one) { return one <= least * (1 + same_error); });
   return static_cast<std::size_t>(first - mae.begin());
 }
 
 RepeatedChoice repeat_choice(Laws laws, const Rule& rule, std::size_t resamples,
                              std::uint64_t seed) {
-  RepeatedChoice out{std::vector<std::size_t>(laws.size()), 0, {}};
+  RepeatedChoice out{std::vector<std::size_t>(laws.size()), {}};
   std::vector<double> times(laws.front().sums.size());
   LeftOutErrors left_out(times.size());
   for (std::size_t b = 0; b < resamples; ++b) {
@@ -87,8 +88,7 @@ RepeatedChoice repeat_choice(Laws laws, const Rule& rule, std::size_t resamples,
     ++out.wins[winner];
   }
   const Metrics expected = metrics(left_out.sums(laws.front().sums), resamples, seed);
-  out.expected_mae_MPa = expected.mae_MPa;
-  out.interval = expected.mae_interval;
+  out.expected = {expected.mae_MPa, expected.mae_interval};
   return out;
 }
 
@@ -99,7 +99,7 @@ Choice choose_again(Laws laws, std::size_t resamples, std::uint64_t seed) {
   choice.mae_MPa = mae_of(laws.front(), std::vector<double>(laws.front().sums.size(), 1.0));
   const RepeatedChoice again = repeat_choice(
       laws, [&](std::span<const double> times) { return best_of(laws, times); }, resamples, seed);
-  choice.expected_mae_MPa = again.expected_mae_MPa;
+  choice.expected_mae_MPa = again.expected.mae_MPa;
   choice.best_in = shares_of(laws, again.wins);
   choice.draws = resamples;
   return choice;
@@ -125,16 +125,15 @@ void add_split_shares(Choice& choice, Laws laws, std::size_t held, std::uint64_t
 std::string share_sentence(const Choice& choice) {
   constexpr std::size_t most = 4;
   std::vector<Choice::Share> shares = choice.best_in;
-  std::stable_sort(shares.begin(), shares.end(),
-                   [](const auto& a, const auto& b) { return a.share > b.share; });
+  std::ranges::stable_sort(shares, std::greater{}, &Choice::Share::share);
   std::vector<std::string> named;
   for (const Choice::Share& one : shares)
     if (one.share >= 0.005 && named.size() < most)
       named.push_back(
           fmt::format("{:.0f} % {}{}", 100 * one.share, named.empty() ? "choose " : "", one.law));
   if (named.empty()) return "";
-  const bool all = std::any_of(choice.best_in.begin(), choice.best_in.end(),
-                               [&](const Choice::Share& one) { return one.law == choice.law; });
+  const bool all = std::ranges::any_of(
+      choice.best_in, [&](const Choice::Share& one) { return one.law == choice.law; });
   return fmt::format("of {} {} {}{}", thousands(choice.draws),
                      choice.splits ? "other splits of all tests" : "resamples of the tests",
                      join(named, ", "),

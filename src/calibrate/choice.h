@@ -19,8 +19,7 @@ std::size_t best_of(std::span<const LawErrors> laws, std::span<const double> tim
 
 struct RepeatedChoice {
   std::vector<std::size_t> wins; // per law
-  double expected_mae_MPa = 0;   // on new tests, of a law chosen by this rule
-  Interval interval;             // 95 %, over tests
+  Expected expected;             // of a law chosen by this rule
 };
 
 // Repeats a choice on resampled tests. `laws` have errors of the same unseen experiments, which are

@@ -11,7 +11,6 @@
 #include "calibrate/choice.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/noise_floor.h"
-#include "calibrate/recommended.h"
 #include "core/no_value.h"
 #include "core/parallel.h"
 #include "core/text.h"
@@ -26,51 +25,7 @@ constexpr double rounding = 1e-12; // of the sum of two errors
 // Minimum ratio of a resample's standard error to that of the data: a resample with hardly any of
 // the few experiments in which two laws differ would otherwise claim an arbitrarily precise
 // difference.
-constexpr double least_error = 0.1;
-
-// One measure of error of all laws in one resample.
-struct Estimates {
-  std::vector<double> value;     // per law
-  std::vector<double> influence; // law-major, one entry per experiment
-};
-
-struct Problem {
-  std::vector<std::vector<double>> x; // per law, one entry per experiment
-  std::vector<double> rows;
-  stats::Measure measure;
-
-  std::size_t laws() const { return x.size(); }
-  std::size_t experiments() const { return rows.size(); }
-
-  Estimates at(std::span<const double> times) const {
-    Estimates all{std::vector<double>(laws()), std::vector<double>(laws() * experiments())};
-    for (std::size_t l = 0; l < laws(); ++l)
-      all.value[l] = stats::ratio_of(x[l], rows, times, measure,
-                                     {all.influence.data() + l * experiments(), experiments()});
-    return all;
-  }
-
-  // Standard error of the difference between laws i and j.
-  double error_of(const Estimates& all, std::size_t i, std::size_t j,
-                  std::span<const double> times) const {
-    std::vector<double> difference(experiments());
-    for (std::size_t e = 0; e < experiments(); ++e)
-      difference[e] = all.influence[j * experiments() + e] - all.influence[i * experiments() + e];
-    return stats::standard_error(difference, times);
-  }
-};
-
-Problem problem_of(std::span<const LawErrors> laws, stats::Measure measure) {
-  Problem problem{{}, {}, measure};
-  for (const stats::ErrorSums& one : laws.front().sums)
-    problem.rows.push_back(one.rows);
-  for (const LawErrors& law : laws) {
-    problem.x.emplace_back();
-    for (const stats::ErrorSums& one : law.sums)
-      problem.x.back().push_back(measure == stats::Measure::mean ? one.absolute : one.square);
-  }
-  return problem;
-}
+constexpr double least_error_ratio = 0.1;
 
 // A difference in standard errors; `scale` is the sum of the two errors. A difference without
 // scatter is infinite; one of at most `least` of the scale is 0.
@@ -91,25 +46,26 @@ struct Studentised {
   std::vector<std::vector<double>> again;   // per pair, one entry per resample
 };
 
-void fill_pairs(const Problem& p, const Estimates& now, const Estimates& all,
-                std::span<const double> times, Studentised& s, std::size_t b) {
+void fill_pairs(const PairedErrors& p, const PairedErrors::Estimates& now,
+                const PairedErrors::Estimates& all, std::span<const double> times, Studentised& s,
+                std::size_t b) {
   for (std::size_t i = 0, pair = 0; i < p.laws(); ++i)
     for (std::size_t j = i + 1; j < p.laws(); ++j, ++pair)
-      s.again[pair][b] =
-          studentised(all.value[j] - all.value[i] - s.difference[pair],
-                      std::max(p.error_of(all, i, j, times), least_error * s.error[pair]),
-                      now.value[i] + now.value[j], rounding);
+      s.again[pair][b] = studentised(
+          all.value[j] - all.value[i] - s.difference[pair],
+          std::max(p.error_of_difference(all, i, j, times), least_error_ratio * s.error[pair]),
+          now.value[i] + now.value[j], rounding);
 }
 
-Studentised studentise(const Problem& p, std::size_t resamples, std::uint64_t seed) {
+Studentised studentise(const PairedErrors& p, std::size_t resamples, std::uint64_t seed) {
   const std::vector<double> once(p.experiments(), 1.0);
-  const Estimates now = p.at(once);
+  const PairedErrors::Estimates now = p.at(once);
   Studentised s;
   s.value = now.value;
   for (std::size_t i = 0; i < p.laws(); ++i)
     for (std::size_t j = i + 1; j < p.laws(); ++j) {
       s.difference.push_back(now.value[j] - now.value[i]);
-      s.error.push_back(p.error_of(now, i, j, once));
+      s.error.push_back(p.error_of_difference(now, i, j, once));
       s.t.push_back(studentised(s.difference.back(), s.error.back(), now.value[i] + now.value[j],
                                 same_error / 2));
     }
@@ -141,7 +97,7 @@ Difference difference_of(const Studentised& s, std::size_t pair) {
   for (const double t : s.again[pair])
     size.push_back(std::abs(t));
   const double now = std::abs(s.t[pair]);
-  const auto beyond = std::count_if(size.begin(), size.end(), [&](double t) { return t >= now; });
+  const auto beyond = std::ranges::count_if(size, [&](double t) { return t >= now; });
   Difference d;
   d.value_MPa = s.difference[pair];
   d.p_value = share_beyond(static_cast<std::size_t>(beyond), size.size());
@@ -163,9 +119,9 @@ PairRanks ranks_of(const Studentised& s, std::size_t pair) {
   for (const double t : s.again[pair])
     size.push_back(std::abs(t));
   std::vector<double> sorted = size;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   for (double& one : size) {
-    const auto below = std::lower_bound(sorted.begin(), sorted.end(), one) - sorted.begin();
+    const auto below = std::ranges::lower_bound(sorted, one) - sorted.begin();
     one = static_cast<double>(sorted.size() - static_cast<std::size_t>(below)) /
           static_cast<double>(sorted.size());
   }
@@ -186,7 +142,7 @@ double best_p_value(const Studentised& s, const std::vector<PairRanks>& ranks,
     for (std::size_t b = 0; b < resamples; ++b)
       least[b] = std::min(least[b], ranks[pair].again[b]);
   }
-  const auto beyond = std::count_if(least.begin(), least.end(), [&](double p) { return p <= now; });
+  const auto beyond = std::ranges::count_if(least, [&](double p) { return p <= now; });
   return share_beyond(static_cast<std::size_t>(beyond), resamples);
 }
 
@@ -208,8 +164,8 @@ std::vector<double> best_p_values_of(const Studentised& s, std::span<const LawEr
   std::vector<std::size_t> worst_first;
   for (std::size_t i = 0; i < laws.size(); ++i)
     if (laws[i].candidate) worst_first.push_back(i);
-  std::stable_sort(worst_first.begin(), worst_first.end(),
-                   [&](std::size_t a, std::size_t b) { return s.value[a] > s.value[b]; });
+  std::ranges::stable_sort(worst_first,
+                           [&](std::size_t a, std::size_t b) { return s.value[a] > s.value[b]; });
   double at_least = 0;
   for (const std::size_t i : worst_first) {
     p[i] = std::max(at_least, best_p_value(s, ranks, laws, i));
@@ -228,13 +184,41 @@ std::vector<std::string> candidates_of(const Comparisons& c) {
 
 } // namespace
 
+PairedErrors::PairedErrors(std::span<const LawErrors> laws, stats::Measure measure)
+    : measure_(measure) {
+  for (const stats::ErrorSums& one : laws.front().sums)
+    rows_.push_back(one.rows);
+  for (const LawErrors& law : laws) {
+    x_.emplace_back();
+    for (const stats::ErrorSums& one : law.sums)
+      x_.back().push_back(measure == stats::Measure::mean ? one.absolute : one.square);
+  }
+}
+
+PairedErrors::Estimates PairedErrors::at(std::span<const double> times) const {
+  Estimates all{std::vector<double>(laws()), std::vector<double>(laws() * experiments())};
+  for (std::size_t l = 0; l < laws(); ++l)
+    all.value[l] =
+        stats::ratio_of(x_[l], rows_, times, measure_,
+                        std::span(all.influence).subspan(l * experiments(), experiments()));
+  return all;
+}
+
+double PairedErrors::error_of_difference(const Estimates& all, std::size_t i, std::size_t j,
+                                         std::span<const double> times) const {
+  std::vector<double> difference(experiments());
+  for (std::size_t e = 0; e < experiments(); ++e)
+    difference[e] = all.influence[j * experiments() + e] - all.influence[i * experiments() + e];
+  return stats::standard_error(difference, times);
+}
+
 Comparisons compare(std::span<const LawErrors> laws, std::size_t resamples, std::uint64_t seed) {
   Comparisons result;
   if (laws.empty() || laws.front().sums.size() < 2 || resamples == 0) return result;
   result.n_experiments = laws.front().sums.size();
   result.resamples = std::min(resamples, most_resamples);
-  const auto mae = studentise(problem_of(laws, stats::Measure::mean), result.resamples, seed);
-  const auto rmse = studentise(problem_of(laws, stats::Measure::root_mean), result.resamples, seed);
+  const auto mae = studentise({laws, stats::Measure::mean}, result.resamples, seed);
+  const auto rmse = studentise({laws, stats::Measure::root_mean}, result.resamples, seed);
   result.best_p_values = best_p_values_of(mae, laws);
   for (std::size_t i = 0, pair = 0; i < laws.size(); ++i) {
     result.laws.push_back(laws[i].law);
@@ -257,7 +241,7 @@ std::vector<std::string> as_good_as_first(const Comparisons& comparisons) {
   std::vector<std::string> names;
   for (const Comparison& pair : comparisons.pairs)
     if (pair.law == laws.front() && !pair.mae.distinguishable() &&
-        std::find(laws.begin(), laws.end(), pair.other) != laws.end())
+        std::ranges::find(laws, pair.other) != laws.end())
       names.push_back(pair.other);
   return names;
 }
@@ -296,7 +280,6 @@ void add_comparisons(Calibration& calibration, const CalibrationInput& input) {
   const Choice before = std::move(calibration.choice);
   std::erase_if(laws, [](const LawErrors& law) { return !law.candidate; });
   calibration.choice = choose_again(laws, input.options.bootstrap, input.options.seed);
-  add_recommended(calibration, input);
   if (!before.splits) return;
   calibration.choice.best_in = before.best_in; // traced laws are not fitted to other splits
   calibration.choice.splits = true;

@@ -26,6 +26,28 @@ struct LawErrors {
   bool candidate = true;
 };
 
+// One measure of error of several laws, on experiments that count `times` each.
+class PairedErrors {
+public:
+  PairedErrors(std::span<const LawErrors> laws, stats::Measure measure);
+
+  struct Estimates {
+    std::vector<double> value;     // per law
+    std::vector<double> influence; // law-major, one entry per experiment
+  };
+  std::size_t laws() const { return x_.size(); }
+  std::size_t experiments() const { return rows_.size(); }
+  Estimates at(std::span<const double> times) const;
+  // Standard error of the difference between laws i and j, paired by experiment.
+  double error_of_difference(const Estimates& all, std::size_t i, std::size_t j,
+                             std::span<const double> times) const;
+
+private:
+  std::vector<std::vector<double>> x_; // per law, one entry per experiment
+  std::vector<double> rows_;
+  stats::Measure measure_;
+};
+
 // Compares all pairs of laws, in the order given. Per pair: symmetric bootstrap-t over whole
 // experiments, both laws on the same resamples; interval and p-value are those of that one pair.
 //
@@ -57,8 +79,8 @@ std::string pairwise_sentence(const Comparisons& comparisons);
 // "not ruled out as best (95 %, 14 laws compared together): 5 of 14", with their names if `named`.
 std::string family_sentence(const Comparisons& comparisons, bool named);
 
-// Fills calibration.comparisons, .choice and .recommended for its ranked laws on the validation
-// experiments; shares of other splits stay unchanged.
+// Fills calibration.comparisons and .choice for its ranked laws on the validation experiments;
+// shares of other splits stay unchanged.
 void add_comparisons(Calibration& calibration, const CalibrationInput& input);
 
 } // namespace frictab::calibrate

@@ -24,13 +24,16 @@ namespace {
 
 using Rows = std::span<const double>;
 
-struct Range {
-  std::size_t first, count;
-  Rows of(Rows column) const { return column.subspan(first, count); }
+// Rows of one experiment; `weights`: number of rows each represents, empty: 1.
+struct TestRows {
+  Rows s_mm, measured, predicted, weights;
+  double weight(std::size_t i) const { return weights.empty() ? 1 : weights[i]; }
 };
 
-Range range_of(const Dataset& data, std::size_t e) {
-  return {data.first_row[e], data.first_row[e + 1] - data.first_row[e]};
+TestRows rows_of(const Dataset& data, std::size_t e, Rows predicted) {
+  const Rows weights = data.row_weights();
+  return {data.of_test(data.values("s_mm"), e), data.of_test(data.values("tau_R_MPa"), e),
+          data.of_test(predicted, e), weights.empty() ? weights : data.of_test(weights, e)};
 }
 
 // sum measured predicted / sum predicted^2 over the rows on one side of x; 0 without rows.
@@ -44,33 +47,29 @@ double gain_of(const TestRows& rows, double x_mm, bool beyond) {
   return square > 0 ? product / square : 0;
 }
 
+FirstPart first_part(const TestRows& rows, double x_mm) {
+  FirstPart part;
+  for (std::size_t i = 0; i < rows.s_mm.size(); ++i)
+    if (rows.s_mm[i] <= x_mm) part.rows += static_cast<std::size_t>(rows.weight(i));
+  const double gain = gain_of(rows, x_mm, false);
+  if (gain > 0) part.gain = gain;
+  return part;
+}
+
 // Errors on the rows beyond x of every experiment that has some.
 struct Rest {
   std::vector<stats::ErrorSums> plain, gained;
 };
 
-void add_row(stats::ErrorSums& sums, const Dataset& data, std::size_t row, double predicted) {
-  const double r = data.values("tau_R_MPa")[row] - predicted;
-  stats::add_block(sums, r, data.row_weight(row),
-                   data.condensed ? data.condensed->within_MPa2[row] : 0.0);
-}
-
-TestRows rows_of(const Dataset& data, std::size_t e, Rows predicted) {
-  const Range r = range_of(data, e);
-  const Rows weights = data.row_weights();
-  return {r.of(data.values("s_mm")), r.of(data.values("tau_R_MPa")), r.of(predicted),
-          weights.empty() ? weights : r.of(weights)};
-}
-
 Rest rest_of(const Dataset& data, Rows plain, Rows gained, double x_mm) {
-  const Rows s = data.values("s_mm");
+  const Rows s = data.values("s_mm"), tau = data.values("tau_R_MPa");
   Rest rest;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     stats::ErrorSums without, with;
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
       if (!(s[i] > x_mm)) continue;
-      add_row(without, data, i, plain[i]);
-      add_row(with, data, i, gained[i]);
+      stats::add_row(without, data, i, tau[i] - plain[i]);
+      stats::add_row(with, data, i, tau[i] - gained[i]);
     }
     if (without.rows == 0) continue;
     rest.plain.push_back(without);
@@ -140,12 +139,12 @@ ConditionalFit fit_of(const ModelFit& judged, const CalibrationInput& input, dou
 
 double longest(const Dataset& data) {
   const Rows s = data.values("s_mm");
-  return s.empty() ? 0 : *std::max_element(s.begin(), s.end());
+  return s.empty() ? 0 : *std::ranges::max_element(s);
 }
 
 bool has_both_parts(const Dataset& data, std::size_t e, double x_mm) {
-  const Rows s = range_of(data, e).of(data.values("s_mm"));
-  const auto [low, high] = std::minmax_element(s.begin(), s.end());
+  const Rows s = data.of_test(data.values("s_mm"), e);
+  const auto [low, high] = std::ranges::minmax_element(s);
   return *low <= x_mm && *high > x_mm;
 }
 
@@ -158,15 +157,6 @@ double GainPrior::trust(std::size_t rows) const {
 
 double GainPrior::gain(const FirstPart& first) const {
   return std::max(0.0, usual_rest + trust(first.rows) * (first.gain - usual_first));
-}
-
-FirstPart first_part(const TestRows& rows, double x_mm) {
-  FirstPart part;
-  for (std::size_t i = 0; i < rows.s_mm.size(); ++i)
-    if (rows.s_mm[i] <= x_mm) part.rows += static_cast<std::size_t>(rows.weight(i));
-  const double gain = gain_of(rows, x_mm, false);
-  if (gain > 0) part.gain = gain;
-  return part;
 }
 
 GainPrior gain_prior(const Dataset& training, Rows predicted, double x_mm) {
@@ -200,10 +190,8 @@ std::vector<double> conditioned_predictions(const Dataset& data, Rows predicted,
                                             const GainPrior& prior, double x_mm) {
   std::vector<double> out(predicted.begin(), predicted.end());
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-    const Range r = range_of(data, e);
-    const FirstPart first = first_part(rows_of(data, e, predicted), x_mm);
-    const double gain = prior.gain(first);
-    for (std::size_t i = r.first; i < r.first + r.count; ++i) {
+    const double gain = prior.gain(first_part(rows_of(data, e, predicted), x_mm));
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
       out[i] *= gain;
       if (!limit.empty()) out[i] = std::min(out[i], limit[i]);
     }
@@ -253,8 +241,8 @@ void add_conditional(Calibration& calibration, const CalibrationInput& input) {
   const Rows s = input.validation.values("s_mm");
   c.n_experiments = input.validation.experiments.size();
   for (std::size_t e = 0; e < c.n_experiments; ++e) {
-    const Rows own = range_of(input.validation, e).of(s);
-    const auto [low, high] = std::minmax_element(own.begin(), own.end());
+    const Rows own = input.validation.of_test(s, e);
+    const auto [low, high] = std::ranges::minmax_element(own);
     c.n_without_start += !(*low <= c.condition_on_mm);
     c.n_without_rest += !(*high > c.condition_on_mm);
   }
@@ -267,10 +255,8 @@ void add_conditional(Calibration& calibration, const CalibrationInput& input) {
     c.laws[i] = fit_of(calibration.fits[i], input, c.condition_on_mm);
     progress.tick();
   });
-  std::stable_sort(c.laws.begin(), c.laws.end(),
-                   [](const ConditionalFit& a, const ConditionalFit& b) {
-                     return a.conditional.mae_MPa < b.conditional.mae_MPa;
-                   });
+  std::ranges::stable_sort(c.laws, {},
+                           [](const ConditionalFit& fit) { return fit.conditional.mae_MPa; });
 }
 
 } // namespace frictab::calibrate

@@ -35,12 +35,6 @@ struct GainPrior {
   double gain(const FirstPart& first) const;
 };
 
-// Rows of one experiment; `weights`: number of rows each represents, empty: 1.
-struct TestRows {
-  std::span<const double> s_mm, measured, predicted, weights = {};
-  double weight(std::size_t i) const { return weights.empty() ? 1 : weights[i]; }
-};
-FirstPart first_part(const TestRows& rows, double x_mm);
 GainPrior gain_prior(const data::Dataset& training, std::span<const double> predicted, double x_mm);
 
 // Multiplies predictions by the gain of their experiment's rest, clamped to tau_R <= `limit` (per

@@ -5,6 +5,7 @@
 
 #include "calibrate/experiment_errors.h"
 #include "calibrate/fit_law.h"
+#include "calibrate/folds.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "data/recordings.h"
@@ -14,17 +15,6 @@ namespace frictab::calibrate {
 using data::Dataset;
 
 namespace {
-
-struct Parts {
-  std::vector<std::size_t> in, out; // experiments
-};
-
-Parts parts_of(std::span<const std::size_t> fold_of, std::size_t fold) {
-  Parts parts;
-  for (std::size_t e = 0; e < fold_of.size(); ++e)
-    (fold_of[e] == fold ? parts.out : parts.in).push_back(e);
-  return parts;
-}
 
 BandCheck band_of(const models::Model& model, const Dataset& data) {
   BandCheck check = check_band(model, predict(model, data), data);
@@ -52,14 +42,14 @@ CrossValidation cross_validate(std::span<const models::Law* const> laws,
                                const models::Conventions& conventions, const Dataset& data,
                                const CalibrationOptions& options,
                                std::span<const std::size_t> fold_of) {
-  const std::size_t folds = *std::max_element(fold_of.begin(), fold_of.end()) + 1;
+  const std::size_t folds = *std::ranges::max_element(fold_of) + 1;
   CrossValidation cross;
   cross.without.assign(laws.size(), std::vector<models::Model>(folds));
   cross.errors.assign(laws.size(), std::vector<ExperimentError>(fold_of.size()));
   std::vector<std::vector<BandCheck>> bands(laws.size(), std::vector<BandCheck>(folds));
   Progress progress("judging laws", folds);
   parallel_for(folds, [&](std::size_t f) {
-    const Parts parts = parts_of(fold_of, f);
+    const FoldParts parts = parts_of(fold_of, f);
     const Dataset in = data.subset(parts.in), out = data.subset(parts.out);
     for (std::size_t l = 0; l < laws.size(); ++l) {
       const models::Model model = fit_law(*laws[l], conventions, in, options).model;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "calibrate/stress_error.h"
 #include "core/text.h"
 #include "data/meaning.h"
+#include "data/middle.h"
 
 namespace frictab::calibrate {
 
@@ -21,14 +23,15 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double tied = 0.95;   // |correlation| of two parameters
-constexpr double its_own = 0.9; // |correlation| of a parameter with the change of the stress
+constexpr double tied_correlation = 0.95; // |correlation| of two parameters
+constexpr double cause_correlation =
+    0.9; // |correlation| of a parameter with the change of the stress
 // Change of ln tau over a doubling. Literature exponents listed here change it by at most 0.28
 // (wang_soap, T^-0.403; less for filzek_ludwig and wzl), so an interval that is wider on both sides
 // cannot distinguish between them.
 constexpr double sensible_change = 0.3;
-constexpr double step_K = 50;       // for a temperature, instead of doubling
-constexpr double of_bounds = 0.5;   // share of the bounds that an interval may cover
+constexpr double temperature_step_K = 50;    // for a temperature, instead of doubling
+constexpr double wide_share_of_bounds = 0.5; // share of the bounds that an interval may cover
 constexpr double level_share = 0.5; // relative change of a level's derivative over the data
 
 // A state that the tests could be run at, and its range in the data.
@@ -40,7 +43,8 @@ struct Reach {
   double low, middle, high;
 
   double stepped(bool above) const {
-    if (kelvins) return above ? middle + step_K : std::max(middle - step_K, lowest);
+    if (kelvins)
+      return above ? middle + temperature_step_K : std::max(middle - temperature_step_K, lowest);
     return above ? 2 * middle : std::max(0.5 * middle, lowest);
   }
   // Value for a test on one side of the data, far enough from their middle to be informative.
@@ -88,9 +92,7 @@ public:
 private:
   std::size_t size() const { return law_.parameters.size(); }
   const std::string& name(std::size_t p) const { return law_.parameters[p].name; }
-  double correlation(std::size_t a, std::size_t b) const {
-    return u_.correlation(static_cast<Index>(a), static_cast<Index>(b));
-  }
+  double correlation(std::size_t a, std::size_t b) const { return u_.correlation(a, b); }
 
   void add_pairs() {
     for (std::size_t a = 0; a < size(); ++a)
@@ -98,9 +100,8 @@ private:
         if (correlation(a, b) != 0)
           fit_.determination.pairs.push_back({name(a), name(b), correlation(a, b)});
     auto& pairs = fit_.determination.pairs;
-    std::stable_sort(pairs.begin(), pairs.end(), [](const auto& x, const auto& y) {
-      return std::abs(x.correlation) > std::abs(y.correlation);
-    });
+    std::ranges::stable_sort(pairs, std::greater{},
+                             [](const auto& pair) { return std::abs(pair.correlation); });
     pairs.resize(std::min<std::size_t>(pairs.size(), 2));
   }
 
@@ -146,8 +147,7 @@ private:
       std::vector<std::size_t> which;
       for (std::size_t p = 0; p < size(); ++p)
         if (fit_.std_error[p] > 0 && !open_.count(p) &&
-            std::abs(with(static_cast<Index>(p))) >
-                its_own * fit_.std_error[p] * error_.of(contrast))
+            std::abs(with(p)) > cause_correlation * fit_.std_error[p] * error_.of(contrast))
           which.push_back(p);
       if (!which.empty())
         add(which, fmt::format("; tests at {} {} and {} would", reach.name,
@@ -164,7 +164,7 @@ private:
       const double share = is_scale(parameter) ? 2 * half / fit_.model.parameters[p] /
                                                      std::log(parameter.upper / parameter.lower)
                                                : 2 * half / (parameter.upper - parameter.lower);
-      if (share > of_bounds && !open_.count(p))
+      if (share > wide_share_of_bounds && !open_.count(p))
         add({p}, fmt::format(
                      " between {:g} and {:g}{}", parameter.lower, parameter.upper,
                      parameter.settled_by.empty() ? "" : "; " + parameter.settled_by + " would"));
@@ -173,7 +173,7 @@ private:
 
   // Whether the stress is nearly proportional to the parameter over the data.
   bool is_level(std::size_t p) const {
-    const auto at = static_cast<Index>(p);
+    const Index at = p;
     const auto here = error_.slope(middle_);
     if (!here || (*here)(at) == 0) return false;
     for (const Reach& reach : reaches_)
@@ -187,7 +187,8 @@ private:
   void add_tied() {
     for (std::size_t a = 0; a < size(); ++a)
       for (std::size_t b = a + 1; b < size(); ++b) {
-        if (std::abs(correlation(a, b)) <= tied || open_.count(a) || open_.count(b)) continue;
+        if (std::abs(correlation(a, b)) <= tied_correlation || open_.count(a) || open_.count(b))
+          continue;
         if (!u_.why_none[a].empty() || !u_.why_none[b].empty()) continue;
         if (is_level(a) || is_level(b)) continue;
         std::vector<std::string> values{value_text(a), value_text(b)};
@@ -229,9 +230,7 @@ std::vector<double> middle_of(const InputColumns& columns) {
     std::vector<double> values;
     for (std::size_t row = 0; row < all.size(); row += step)
       if (!std::isnan(all[row])) values.push_back(all[row]);
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    if (!values.empty()) std::nth_element(values.begin(), at, values.end());
-    middle.push_back(values.empty() ? 0 : *at);
+    middle.push_back(values.empty() ? 0 : data::upper_median(std::move(values)));
   }
   return middle;
 }

@@ -1,12 +1,13 @@
 // Converts sums over each experiment to its errors.
 #include "calibrate/experiment_errors.h"
 
+#include <array>
 #include <cmath>
-#include <deque>
 
 #include <fmt/format.h>
 
 #include "calibrate/band.h"
+#include "calibrate/metrics.h"
 #include "calibrate/row_errors.h"
 #include "core/parallel.h"
 #include "io/csv.h"
@@ -56,11 +57,15 @@ std::vector<stats::ErrorSums> sums_of(const std::vector<ExperimentError>& errors
   return sums;
 }
 
+Metrics metrics_of(const std::vector<ExperimentError>& errors, const CalibrationOptions& options) {
+  return metrics(sums_of(errors), options.bootstrap, options.seed);
+}
+
 std::vector<stats::ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& validation) {
   if (!fit.unseen.empty()) return sums_of(fit.unseen, validation);
   if (!fit.on_rows.empty()) {
     const auto end = fit.on_rows.end();
-    return sums_of({end - static_cast<std::ptrdiff_t>(validation.experiments.size()), end});
+    return sums_of({end - validation.experiments.size(), end});
   }
   return stats::error_sums(validation, predict(fit.model, validation));
 }
@@ -69,25 +74,22 @@ namespace {
 
 // Reads the rows for laws that were not judged on the rows of condensed data, such as those of an
 // earlier run.
-void look_where_unknown(std::vector<ErrorsOfLaw>& laws, const Calibration& calibration,
-                        const data::Dataset& training, const data::Dataset& validation) {
+void judge_rows_where_unknown(std::vector<ErrorsOfLaw>& laws, const Calibration& calibration,
+                              const data::Dataset& training, const data::Dataset& validation) {
   std::vector<std::size_t> unknown;
-  std::deque<models::AssembledLaw> assembled;
+  RowsToJudge fitted{&training, false}, unseen{&validation, true};
   for (std::size_t i = 0; i < laws.size(); ++i)
     if (const ModelFit& fit = calibration.fits[i]; fit.unseen.empty() && fit.on_rows.empty()) {
       unknown.push_back(i);
-      assembled.emplace_back(fit.model);
+      fitted.laws.push_back({models::AssembledLaw(fit.model)});
     }
   if (unknown.empty()) return;
-  const LawOfExperiment law = [&](std::size_t l, std::size_t) -> const models::AssembledLaw& {
-    return assembled[l];
-  };
-  const RowsToJudge both[] = {{&training, false, law}, {&validation, true, law}};
-  const std::vector<RowFindings> found = look_at_rows(both, unknown.size());
-  for (std::size_t l = 0; l < unknown.size(); ++l)
-    for (const RowFindings& one : found)
-      laws[unknown[l]].experiments.insert(laws[unknown[l]].experiments.end(), one.errors[l].begin(),
-                                          one.errors[l].end());
+  unseen.laws = fitted.laws;
+  for (const RowFindings& found : judge_rows(std::array{fitted, unseen}))
+    for (std::size_t l = 0; l < unknown.size(); ++l) {
+      std::vector<ExperimentError>& errors = laws[unknown[l]].experiments;
+      errors.insert(errors.end(), found.errors[l].begin(), found.errors[l].end());
+    }
 }
 
 } // namespace
@@ -96,21 +98,17 @@ std::vector<ErrorsOfLaw> errors_by_experiment(const Calibration& calibration,
                                               const data::Dataset& training,
                                               const data::Dataset& validation) {
   std::vector<ErrorsOfLaw> laws(calibration.fits.size());
-  if (training.condensed) look_where_unknown(laws, calibration, training, validation);
+  if (training.condensed) judge_rows_where_unknown(laws, calibration, training, validation);
   parallel_for(laws.size(), [&](std::size_t i) {
     const ModelFit& fit = calibration.fits[i];
-    std::vector<ExperimentError> unseen = fit.unseen;
     laws[i].law = fit.model.law->name;
-    if (!laws[i].experiments.empty()) return;
-    if (unseen.empty() && !fit.on_rows.empty()) {
-      laws[i].experiments = fit.on_rows;
-      return;
-    }
-    if (unseen.empty()) {
-      laws[i].experiments = experiment_errors(fit.model, training, false);
-      unseen = experiment_errors(fit.model, validation, true);
-    }
-    laws[i].experiments.insert(laws[i].experiments.end(), unseen.begin(), unseen.end());
+    std::vector<ExperimentError>& errors = laws[i].experiments;
+    if (!errors.empty()) return;
+    errors = fit.unseen.empty() ? fit.on_rows : fit.unseen;
+    if (!errors.empty()) return;
+    errors = experiment_errors(fit.model, training, false);
+    for (ExperimentError& one : experiment_errors(fit.model, validation, true))
+      errors.push_back(std::move(one));
   });
   return laws;
 }

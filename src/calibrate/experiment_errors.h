@@ -28,6 +28,9 @@ std::vector<stats::ErrorSums> sums_of(const std::vector<ExperimentError>& errors
 std::vector<stats::ErrorSums> sums_of(const std::vector<ExperimentError>& errors,
                                       const data::Dataset& of);
 
+// Computes errors with intervals over these experiments.
+Metrics metrics_of(const std::vector<ExperimentError>& errors, const CalibrationOptions& options);
+
 // Returns the sums of the law on the validation experiments, or of fit.unseen if it has any.
 std::vector<stats::ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& validation);
 

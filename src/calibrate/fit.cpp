@@ -1,6 +1,8 @@
 // The fit of a formula as a problem of Levenberg-Marquardt.
 #include "calibrate/fit.h"
 
+#include <map>
+
 #include <fmt/format.h>
 
 #include "calibrate/normal_equations.h"
@@ -29,39 +31,32 @@ private:
   const LossFunction& loss_;
 };
 
+std::string text(stats::FitEnding ending, const FitOptions& options) {
+  using stats::FitEnding;
+  static const std::map<FitEnding, const char*> texts = {
+      {FitEnding::no_promise, "converged: no step promises a gain"},
+      {FitEnding::small_gains, "converged: the gains have become negligible"},
+      {FitEnding::no_better_step, "converged: no step improves the fit"},
+      {FitEnding::exact, "converged: the law passes through every row"},
+      {FitEnding::nothing_free,
+       "converged: every parameter is held by a bound or without influence"},
+      {FitEnding::not_finite, "stopped: the law is not finite at the start"},
+      {FitEnding::observer, "stopped: early"}};
+  if (ending == FitEnding::most_steps)
+    return fmt::format("stopped: {} iterations", options.most_steps);
+  if (ending == FitEnding::most_trials)
+    return fmt::format("stopped: {} steps tried", options.most_trials);
+  return texts.at(ending);
+}
+
+} // namespace
+
 double mean_square(std::span<const double> values) {
   double sum = 0;
   for (const double v : values)
     sum += v * v;
   return sum / static_cast<double>(values.size());
 }
-
-std::string text(stats::FitEnding ending, const FitOptions& options) {
-  using stats::FitEnding;
-  switch (ending) {
-  case FitEnding::no_promise:
-    return "converged: no step promises a gain";
-  case FitEnding::small_gains:
-    return "converged: the gains have become negligible";
-  case FitEnding::no_better_step:
-    return "converged: no step improves the fit";
-  case FitEnding::exact:
-    return "converged: the law passes through every row";
-  case FitEnding::nothing_free:
-    return "converged: every parameter is held by a bound or without influence";
-  case FitEnding::not_finite:
-    return "stopped: the law is not finite at the start";
-  case FitEnding::most_steps:
-    return fmt::format("stopped: {} iterations", options.most_steps);
-  case FitEnding::most_trials:
-    return fmt::format("stopped: {} steps tried", options.most_trials);
-  case FitEnding::observer:
-    break;
-  }
-  return "stopped: early";
-}
-
-} // namespace
 
 FitResult fit_from(const FitProblem& problem, const LossFunction& loss, std::vector<double> start,
                    FitOptions options) {

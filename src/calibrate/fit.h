@@ -45,6 +45,8 @@ inline bool is_scale(const models::Parameter& p) {
   return p.lower > 0 && p.upper > 1e5 * p.lower && p.upper < 1e300;
 }
 
+double mean_square(std::span<const double> values);
+
 using FitOptions = stats::LevenbergMarquardtOptions;
 
 // Runs the fit described above from one start. Sums run in row order: the same bits on any machine

@@ -2,10 +2,12 @@
 #include "calibrate/fit_law.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "calibrate/determined.h"
 #include "calibrate/fit_weights.h"
 #include "calibrate/law_problem.h"
 #include "calibrate/slip_distance.h"
@@ -58,21 +60,20 @@ struct Mean {
 std::size_t count_unloaded(const Dataset& data, std::size_t e, std::span<const double> per,
                            const data::RatioSum& ratio) {
   if (!has_uncertainties(data)) return data.source_rows(e) - static_cast<std::size_t>(ratio.rows);
-  const auto of_test = per.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e]);
   return static_cast<std::size_t>(
-      std::count_if(of_test.begin(), of_test.end(), [](double x) { return !(x > 0); }));
+      std::ranges::count_if(data.of_test(per, e), [](double x) { return !(x > 0); }));
 }
 
 // Covariance of means of experiments, and their values without each experiment.
 Uncertainty uncertainty_of(const std::vector<Mean>& means) {
-  const auto size = static_cast<Eigen::Index>(means.size());
+  const Eigen::Index size = means.size();
   const std::size_t experiments = means.front().parts.size();
   const auto count = static_cast<double>(experiments);
   Uncertainty u;
   u.correlation.setIdentity(size, size);
   u.condition = 1;
   u.covariance.setConstant(size, size, no_value);
-  u.moved_without.setZero(size, static_cast<Eigen::Index>(experiments));
+  u.moved_without.setZero(size, experiments);
   u.error_without = u.moved_without;
   for (Eigen::Index a = 0; a < size; ++a) {
     const Mean& mean = means[static_cast<std::size_t>(a)];
@@ -84,7 +85,7 @@ Uncertainty uncertainty_of(const std::vector<Mean>& means) {
       u.covariance(a, b) = sum * count / (count - 1) / (mean.rows * other.rows);
     }
     for (std::size_t e = 0; e < experiments; ++e) {
-      const auto at = static_cast<Eigen::Index>(e);
+      const Eigen::Index at = e;
       const double part = mean.off(e) / mean.rows;
       u.moved_without(a, at) = -mean.off(e) / std::max(mean.rows - mean.parts[e].rows, 1.0);
       u.error_without(a, at) =
@@ -128,9 +129,7 @@ void fit_means(ModelFit& fit, const Dataset& data) {
 }
 
 void remark_constant_inputs(ModelFit& fit, const InputColumns& columns) {
-  if (std::none_of(fit.std_error.begin(), fit.std_error.end(),
-                   [](double e) { return std::isnan(e); }))
-    return;
+  if (std::ranges::none_of(fit.std_error, [](double e) { return std::isnan(e); })) return;
   const auto ranges = columns.ranges();
   for (const std::string& name : columns.names()) // in the order of inputs
     if (const auto range = ranges.find(name);
@@ -249,7 +248,7 @@ ModelFit fit_at_slip_distance(const models::Law& law, std::size_t parameter,
   fit.evaluations += found.evaluations;
   Uncertainty joint =
       slip_distance_uncertainty(law, parameter, found.distance_mm, fit.model, data, options);
-  const auto at = static_cast<std::ptrdiff_t>(parameter);
+  const std::ptrdiff_t at = parameter;
   const double error = found.at_bound ? no_value : joint.std_error[parameter];
   joint.std_error.erase(joint.std_error.begin() + at);
   if (std::isfinite(error)) {
@@ -295,8 +294,7 @@ ModelFit fit_law(const models::Law& law, const models::Conventions& conventions,
   fit.model.conventions = conventions;
   switch (law.calibrated) {
   case Calibrated::fixed:
-    for (const models::Parameter& parameter : law.parameters)
-      fit.model.parameters.push_back(parameter.start);
+    fit.model.parameters = models::start_values(law.parameters);
     fit.std_error.assign(law.parameters.size(), 0.0);
     fit.model.covariance.assign(law.parameters.size() * law.parameters.size(), 0.0);
     fit.std_error_method = "fixed";
@@ -319,6 +317,20 @@ ModelFit fit_law(const models::Law& law, const models::Conventions& conventions,
     fit.model.experiment_gains =
         gains_of_new_experiments(experiment_gains(data, predict(fit.model, data)),
                                  law.calibrated == Calibrated::fixed ? 0 : law.parameters.size());
+  return fit;
+}
+
+ModelFit fit_and_judge(const models::Law& law, const models::Conventions& conventions,
+                       const Dataset& data, const CalibrationOptions& options,
+                       const JudgeFit& judge) {
+  const auto begin = std::chrono::steady_clock::now();
+  ModelFit fit = fit_law(law, conventions, data, options);
+  const models::AssembledLaw assembled(fit.model);
+  const Predicted fitted = predict_with_columns(assembled, assembled.inputs, data);
+  fit.data_range = fitted.columns.ranges();
+  add_determination(fit, fitted.columns, data.experiments.size());
+  judge(fit, assembled, fitted);
+  fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return fit;
 }
 

@@ -2,7 +2,6 @@
 #include "calibrate/folds.h"
 
 #include <algorithm>
-#include <span>
 
 #include <fmt/format.h>
 
@@ -34,6 +33,13 @@ std::vector<std::size_t> experiment_folds(const data::Units& units, std::size_t 
   for (const std::size_t unit : units.of)
     fold.push_back(of_unit[unit]);
   return fold;
+}
+
+FoldParts parts_of(std::span<const std::size_t> fold_of, std::size_t fold) {
+  FoldParts parts;
+  for (std::size_t e = 0; e < fold_of.size(); ++e)
+    (fold_of[e] == fold ? parts.out : parts.in).push_back(e);
+  return parts;
 }
 
 std::string leak_note(const data::Dataset& training, const data::Dataset& validation) {

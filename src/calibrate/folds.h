@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,12 @@ std::vector<std::size_t> experiment_folds(std::size_t experiments, std::size_t f
 // The same for units that stay together: fold sizes then differ by one unit at most.
 std::vector<std::size_t> experiment_folds(const data::Units& units, std::size_t folds,
                                           std::uint64_t seed, std::uint64_t repeat);
+
+// Experiments outside and inside one fold.
+struct FoldParts {
+  std::vector<std::size_t> in, out;
+};
+FoldParts parts_of(std::span<const std::size_t> fold_of, std::size_t fold);
 
 // Warns about leakage between two files, where different names prove nothing: how many validation
 // experiments have the same rows as a training experiment (data/equal_tests.h). If both are the

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/comparison.h"
+#include "calibrate/choice.h"
 #include "calibrate/cross_validation.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/fit_law.h"
@@ -24,10 +24,10 @@ namespace {
 // Tests per law without which it is refitted if one step indicates their influence.
 constexpr std::size_t most_refits = 3;
 // Tolerance for the first step, which is slightly off if a law is not linear.
-constexpr double nearly = 0.8;
+constexpr double first_step_slack = 0.8;
 
 // Shift in standard errors above which a test is reported first.
-constexpr double far_moved = 2;
+constexpr double far_shift = 2;
 
 double size_of(const Influence::Moved& m) {
   return std::abs(m.without - m.value) / m.std_error;
@@ -49,8 +49,8 @@ Influence moved_by(const ModelFit& fit, const std::string& experiment,
                                  std::sqrt(without.covariance[p * size + p])};
     if (moved.std_error > 0 && size_of(moved) > 1) found.moved.push_back(moved);
   }
-  std::stable_sort(found.moved.begin(), found.moved.end(),
-                   [](const auto& a, const auto& b) { return size_of(a) > size_of(b); });
+  std::ranges::stable_sort(found.moved,
+                           [](const auto& a, const auto& b) { return size_of(a) > size_of(b); });
   return found;
 }
 
@@ -62,9 +62,9 @@ std::vector<std::size_t> suspects(const Uncertainty& u) {
     for (Index p = 0; p < u.moved_without.rows(); ++p)
       if (const double error = u.error_without(p, e); error > 0)
         most = std::max(most, std::abs(u.moved_without(p, e)) / error);
-    if (most > nearly) found.emplace_back(-most, static_cast<std::size_t>(e));
+    if (most > first_step_slack) found.emplace_back(-most, static_cast<std::size_t>(e));
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   std::vector<std::size_t> tests;
   for (const auto& [size, e] : found)
     if (tests.size() < most_refits) tests.push_back(e);
@@ -88,57 +88,34 @@ std::vector<Influence> of_law(const ModelFit& fit, const models::Conventions& co
     for (const std::size_t e : suspects(*fit.uncertainty))
       add(e, fit_law(*fit.model.law, conventions, without_kin(input.training, e), input.options)
                  .model);
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Influence& a, const Influence& b) { return size_of(a) > size_of(b); });
+  std::ranges::stable_sort(
+      found, [](const Influence& a, const Influence& b) { return size_of(a) > size_of(b); });
   return found;
-}
-
-// Law with the least error when one test does not judge (`test` = number of tests: all judge); the
-// first of equal ones.
-std::size_t first_without(const std::vector<std::vector<stats::ErrorSums>>& laws,
-                          std::size_t test) {
-  std::vector<double> mae;
-  for (const std::vector<stats::ErrorSums>& sums : laws) {
-    double absolute = 0, rows = 0;
-    for (std::size_t e = 0; e < sums.size(); ++e)
-      if (e != test) {
-        absolute += sums[e].absolute;
-        rows += sums[e].rows;
-      }
-    mae.push_back(rows > 0 ? absolute / rows : 0);
-  }
-  const double least = *std::min_element(mae.begin(), mae.end());
-  return static_cast<std::size_t>(
-      std::find_if(mae.begin(), mae.end(),
-                   [&](double one) { return one <= least * (1 + same_error); }) -
-      mae.begin());
 }
 
 void add_first_places(Calibration& calibration, const CalibrationInput& input) {
   const std::vector<std::string>& judges = input.validation.experiments;
   if (judges.size() < 3) return;
-  std::vector<std::string> names;
-  std::vector<std::vector<stats::ErrorSums>> laws;
-  for (const ModelFit& fit : calibration.fits) {
-    if (fit.reference) continue;
-    names.push_back(fit.model.law->name);
-    laws.push_back(unseen_sums(fit, input.validation));
-  }
+  std::vector<LawErrors> laws;
+  for (const ModelFit& fit : calibration.fits)
+    if (!fit.reference) laws.push_back({fit.model.law->name, unseen_sums(fit, input.validation)});
   if (laws.size() < 2) return;
-  // it was ranked on rows that are not in memory
-  if (first_without(laws, judges.size()) != 0) return;
-  const std::string& leader = names.front();
+  std::vector<double> times(judges.size(), 1.0);
+  if (best_of(laws, times) != 0) return; // it was ranked on rows that are not in memory
+  const std::string& leader = laws.front().law;
   for (std::size_t e = 0; e < judges.size(); ++e) {
-    const std::size_t first = first_without(laws, e);
+    times[e] = 0;
+    const std::size_t first = best_of(laws, times);
+    times[e] = 1;
     if (first == 0) continue;
-    const auto known = std::find_if(
-        calibration.influence.begin(), calibration.influence.end(),
-        [&](const Influence& one) { return one.law == leader && one.experiment == judges[e]; });
+    const auto known = std::ranges::find_if(calibration.influence, [&](const Influence& one) {
+      return one.law == leader && one.experiment == judges[e];
+    });
     Influence& one = known != calibration.influence.end()
                          ? *known
                          : *calibration.influence.insert(calibration.influence.begin(),
                                                          {leader, judges[e], {}, ""});
-    one.first = names[first];
+    one.first = laws[first].law;
   }
 }
 
@@ -160,10 +137,10 @@ std::string influence_sentence(const Calibration& calibration) {
   const auto& all = calibration.influence;
   if (all.empty()) return "";
   // A large shift of a better law comes first, then a change of the first place, then any shift.
-  const auto far = std::find_if(all.begin(), all.end(),
-                                [](const Influence& one) { return size_of(one) > far_moved; });
+  const auto far =
+      std::ranges::find_if(all, [](const Influence& one) { return size_of(one) > far_shift; });
   const auto first =
-      std::find_if(all.begin(), all.end(), [](const Influence& one) { return !one.first.empty(); });
+      std::ranges::find_if(all, [](const Influence& one) { return !one.first.empty(); });
   const Influence& most = far != all.end() ? *far : first != all.end() ? *first : all.front();
   std::string text = fmt::format("test '{}'", most.experiment);
   if (!most.moved.empty()) {

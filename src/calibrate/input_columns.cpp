@@ -41,7 +41,7 @@ std::vector<std::string> missing_needs(const data::DerivedQuantity& derived, con
 
 bool follows_tau(const std::string& name) {
   const data::DerivedQuantity* derived = data::find_derived(name);
-  return derived && std::count(derived->needs.begin(), derived->needs.end(), "tau") > 0;
+  return derived && std::ranges::count(derived->needs, "tau") > 0;
 }
 
 Place place_of(const Dataset& data) {
@@ -62,7 +62,7 @@ std::vector<double> renumbered(const data::Column& column, const std::vector<std
                      "the law knows its levels by name: " + join(levels, ", "));
   std::vector<double> numbers;
   for (const std::string& level : column.levels) {
-    const auto at = std::find(levels.begin(), levels.end(), level);
+    const auto at = std::ranges::find(levels, level);
     if (at == levels.end())
       throw InputError(place_of(data),
                        fmt::format("column {} has the level '{}', of which the law knows nothing",
@@ -78,7 +78,7 @@ std::vector<double> renumbered(const data::Column& column, const std::vector<std
 
 // Example: "row 3 of 'E1'"
 std::string row_name(const Dataset& data, std::size_t row) {
-  const auto next = std::upper_bound(data.first_row.begin(), data.first_row.end(), row) - 1;
+  const auto next = std::ranges::upper_bound(data.first_row, row) - 1;
   const auto e = static_cast<std::size_t>(next - data.first_row.begin());
   return fmt::format("row {} of '{}'", row - data.first_row[e] + 1, data.experiments[e]);
 }
@@ -110,7 +110,7 @@ void check_cells(const data::Column& column, const models::Law& law, const Datas
 
 std::string how_to_give(const models::Law& law, const std::vector<std::string>& names,
                         const Dataset& data) {
-  const bool text = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+  const bool text = std::ranges::any_of(names, [&](const std::string& name) {
     return law.levels.count(name) > 0 && !recorded_column(name, data);
   });
   return text ? "record it, map it in [data.columns], or say it with labels = {...} of "
@@ -175,7 +175,7 @@ const double* InputColumns::find(const models::Law& law, std::size_t input) {
 }
 
 bool InputColumns::need_tau() const {
-  return std::find(follows_.begin(), follows_.end(), true) != follows_.end();
+  return std::ranges::find(follows_, true) != follows_.end();
 }
 
 void InputColumns::derive_from_tau(std::span<const double> tau) {
@@ -246,7 +246,7 @@ std::vector<const double*> pointers_to(const InputColumns& columns,
                                        const std::vector<std::string>& names) {
   std::vector<const double*> out;
   for (const std::string& name : names) {
-    const auto at = std::find(columns.names().begin(), columns.names().end(), name);
+    const auto at = std::ranges::find(columns.names(), name);
     out.push_back(columns.pointers()[static_cast<std::size_t>(at - columns.names().begin())]);
   }
   return out;

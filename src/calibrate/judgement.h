@@ -88,6 +88,12 @@ struct Choice {
   bool splits = false;        // best_in: over splits of all tests, else over resampled tests
 };
 
+// Error of a law on new tests.
+struct Expected {
+  double mae_MPa = 0;
+  Interval interval; // 95 %, over tests
+};
+
 // The simplest law whose error exceeds that of the best by at most one standard error.
 struct Recommended {
   std::string law; // empty: no tests judge the laws
@@ -98,9 +104,7 @@ struct Recommended {
   double std_error_MPa = 0; // of that difference, paired by experiment
   // Number of tests, left out in turn, over which this was decided; 0: those that judge the laws.
   std::size_t tests = 0;
-  // On new tests, for a law chosen by this rule; 95 % over tests.
-  double expected_mae_MPa = 0;
-  Interval expected_interval;
+  Expected expected; // for a law chosen by this rule
 };
 
 // Parameters that the design of the tests leaves open (determined.h).
@@ -131,15 +135,9 @@ struct Influence {
 };
 
 // Remaining error of a law that is exact in the state.
-struct NoiseFloor {
-  std::string method; // oracle | replicates | within_experiments
-  std::string part;   // validation | training | all
-  double mae_MPa = 0;
-  double rmse_MPa = 0;
-  Interval mae_interval;
-  Interval rmse_interval;
-  std::size_t n_rows = 0;
-  std::size_t n_experiments = 0;
+struct NoiseFloor : Metrics {
+  std::string method = {};  // oracle | replicates | within_experiments
+  std::string part = {};    // validation | training | all
   std::size_t n_groups = 0; // replicates: groups of experiments with the same set levels
   bool lower_bound = false; // the scatter between experiments is not included
   // original MAE if it exceeded the best law's error, to which the floor was lowered

@@ -1,6 +1,7 @@
 // Converts results of validation to JSON and back.
 #include "calibrate/judgement_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -22,18 +23,15 @@ void describe(Fields& f, Metrics& m) {
   f("n_experiments", m.n_experiments);
 }
 
+static const std::initializer_list<std::pair<const char*, JudgedBy>> judged_by_names = {
+    {"leave_one_out", JudgedBy::leave_one_out},
+    {"held_out", JudgedBy::held_out},
+    {"fit", JudgedBy::fit},
+    {"validation_files", JudgedBy::validation_files}};
+
 const char* judged_by_name(JudgedBy judged_by) {
-  switch (judged_by) {
-  case JudgedBy::leave_one_out:
-    return "leave_one_out";
-  case JudgedBy::held_out:
-    return "held_out";
-  case JudgedBy::fit:
-    return "fit";
-  case JudgedBy::validation_files:
-    break;
-  }
-  return "validation_files";
+  return std::ranges::find(judged_by_names, judged_by, &std::pair<const char*, JudgedBy>::second)
+      ->first;
 }
 
 bool on_other_experiments(JudgedBy judged_by) {
@@ -41,12 +39,7 @@ bool on_other_experiments(JudgedBy judged_by) {
 }
 
 void describe_judged_by(Fields& f, const char* key, JudgedBy& judged_by) {
-  f.one_of(key, judged_by,
-           {{"leave_one_out", JudgedBy::leave_one_out},
-            {"held_out", JudgedBy::held_out},
-            {"fit", JudgedBy::fit},
-            {"validation_files", JudgedBy::validation_files}},
-           {JudgedBy::validation_files});
+  f.one_of(key, judged_by, judged_by_names, {JudgedBy::validation_files});
 }
 
 void describe_unseen(Fields& f, std::vector<ExperimentError>& errors,
@@ -137,8 +130,8 @@ void describe(Fields& f, Recommended& r) {
   f("std_error_MPa", r.std_error_MPa);
   f.unless_default("tests_left_out_in_turn", r.tests);
   if (!f.has("expected_mae_MPa", true)) return; // not in files of 0.1 and 0.2.0
-  f("expected_mae_MPa", r.expected_mae_MPa);
-  f("expected_mae_95", r.expected_interval);
+  f("expected_mae_MPa", r.expected.mae_MPa);
+  f("expected_mae_95", r.expected.interval);
 }
 
 static void describe(Fields& f, Difference& d) {

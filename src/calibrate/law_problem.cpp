@@ -22,13 +22,6 @@ constexpr std::size_t few_rows = 256;     // enough to distinguish minima
 constexpr std::size_t coarse_rows = 2800; // enough to come within a standard error of the optimum
 constexpr std::size_t orowan_breaks = 12; // places of the kink where other losses start
 
-std::vector<double> default_start(const FitProblem& problem) {
-  std::vector<double> start;
-  for (const models::Parameter& p : problem.parameters)
-    start.push_back(p.start);
-  return start;
-}
-
 std::vector<double> halton_start(const FitProblem& problem, std::size_t index) {
   std::vector<double> unit(problem.parameters.size()), start;
   halton(index, unit);
@@ -43,7 +36,7 @@ std::vector<double> halton_start(const FitProblem& problem, std::size_t index) {
 // Searches globally within the bounds by NLopt's DIRECT-L.
 std::vector<double> direct_start(const FitProblem& problem, const LossFunction& loss) {
   const std::size_t size = problem.parameters.size();
-  std::vector<double> lower, upper, x = default_start(problem);
+  std::vector<double> lower, upper, x = models::start_values(problem.parameters);
   for (const models::Parameter& p : problem.parameters) {
     lower.push_back(p.lower);
     upper.push_back(p.upper);
@@ -70,8 +63,7 @@ std::vector<double> direct_start(const FitProblem& problem, const LossFunction& 
 
 // Keeps the best fits, sorted, without duplicates of a minimum and without hopeless ones.
 void keep_best(std::vector<FitResult>& fits, double slack) {
-  std::stable_sort(fits.begin(), fits.end(),
-                   [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
+  std::ranges::stable_sort(fits, {}, &FitResult::cost);
   std::vector<FitResult> kept;
   for (FitResult& fit : fits) {
     if (!kept.empty() && (fit.cost > kept.front().cost * (1 + slack) ||
@@ -89,7 +81,7 @@ std::vector<std::vector<double>> best_starts(const FitProblem& problem,
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < starts.size(); ++i)
     order.emplace_back(mean_cost(problem, {Loss::l2, 0}, starts[i]), i);
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   std::vector<std::vector<double>> best;
   for (std::size_t i = 0; i < std::min(few, order.size()); ++i)
     best.push_back(starts[order[i].second]);
@@ -104,13 +96,6 @@ bool agree(const std::vector<FitResult>& fits) {
     first = std::min(first, fit.cost);
   }
   return second - first <= 1e-6 * first;
-}
-
-double root_mean_square(std::span<const double> values) {
-  double sum = 0;
-  for (const double v : values)
-    sum += v * v;
-  return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
 void refine(FitResult& fit, const FitProblem& problem, const LossFunction& loss,
@@ -166,8 +151,8 @@ LawProblem::Starts LawProblem::law_starts() const {
   if (law_.name != "orowan" || !law_.base.empty()) return {};
   const auto column = [&](const char* name) {
     const auto& names = columns_.names();
-    return columns_[static_cast<std::size_t>(
-        std::find(names.begin(), names.end(), std::string(name)) - names.begin())];
+    return columns_[static_cast<std::size_t>(std::ranges::find(names, std::string(name)) -
+                                             names.begin())];
   };
   const std::span<const double> sigma_f = column("sigma_f_MPa");
   std::vector<double> k(sigma_f.begin(), sigma_f.end());
@@ -219,7 +204,7 @@ std::vector<FitResult> LawProblem::search(const Level& level, const Starts& offe
         fit_from(rows, squares, std::move(start), {.tolerance = 1e-8, .most_steps = 25}));
     evaluations += fits.back().evaluations;
   };
-  try_start(default_start(rows));
+  try_start(models::start_values(rows.parameters));
   for (const auto& start : best_starts(rows, offered))
     try_start(start);
   // Stops when two starts, of at least a few, have reached the same lowest minimum.
@@ -236,7 +221,7 @@ std::vector<FitResult> LawProblem::search(const Level& level, const Starts& offe
   keep_best(fits, 0.05);
   if (loss.kind == Loss::l1) {
     const double left = std::sqrt(2 * fits.front().cost);
-    loss.width_MPa = std::max(left, 1e-7 * root_mean_square(rows.measured));
+    loss.width_MPa = std::max(left, 1e-7 * std::sqrt(mean_square(rows.measured)));
   }
   if (loss.kind != Loss::l2) {
     LossFunction rounded = loss;

@@ -14,55 +14,30 @@ struct LossFunction {
   double kernel_MPa = 0; // L1: residuals within this distance of 0 estimate the curvature
 
   double cost(double r) const {
-    switch (kind) {
-    case Loss::l2:
-      return 0.5 * r * r;
-    case Loss::l1:
-      return std::sqrt(r * r + width_MPa * width_MPa);
-    case Loss::huber:
-      return std::abs(r) <= width_MPa ? 0.5 * r * r : width_MPa * (std::abs(r) - 0.5 * width_MPa);
-    }
-    return 0;
+    if (kind == Loss::l2) return 0.5 * r * r;
+    if (kind == Loss::l1) return std::sqrt(r * r + width_MPa * width_MPa);
+    return std::abs(r) <= width_MPa ? 0.5 * r * r : width_MPa * (std::abs(r) - 0.5 * width_MPa);
   }
   // Weight of iteratively reweighted least squares: cost'(r)/r.
   double weight(double r) const {
-    switch (kind) {
-    case Loss::l2:
-      return 1;
-    case Loss::l1:
-      return 1 / std::sqrt(r * r + width_MPa * width_MPa);
-    case Loss::huber:
-      return std::abs(r) <= width_MPa ? 1 : width_MPa / std::abs(r);
-    }
-    return 0;
+    if (kind == Loss::l2) return 1;
+    if (kind == Loss::l1) return 1 / std::sqrt(r * r + width_MPa * width_MPa);
+    return std::abs(r) <= width_MPa ? 1 : width_MPa / std::abs(r);
   }
   // Curvature for standard errors. L1 has none of its own: the curvature of its mean is twice the
   // density of the residuals at 0, estimated by Epanechnikov's kernel.
   double curvature(double r) const {
-    switch (kind) {
-    case Loss::l2:
-      return 1;
-    case Loss::l1: {
-      const double h = std::max(2 * width_MPa, kernel_MPa), x = r / h;
-      return std::max(0.0, 1 - x * x) * 1.5 / h;
-    }
-    case Loss::huber:
-      return std::abs(r) <= width_MPa ? 1 : 0;
-    }
-    return 0;
+    if (kind == Loss::l2) return 1;
+    if (kind == Loss::huber) return std::abs(r) <= width_MPa ? 1 : 0;
+    const double h = std::max(2 * width_MPa, kernel_MPa), x = r / h;
+    return std::max(0.0, 1 - x * x) * 1.5 / h;
   }
   // Curvature used for steps: it includes a small part of the weight, so that steps stay short
   // where no row has any curvature.
   double step_curvature(double r) const {
-    switch (kind) {
-    case Loss::l2:
-      return 1;
-    case Loss::l1:
-      return curvature(r) + 0.02 * weight(r);
-    case Loss::huber:
-      return std::abs(r) <= width_MPa ? 1 : 0.1 * width_MPa / std::abs(r);
-    }
-    return 0;
+    if (kind == Loss::l2) return 1;
+    if (kind == Loss::l1) return curvature(r) + 0.02 * weight(r);
+    return std::abs(r) <= width_MPa ? 1 : 0.1 * width_MPa / std::abs(r);
   }
 };
 

@@ -11,6 +11,7 @@
 
 #include "calibrate/folds.h"
 #include "calibrate/network_fit.h"
+#include "core/names.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/random.h"
@@ -42,7 +43,7 @@ struct Binning {
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
       const std::vector<std::size_t> bins = data::equal_shares(data, e, bins_per_experiment);
       first.insert(first.end(), bins.begin(), bins.end() - 1);
-      first_bin.push_back(static_cast<Index>(first.size()));
+      first_bin.push_back(first.size());
     }
     first.push_back(data.rows());
   }
@@ -53,7 +54,7 @@ struct Binning {
       double sum = 0;
       for (std::size_t i = first[b]; i < first[b + 1]; ++i)
         sum += data.row_weight(i) * column[i];
-      mean(static_cast<Index>(b)) = sum / rows_in(b);
+      mean(b) = sum / rows_in(b);
     }
     return mean;
   }
@@ -68,7 +69,7 @@ struct Binning {
   VectorXd weights() const {
     VectorXd rows(first_bin.back());
     for (std::size_t b = 0; b + 1 < first.size(); ++b)
-      rows(static_cast<Index>(b)) = rows_in(b);
+      rows(b) = rows_in(b);
     return (rows / rows.mean()).cwiseSqrt();
   }
 };
@@ -113,13 +114,12 @@ TrainingSet prepare(const models::Law& law, const data::Dataset& data,
           ? VectorXd(conventions.k_over_sigma_f * binning.means(data.values("sigma_f_MPa")))
           : VectorXd::Constant(bins.stress.size(), std::numeric_limits<double>::infinity());
   const auto names = network_inputs(law, data);
-  bins.z.resize(bins.stress.size(), static_cast<Index>(names.size()));
+  bins.z.resize(bins.stress.size(), names.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
     const VectorXd mean = binning.means(data.values(names[i]));
     const double smallest = data::source_range(data, names[i], data.values(names[i])).first;
     set.inputs.push_back(scaling(names[i], smallest, mean));
-    bins.z.col(static_cast<Index>(i)) =
-        mean.unaryExpr([&](double x) { return set.inputs.back().z(x); });
+    bins.z.col(i) = mean.unaryExpr([&](double x) { return set.inputs.back().z(x); });
   }
   set.shape = {names.size(), hidden_units};
   const VectorXd force = bins.weight.cwiseProduct(bins.stress);
@@ -150,10 +150,8 @@ struct Fold {
 };
 
 Fold make_fold(const NetworkBins& bins, const std::vector<std::size_t>& fold_of, std::size_t fold) {
-  std::vector<std::size_t> in, out;
-  for (std::size_t e = 0; e < fold_of.size(); ++e)
-    (fold_of[e] == fold ? out : in).push_back(e);
-  return {bins.of(in), bins.of(out)};
+  const FoldParts parts = parts_of(fold_of, fold);
+  return {bins.of(parts.in), bins.of(parts.out)};
 }
 
 class Training {
@@ -210,7 +208,7 @@ public:
         const double along = direction.unit.segment(at, count).dot(r.segment(at, count));
         within += r.segment(at, count).squaredNorm() - along * along;
         freedom += static_cast<double>(count) - 1;
-        gains.emplace_back(along, direction.reach(static_cast<Index>(e)));
+        gains.emplace_back(along, direction.reach(e));
       }
     }
     const double noise_square = freedom > 0 ? within / freedom : rms * rms;
@@ -262,7 +260,7 @@ std::vector<VectorXd> without_failed(const TrainingSet& set, std::vector<VectorX
     squares.push_back(
         network_residual(set.bins, network_tau(set.bins, set.shape, set.mu0, w)).squaredNorm());
   std::vector<double> sorted = squares;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   const double most = 4 * sorted[sorted.size() / 2];
   std::size_t kept = 0;
   for (std::size_t m = 0; m < members.size(); ++m)
@@ -272,9 +270,9 @@ std::vector<VectorXd> without_failed(const TrainingSet& set, std::vector<VectorX
 }
 
 double ensemble_spread(const TrainingSet& set, const std::vector<VectorXd>& members) {
-  Eigen::MatrixXd tau(set.bins.stress.size(), static_cast<Index>(members.size()));
+  Eigen::MatrixXd tau(set.bins.stress.size(), members.size());
   for (std::size_t m = 0; m < members.size(); ++m)
-    tau.col(static_cast<Index>(m)) = network_tau(set.bins, set.shape, set.mu0, members[m]);
+    tau.col(m) = network_tau(set.bins, set.shape, set.mu0, members[m]);
   const VectorXd mean = tau.rowwise().mean();
   const double freedom = std::max(1.0, static_cast<double>(members.size()) - 1);
   return ((tau.colwise() - mean).rowwise().squaredNorm() / freedom).cwiseSqrt().mean();
@@ -294,8 +292,7 @@ std::vector<double> held_out_rmse(const std::vector<std::vector<NetworkFit>>& pa
 
 NetworkRecord describe(const TrainingSet& set, const std::vector<VectorXd>& members) {
   NetworkRecord record;
-  for (const models::NetworkInput& input : set.inputs)
-    record.inputs.push_back(input.name);
+  record.inputs = all_names(set.inputs);
   record.hidden = hidden_units;
   record.members = members.size();
   record.weights = static_cast<std::size_t>(set.shape.weights());
@@ -311,7 +308,7 @@ std::vector<std::string> network_inputs(const models::Law& law, const data::Data
   for (const std::string& name : law.may_use) {
     if (!data.has(name)) continue;
     const auto values = data.values(name);
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const auto [low, high] = std::ranges::minmax_element(values);
     if (*low < *high) names.push_back(name);
   }
   return names;
@@ -329,8 +326,7 @@ TrainedNetwork train_network(const models::Law& law, const data::Dataset& traini
   const auto paths = nets.all_paths(repeats, scatter, decays);
 
   const std::vector<double> cv_rmse = held_out_rmse(paths);
-  const auto best =
-      static_cast<std::size_t>(std::min_element(cv_rmse.begin(), cv_rmse.end()) - cv_rmse.begin());
+  const auto best = static_cast<std::size_t>(std::ranges::min_element(cv_rmse) - cv_rmse.begin());
   std::vector<VectorXd> members;
   for (const auto& path : paths)
     members.push_back(path[best].weights);

@@ -19,15 +19,15 @@ NetworkBins NetworkBins::of(std::span<const std::size_t> chosen) const {
     part.first.push_back(part.first.back() + first[e + 1] - first[e]);
   const Index size = part.first.back();
   part.z.resize(size, z.cols());
-  for (auto member :
-       {&NetworkBins::stress, &NetworkBins::limit, &NetworkBins::measured, &NetworkBins::weight})
-    (part.*member).resize(size);
+  const auto columns = {&NetworkBins::stress, &NetworkBins::limit, &NetworkBins::measured,
+                        &NetworkBins::weight};
+  for (const auto column : columns)
+    (part.*column).resize(size);
   for (std::size_t c = 0; c < chosen.size(); ++c) {
     const Index from = first[chosen[c]], count = first[chosen[c] + 1] - from;
     part.z.middleRows(part.first[c], count) = z.middleRows(from, count);
-    for (auto member :
-         {&NetworkBins::stress, &NetworkBins::limit, &NetworkBins::measured, &NetworkBins::weight})
-      (part.*member).segment(part.first[c], count) = (this->*member).segment(from, count);
+    for (const auto column : columns)
+      (part.*column).segment(part.first[c], count) = (this->*column).segment(from, count);
   }
   return part;
 }
@@ -44,7 +44,7 @@ template <class Vector> VectorXd tanh_of(const Vector& a, double bias) {
 
 VectorXd network_tau(const NetworkBins& bins, const NetworkShape& shape, double mu0,
                      const VectorXd& weights, MatrixXd* derivative) {
-  const Index inputs = static_cast<Index>(shape.inputs), hidden = static_cast<Index>(shape.hidden);
+  const Index inputs = shape.inputs, hidden = shape.hidden;
   const Index per_unit = inputs + 2;
   MatrixXd activation(bins.z.rows(), hidden);
   VectorXd output = VectorXd::Constant(bins.z.rows(), weights(weights.size() - 1));
@@ -77,11 +77,11 @@ VectorXd network_residual(const NetworkBins& bins, const VectorXd& tau) {
 GainDirection gain_direction(const NetworkBins& bins, double mu0) {
   GainDirection direction;
   direction.unit = mu0 * bins.weight.cwiseProduct(bins.stress);
-  direction.reach.resize(static_cast<Index>(bins.experiments()));
+  direction.reach.resize(bins.experiments());
   for (std::size_t e = 0; e < bins.experiments(); ++e) {
     auto part = direction.unit.segment(bins.first[e], bins.first[e + 1] - bins.first[e]);
     const double length = part.norm();
-    direction.reach(static_cast<Index>(e)) = length;
+    direction.reach(e) = length;
     if (length > 0) part /= length;
   }
   return direction;
@@ -139,7 +139,7 @@ private:
 
   template <class Rows> Rows along_gain(const Rows& rows) const {
     const auto& first = problem_.training.first;
-    Rows along(static_cast<Index>(first.size()) - 1, rows.cols());
+    Rows along(first.size() - 1, rows.cols());
     for (Index e = 0; e < along.rows(); ++e) {
       const Index at = first[static_cast<std::size_t>(e)];
       const Index count = first[static_cast<std::size_t>(e) + 1] - at;

@@ -19,23 +19,7 @@ using Rows = std::span<const double>;
 
 NoiseFloor floor_of(const std::string& method, const std::vector<stats::ErrorSums>& sums,
                     std::size_t resamples, std::uint64_t seed) {
-  const Metrics m = metrics(sums, resamples, seed);
-  NoiseFloor floor;
-  floor.method = method;
-  floor.mae_MPa = m.mae_MPa;
-  floor.rmse_MPa = m.rmse_MPa;
-  floor.mae_interval = m.mae_interval;
-  floor.rmse_interval = m.rmse_interval;
-  floor.n_rows = m.n_rows;
-  floor.n_experiments = m.n_experiments;
-  return floor;
-}
-
-void add_residual(stats::ErrorSums& sums, double r) {
-  sums.absolute += std::abs(r);
-  sums.square += r * r;
-  sums.residual += r;
-  ++sums.rows;
+  return {metrics(sums, resamples, seed), method};
 }
 
 constexpr std::size_t no_row = static_cast<std::size_t>(-1);
@@ -48,7 +32,7 @@ public:
   Partner(const data::Dataset& data)
       : first_(data.first_row), s_(data.has("s_mm") ? data.values("s_mm") : Rows{}) {
     if (s_.empty()) return;
-    const auto [low, high] = std::minmax_element(s_.begin(), s_.end());
+    const auto [low, high] = std::ranges::minmax_element(s_);
     tolerance_ = replicate_tolerance * (*high - *low);
   }
   std::size_t row_of(std::size_t own, std::size_t row, std::size_t other) const {
@@ -57,8 +41,7 @@ public:
     if (s_.empty()) return same < end ? same : no_row;
     if (same < end && std::abs(s_[same] - s_[row]) <= 1e-6 * tolerance_) return same;
     // Sliding distance does not decrease along an experiment.
-    const auto at = std::lower_bound(s_.begin() + static_cast<long>(begin),
-                                     s_.begin() + static_cast<long>(end), s_[row]);
+    const auto at = std::lower_bound(s_.begin() + begin, s_.begin() + end, s_[row]);
     std::size_t best = std::min(static_cast<std::size_t>(at - s_.begin()), end - 1);
     if (best > begin && std::abs(s_[best - 1] - s_[row]) < std::abs(s_[best] - s_[row])) --best;
     return std::abs(s_[best] - s_[row]) <= tolerance_ ? best : no_row;
@@ -84,11 +67,8 @@ void add_differences(stats::ErrorSums& sums, const std::vector<std::size_t>& gro
       ++others;
     }
     if (others == 0) continue;
-    const double r = (tau[i] - sum / others) * std::sqrt(others / (others + 1));
-    if (data.condensed) // assumes the other experiments' scatter of rows about means
-      stats::add_block(sums, r, data.condensed->rows[i], data.condensed->within_MPa2[i]);
-    else
-      add_residual(sums, r);
+    // A block's scatter of rows about its mean counts as that of the other experiments' too.
+    stats::add_row(sums, data, i, (tau[i] - sum / others) * std::sqrt(others / (others + 1)));
   }
 }
 
@@ -133,7 +113,7 @@ stats::ErrorSums scatter_within(Rows tau) {
       window.take(at(end), tau[end], 1);
     for (; begin < want; ++begin)
       window.take(at(begin), tau[begin], -1);
-    add_residual(sums, window.scatter(at(i), tau[i]));
+    stats::add_block(sums, window.scatter(at(i), tau[i]), 1, 0);
   }
   return sums;
 }
@@ -167,22 +147,12 @@ std::optional<NoiseFloor> replicate_floor(const data::Dataset& data, std::size_t
   return floor;
 }
 
-namespace {
-
 std::vector<stats::ErrorSums> scatter_in_tests(const data::Dataset& data) {
   const Rows tau = data.values("tau_R_MPa");
   std::vector<stats::ErrorSums> sums;
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
-    sums.push_back(
-        scatter_within(tau.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])));
+    sums.push_back(scatter_within(data.of_test(tau, e)));
   return sums;
-}
-
-} // namespace
-
-std::optional<NoiseFloor> within_floor(const data::Dataset& data, std::size_t resamples,
-                                       std::uint64_t seed) {
-  return within_floor(scatter_in_tests(data), resamples, seed);
 }
 
 std::optional<NoiseFloor> within_floor(std::vector<stats::ErrorSums> sums, std::size_t resamples,
@@ -200,9 +170,11 @@ void add_noise_floors(Calibration& calibration, const CalibrationInput& input,
       {&input.validation, "validation"}, {&input.training, "training"}};
   if (!on_other_experiments(input.judged_by)) parts = {{&input.training, "all"}};
   const auto within = [&](const data::Dataset& data, std::size_t resamples, std::uint64_t seed) {
-    if (!data.condensed) return within_floor(data, resamples, seed);
-    return within_floor(&data == &input.training ? known.training : known.validation, resamples,
-                        seed);
+    const bool training = &data == &input.training;
+    return within_floor(!data.condensed ? scatter_in_tests(data)
+                        : training      ? known.training
+                                        : known.validation,
+                        resamples, seed);
   };
   using Method =
       std::function<std::optional<NoiseFloor>(const data::Dataset&, std::size_t, std::uint64_t)>;
@@ -213,7 +185,7 @@ void add_noise_floors(Calibration& calibration, const CalibrationInput& input,
         floor->part = part_and_name.second;
         both.push_back(*floor);
       }
-    std::stable_sort(both.begin(), both.end(), [](const NoiseFloor& a, const NoiseFloor& b) {
+    std::ranges::stable_sort(both, [](const NoiseFloor& a, const NoiseFloor& b) {
       return a.n_groups > b.n_groups; // 0 except for replicates
     });
     calibration.noise_floors.insert(calibration.noise_floors.end(), both.begin(), both.end());

@@ -27,12 +27,11 @@ std::optional<NoiseFloor> replicate_floor(const data::Dataset& data, std::size_t
 // Within experiments: scatter around a straight line through the neighbouring rows (a twentieth of
 // the experiment, at least 9 rows). The line follows the row itself by its leverage h, which makes
 // its residual too small, so it is divided by sqrt(1 - h). This is a lower bound: factors that a
-// whole experiment shares, and slow ones, are not included. None if no experiment has 9 rows.
-std::optional<NoiseFloor> within_floor(const data::Dataset& data, std::size_t resamples,
-                                       std::uint64_t seed);
-// The same from that scatter per experiment; an experiment with too few rows has sums without rows.
-std::optional<NoiseFloor> within_floor(std::vector<stats::ErrorSums> sums, std::size_t resamples,
-                                       std::uint64_t seed);
+// whole experiment shares, and slow ones, are not included. An experiment with fewer than 9 rows
+// has sums without rows; no floor if all have.
+std::optional<NoiseFloor> within_floor(std::vector<stats::ErrorSums> scatter_of_experiments,
+                                       std::size_t resamples, std::uint64_t seed);
+std::vector<stats::ErrorSums> scatter_in_tests(const data::Dataset& data);
 stats::ErrorSums scatter_within(std::span<const double> tau_of_experiment);
 
 // Scatter within each experiment of condensed data, from their source rows.

@@ -11,32 +11,26 @@ namespace frictab::calibrate {
 namespace {
 
 // Eight partial sums: a fixed order that the compiler can vectorise.
-FRICTAB_WIDE double dot(const double* a, const double* b, std::size_t n) {
+template <class Term> FRICTAB_INLINE double sum_of(std::size_t n, Term term) {
   double part[8] = {};
   std::size_t i = 0;
   for (; i + 8 <= n; i += 8)
     for (std::size_t k = 0; k < 8; ++k)
-      part[k] += a[i + k] * b[i + k];
+      part[k] += term(i + k);
   double rest = 0;
   for (; i < n; ++i)
-    rest += a[i] * b[i];
+    rest += term(i);
   return (((part[0] + part[4]) + (part[2] + part[6])) +
           ((part[1] + part[5]) + (part[3] + part[7]))) +
          rest;
 }
 
+FRICTAB_WIDE double dot(const double* a, const double* b, std::size_t n) {
+  return sum_of(n, [=](std::size_t i) { return a[i] * b[i]; });
+}
+
 FRICTAB_WIDE double sum(const double* a, std::size_t n) {
-  double part[8] = {};
-  std::size_t i = 0;
-  for (; i + 8 <= n; i += 8)
-    for (std::size_t k = 0; k < 8; ++k)
-      part[k] += a[i + k];
-  double rest = 0;
-  for (; i < n; ++i)
-    rest += a[i];
-  return (((part[0] + part[4]) + (part[2] + part[6])) +
-          ((part[1] + part[5]) + (part[3] + part[7]))) +
-         rest;
+  return sum_of(n, [=](std::size_t i) { return a[i]; });
 }
 
 constexpr std::size_t block = expr::Program::block;
@@ -158,7 +152,7 @@ double mean_cost(const FitProblem& problem, const LossFunction& loss,
 
 NormalEquations normal_equations(const FitProblem& problem, const LossFunction& loss,
                                  std::span<const double> parameters) {
-  const auto size = static_cast<Eigen::Index>(parameters.size());
+  const Eigen::Index size = parameters.size();
   NormalEquations n{0, Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
   Terms terms;
   problem.law.sweep(parameters, true, [&](const expr::BoundProgram::Block& b) {
@@ -177,7 +171,7 @@ NormalEquations normal_equations(const FitProblem& problem, const LossFunction& 
 std::vector<ExperimentSums> sums_by_experiment(const FitProblem& problem, const LossFunction& loss,
                                                std::span<const double> parameters,
                                                std::span<const std::size_t> first_row) {
-  const auto size = static_cast<Eigen::Index>(parameters.size());
+  const Eigen::Index size = parameters.size();
   std::vector<ExperimentSums> sums(
       first_row.size() - 1, {Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)});
   std::size_t experiment = 0;

@@ -19,13 +19,13 @@ enum class Loss { l2, l1, huber };
 enum class Deliver { training, all };
 
 struct ModelOptions {
-  std::vector<std::string> use;       // empty: all that the columns allow
-  std::vector<std::string> files;     // of laws
-  std::vector<models::LawText> texts; // laws written in the job
-  models::Laws laws;                  // including those of the job
+  std::vector<std::string> use = {};       // empty: all that the columns allow
+  std::vector<std::string> files = {};     // of laws
+  std::vector<models::LawText> texts = {}; // laws written in the job
+  models::Laws laws = {};                  // including those of the job
   models::ShearYield shear_yield = models::ShearYield::mises;
   bool shear_limit = true; // tau_R <= k
-  Place place;
+  Place place = {};
 };
 
 struct CalibrationOptions {

@@ -13,7 +13,7 @@ namespace {
 // Returns row numbers in the order of sigma_N/k. A first pass deals them into buckets of equal
 // width, so that each sort is short; ratios that all fall into one bucket only make it slower.
 std::vector<std::uint32_t> in_order(const std::vector<double>& ratio) {
-  const auto [least, most] = std::minmax_element(ratio.begin(), ratio.end());
+  const auto [least, most] = std::ranges::minmax_element(ratio);
   const double low = *least, high = *most;
   const std::size_t buckets = ratio.size() / 4 + 1;
   const double per = high > low ? static_cast<double>(buckets - 1) / (high - low) : 0;
@@ -27,7 +27,7 @@ std::vector<std::uint32_t> in_order(const std::vector<double>& ratio) {
     order[end[bucket(ratio[i])]++] = i;
   auto begin = order.begin();
   for (std::size_t b = 0; b < buckets; ++b) {
-    const auto stop = order.begin() + static_cast<std::ptrdiff_t>(end[b]);
+    const auto stop = order.begin() + end[b];
     std::sort(begin, stop, [&](std::uint32_t a, std::uint32_t c) { return ratio[a] < ratio[c]; });
     begin = stop;
   }

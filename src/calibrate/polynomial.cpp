@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -29,19 +30,19 @@ constexpr std::size_t draws = 1000;
 double term_at(const PolynomialDegrees& degrees, const Eigen::RowVectorXd& z) {
   double product = 1;
   for (std::size_t i = 0; i < degrees.size(); ++i)
-    product *= models::legendre(degrees[i], z(static_cast<Index>(i)));
+    product *= models::legendre(degrees[i], z(i));
   return product;
 }
 
 PolynomialProblem problem_of(const PolynomialBins& bins,
                              const std::vector<PolynomialDegrees>& terms) {
   PolynomialProblem problem{{}, {0}, bins.ln_mu, bins.position, bins.rows, bins.first};
-  problem.design.resize(bins.z.rows(), static_cast<Index>(terms.size()) + 1);
+  problem.design.resize(bins.z.rows(), terms.size() + 1);
   problem.design.col(0).setOnes();
   for (std::size_t t = 0; t < terms.size(); ++t) {
     problem.order.push_back(std::accumulate(terms[t].begin(), terms[t].end(), 0U));
     for (Index b = 0; b < bins.z.rows(); ++b)
-      problem.design(b, static_cast<Index>(t) + 1) = term_at(terms[t], bins.z.row(b));
+      problem.design(b, t + 1) = term_at(terms[t], bins.z.row(b));
   }
   return problem;
 }
@@ -52,8 +53,7 @@ VectorXd unseen_MPa(const PolynomialBins& bins, const PolynomialProblem& problem
   VectorXd tau(bins.ln_mu.size());
   for (std::size_t e = 0; e < bins.experiments(); ++e) {
     const Index from = bins.first[e], count = bins.first[e + 1] - from;
-    const VectorXd ln_mu =
-        problem.design.middleRows(from, count) * fit.without.col(static_cast<Index>(e));
+    const VectorXd ln_mu = problem.design.middleRows(from, count) * fit.without.col(e);
     tau.segment(from, count) = (ln_mu.array().exp() * bins.stress.segment(from, count).array())
                                    .min(bins.limit.segment(from, count).array());
   }
@@ -63,11 +63,10 @@ VectorXd unseen_MPa(const PolynomialBins& bins, const PolynomialProblem& problem
 // Absolute errors of the bins summed over the rows of each experiment.
 VectorXd errors_of_experiments(const PolynomialBins& bins, const VectorXd& tau) {
   const VectorXd measured = bins.ln_mu.array().exp() * bins.stress.array();
-  VectorXd sums(static_cast<Index>(bins.experiments()));
+  VectorXd sums(bins.experiments());
   for (std::size_t e = 0; e < bins.experiments(); ++e) {
     const Index from = bins.first[e], count = bins.first[e + 1] - from;
-    sums(static_cast<Index>(e)) =
-        (measured - tau).segment(from, count).cwiseAbs().dot(bins.rows.segment(from, count));
+    sums(e) = (measured - tau).segment(from, count).cwiseAbs().dot(bins.rows.segment(from, count));
   }
   return sums;
 }
@@ -87,13 +86,12 @@ OrderFits fit_orders(const PolynomialBins& bins) {
   all.terms = models::polynomial_terms(bins.states.size(), orders);
   all.problems.resize(orders);
   all.fits.resize(orders);
-  all.errors.resize(static_cast<Index>(bins.experiments()), orders);
+  all.errors.resize(bins.experiments(), orders);
   parallel_for(orders, [&](std::size_t i) {
     const auto order = static_cast<unsigned>(i) + 1;
     all.problems[i] = problem_of(bins, models::polynomial_terms(bins.states.size(), order));
     all.fits[i] = fit_polynomial(all.problems[i]);
-    all.errors.col(static_cast<Index>(i)) =
-        errors_of_experiments(bins, unseen_MPa(bins, all.problems[i], all.fits[i]));
+    all.errors.col(i) = errors_of_experiments(bins, unseen_MPa(bins, all.problems[i], all.fits[i]));
   });
   return all;
 }
@@ -153,11 +151,9 @@ std::vector<PolynomialTerm> listed_terms(const models::Polynomial& polynomial,
   std::vector<PolynomialTerm> terms;
   for (std::size_t t = 0; t < polynomial.terms.size(); ++t)
     terms.push_back({models::term_text(polynomial.terms[t], polynomial.states),
-                     polynomial.coefficients[t], errors(static_cast<Index>(t) + 1)});
-  std::stable_sort(terms.begin(), terms.end(),
-                   [](const PolynomialTerm& a, const PolynomialTerm& b) {
-                     return std::abs(a.coefficient) > std::abs(b.coefficient);
-                   });
+                     polynomial.coefficients[t], errors(t + 1)});
+  std::ranges::stable_sort(terms, std::greater{},
+                           [](const PolynomialTerm& term) { return std::abs(term.coefficient); });
   return terms;
 }
 

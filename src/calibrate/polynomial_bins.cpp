@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "data/condense.h"
+#include "data/middle.h"
 #include "data/quantity.h"
 
 namespace frictab::calibrate {
@@ -39,11 +40,11 @@ double exceeded_by_most(const data::Dataset& data, std::span<const double> rows)
       all += data.row_weight(i);
     }
   if (!data.condensed && !positive.empty()) { // no need to sort them
-    const auto small = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 20);
+    const auto small = positive.begin() + positive.size() / 20;
     std::nth_element(positive.begin(), small, positive.end());
     return small->first;
   }
-  std::sort(positive.begin(), positive.end());
+  std::ranges::sort(positive);
   double below = std::floor(all / 20);
   for (const auto& [value, weight] : positive) {
     if (weight > below) return value;
@@ -91,7 +92,7 @@ void add_edges(Cells& cells, const data::Dataset& data, const std::vector<double
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const std::size_t begin = data.first_row[e], end = data.first_row[e + 1];
     const std::size_t count = std::min(end - begin, cells_of_an_experiment);
-    cells.first.push_back(static_cast<Index>(cells.edges.size()));
+    cells.first.push_back(cells.edges.size());
     std::size_t at = begin;
     for (std::size_t c = 0; c < count; ++c) {
       const double share = static_cast<double>(c) / static_cast<double>(count);
@@ -101,12 +102,12 @@ void add_edges(Cells& cells, const data::Dataset& data, const std::vector<double
       else
         while (at + 1 < end && 0.5 * (before[at] + before[at + 1]) < wanted) // blocks may be long
           ++at;
-      const auto edge = static_cast<Index>(at);
+      const Index edge = at;
       if (c == 0 || edge > cells.edges.back()) cells.edges.push_back(edge);
     }
   }
-  cells.first.push_back(static_cast<Index>(cells.edges.size()));
-  cells.edges.push_back(static_cast<Index>(data.rows()));
+  cells.first.push_back(cells.edges.size());
+  cells.edges.push_back(data.rows());
   for (const Index edge : cells.edges)
     cells.rows.push_back(before[static_cast<std::size_t>(edge)]);
 }
@@ -131,7 +132,7 @@ void standardise(Eigen::Ref<VectorXd> sums, const Cells& cells) {
 Cells cells_of(const data::Dataset& data, const MatrixXd& u) {
   Cells cells;
   add_edges(cells, data, rows_before(data));
-  const auto edges = static_cast<Index>(cells.edges.size());
+  const Index edges = cells.edges.size();
   cells.sums.resize(edges, u.cols());
   for (Index state = 0; state < u.cols(); ++state) {
     double sum = 0;
@@ -154,8 +155,7 @@ public:
   std::vector<Index> cuts(Index from, Index to) const {
     std::vector<Part> parts{best_cut(from, to)};
     while (parts.size() < bins_of_an_experiment) {
-      const auto widest = std::max_element(
-          parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.gain < b.gain; });
+      const auto widest = std::ranges::max_element(parts, {}, &Part::gain);
       if (widest->cut < 0) break;
       const Part whole = *widest;
       *widest = best_cut(whole.from, whole.cut);
@@ -230,10 +230,7 @@ double median_coefficient(const std::vector<std::vector<BinOfRows>>& bins) {
   for (const auto& experiment : bins)
     for (const BinOfRows& bin : experiment)
       if (bin.tau > 0) mu.push_back(bin.tau / bin.stress);
-  if (mu.empty()) return 0;
-  const auto middle = mu.begin() + static_cast<std::ptrdiff_t>(mu.size() / 2);
-  std::nth_element(mu.begin(), middle, mu.end());
-  return *middle;
+  return mu.empty() ? 0 : data::upper_median(std::move(mu));
 }
 
 std::vector<std::vector<BinOfRows>> cut_experiments(const data::Dataset& data,
@@ -274,10 +271,9 @@ void scale_states(PolynomialBins& bins, const MatrixXd& u) {
     kept.push_back(i);
     states.push_back(state);
   }
-  bins.z.resize(u.rows(), static_cast<Index>(kept.size()));
+  bins.z.resize(u.rows(), kept.size());
   for (std::size_t i = 0; i < kept.size(); ++i)
-    bins.z.col(static_cast<Index>(i)) =
-        (u.col(kept[i]).array() - states[i].centre) / states[i].half;
+    bins.z.col(i) = (u.col(kept[i]).array() - states[i].centre) / states[i].half;
   bins.states = std::move(states);
 }
 
@@ -291,14 +287,13 @@ void take_bins(PolynomialBins& bins, const std::vector<std::vector<BinOfRows>>& 
         kept.push_back(&bin);
       else
         ++bins.without_friction;
-    if (const auto end = static_cast<Index>(kept.size()); end > bins.first.back())
-      bins.first.push_back(end);
+    if (const Index end = kept.size(); end > bins.first.back()) bins.first.push_back(end);
   }
-  const auto count = static_cast<Index>(kept.size());
+  const Index count = kept.size();
   for (auto member : {&PolynomialBins::ln_mu, &PolynomialBins::stress, &PolynomialBins::limit,
                       &PolynomialBins::position, &PolynomialBins::rows})
     (bins.*member).resize(count);
-  MatrixXd u(count, static_cast<Index>(bins.states.size()));
+  MatrixXd u(count, bins.states.size());
   for (Index b = 0; b < count; ++b) {
     const BinOfRows& bin = *kept[static_cast<std::size_t>(b)];
     bins.ln_mu(b) = std::log(bin.tau / bin.stress);
@@ -318,12 +313,12 @@ PolynomialBins polynomial_bins(const std::vector<std::string>& names, const data
   PolynomialBins bins;
   RowColumns columns{data.values("sigma_n_MPa"), data.values("tau_R_MPa"), {}, {}, data};
   if (conventions.shear_limit) columns.flow_stress = data.values("sigma_f_MPa");
-  columns.u.resize(static_cast<Index>(data.rows()), static_cast<Index>(names.size()));
+  columns.u.resize(data.rows(), names.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto rows = data.values(names[i]);
     bins.states.push_back(coordinate(names[i], data));
     for (std::size_t row = 0; row < rows.size(); ++row)
-      columns.u(static_cast<Index>(row), static_cast<Index>(i)) = bins.states.back().u(rows[row]);
+      columns.u(row, i) = bins.states.back().u(rows[row]);
   }
   for (std::size_t row = 0; row < data.rows(); ++row)
     if (!(columns.stress[row] > 0))

@@ -23,7 +23,7 @@ constexpr double usual_spread = 0.05;
 constexpr double prior_width = 10;
 
 unsigned highest_order(const PolynomialProblem& problem) {
-  return *std::max_element(problem.order.begin(), problem.order.end());
+  return *std::ranges::max_element(problem.order);
 }
 
 std::vector<double> usual_logs(const PolynomialProblem& problem) {
@@ -77,7 +77,7 @@ public:
   const stats::DenseReml& reml() const { return reml_; }
 
   void gradient(std::span<double> out) const {
-    std::fill(out.begin(), out.end(), 0.0);
+    std::ranges::fill(out, 0.0);
     for (std::size_t e = 0; e + 1 < problem_.first.size(); ++e) {
       const MatrixXd slope = reml_.slope(e);
       const auto derivatives = noise_in(e).derivatives();
@@ -158,9 +158,9 @@ PolynomialFit fit_polynomial(const PolynomialProblem& problem) {
   for (std::size_t k = noise_logs; k < best.logs.size(); ++k)
     fit.spread.push_back(std::exp(best.logs[k]));
   const std::size_t experiments = problem.first.size() - 1;
-  fit.without.resize(fit.coefficients.size(), static_cast<Index>(experiments));
+  fit.without.resize(fit.coefficients.size(), experiments);
   for (std::size_t e = 0; e < experiments; ++e)
-    fit.without.col(static_cast<Index>(e)) = likelihood.reml().without(e);
+    fit.without.col(e) = likelihood.reml().without(e);
   return fit;
 }
 

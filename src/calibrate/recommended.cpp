@@ -14,60 +14,23 @@ namespace frictab::calibrate {
 
 namespace {
 
-// MAE of a law, and the influence of each experiment on it.
-struct JudgedLaw {
-  double mae_MPa = 0;
-  std::vector<double> influence;
-};
-
-// Errors of all laws on experiments that count `times` each.
-class JudgedLaws {
-public:
-  explicit JudgedLaws(std::span<const LawErrors> laws)
-      : absolute_(laws.size()), difference_(laws.front().sums.size()) {
-    for (std::size_t i = 0; i < laws.size(); ++i)
-      for (const stats::ErrorSums& one : laws[i].sums)
-        absolute_[i].push_back(one.absolute);
-    for (const stats::ErrorSums& one : laws.front().sums)
-      rows_.push_back(one.rows);
-    judged_.resize(laws.size(), {0, std::vector<double>(rows_.size())});
-  }
-
-  void judge(std::span<const double> times) {
-    times_ = times;
-    for (std::size_t i = 0; i < judged_.size(); ++i)
-      judged_[i].mae_MPa =
-          stats::ratio_of(absolute_[i], rows_, times, stats::Measure::mean, judged_[i].influence);
-  }
-  double mae_MPa(std::size_t law) const { return judged_[law].mae_MPa; }
-  double standard_error_of_difference(std::size_t a, std::size_t b) {
-    for (std::size_t e = 0; e < difference_.size(); ++e)
-      difference_[e] = judged_[a].influence[e] - judged_[b].influence[e];
-    return stats::standard_error(difference_, times_);
-  }
-
-private:
-  std::vector<std::vector<double>> absolute_;
-  std::vector<double> rows_, difference_;
-  std::vector<JudgedLaw> judged_;
-  std::span<const double> times_;
-};
-
-struct Place {
+struct Simplest {
   std::size_t law = 0;
   double behind_MPa = 0, std_error_MPa = 0;
 };
 
-// Applies the rule to the judged laws, of which `best` is the best.
-Place simplest_near(JudgedLaws& judged, std::size_t best, std::span<const std::size_t> numbers) {
-  Place out{best};
+// Applies the rule on experiments that count `times` each, of which `best` is the best.
+Simplest simplest_near(const PairedErrors& errors, std::span<const double> times, std::size_t best,
+                       std::span<const std::size_t> numbers) {
+  const PairedErrors::Estimates mae = errors.at(times);
+  Simplest out{best};
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (i == best) continue;
-    const double behind = judged.mae_MPa(i) - judged.mae_MPa(best);
+    const double behind = mae.value[i] - mae.value[best];
     const bool closer = numbers[i] == numbers[out.law] && behind < out.behind_MPa;
     if (numbers[i] >= numbers[out.law] && !closer) continue;
-    const double error = judged.standard_error_of_difference(i, best);
-    if (behind > std::max(error, same_error * judged.mae_MPa(best))) continue;
+    const double error = errors.error_of_difference(mae, best, i, times);
+    if (behind > std::max(error, same_error * mae.value[best])) continue;
     out = {i, behind, error};
   }
   return out;
@@ -95,27 +58,24 @@ Recommended recommend(std::span<const LawErrors> laws, std::span<const std::size
                       std::size_t resamples, std::uint64_t seed) {
   if (laws.empty()) return {};
   const std::size_t experiments = laws.front().sums.size();
-  JudgedLaws judged(laws);
+  const PairedErrors errors(laws, stats::Measure::mean);
   const std::vector<double> once(experiments, 1.0);
-  judged.judge(once);
   const std::size_t best = experiments < 2 ? 0 : best_of(laws, once);
-  const Place place = experiments < 2 ? Place{} : simplest_near(judged, best, numbers);
+  const Simplest simplest =
+      experiments < 2 ? Simplest{} : simplest_near(errors, once, best, numbers);
   Recommended out;
-  out.law = laws[place.law].law;
+  out.law = laws[simplest.law].law;
   out.best = laws[best].law;
-  out.numbers = numbers[place.law];
+  out.numbers = numbers[simplest.law];
   out.numbers_of_best = numbers[best];
-  out.behind_MPa = place.behind_MPa;
-  out.std_error_MPa = place.std_error_MPa;
-  out.expected_mae_MPa = judged.mae_MPa(place.law);
+  out.behind_MPa = simplest.behind_MPa;
+  out.std_error_MPa = simplest.std_error_MPa;
+  out.expected.mae_MPa = errors.at(once).value[simplest.law];
   if (experiments < 2 || resamples == 0) return out;
   const auto rule = [&](std::span<const double> times) {
-    judged.judge(times);
-    return simplest_near(judged, best_of(laws, times), numbers).law;
+    return simplest_near(errors, times, best_of(laws, times), numbers).law;
   };
-  const RepeatedChoice again = repeat_choice(laws, rule, resamples, seed);
-  out.expected_mae_MPa = again.expected_mae_MPa;
-  out.expected_interval = again.interval;
+  out.expected = repeat_choice(laws, rule, resamples, seed).expected;
   return out;
 }
 
@@ -126,15 +86,15 @@ void add_recommended(Calibration& calibration, const CalibrationInput& input,
   std::vector<const ModelFit*> fits;
   std::vector<std::size_t> numbers;
   for (const ModelFit& fit : calibration.fits) {
-    const auto is_out = std::find(overruled.begin(), overruled.end(), fit.model.law->name);
+    const auto is_out = std::ranges::find(overruled, fit.model.law->name);
     if (fit.reference || is_out != overruled.end()) continue;
     fits.push_back(&fit);
     numbers.push_back(numbers_of(fit, calibration.fits));
   }
   const std::size_t tests = calibration.all_experiments.size();
-  const bool over_all = input.undivided && tests > 0 &&
-                        std::all_of(fits.begin(), fits.end(),
-                                    [&](const auto* fit) { return fit->over_all.size() == tests; });
+  const bool over_all =
+      input.undivided && tests > 0 &&
+      std::ranges::all_of(fits, [&](const auto* fit) { return fit->over_all.size() == tests; });
   std::vector<LawErrors> laws(fits.size());
   parallel_for(laws.size(), [&](std::size_t i) {
     laws[i] = {fits[i]->model.law->name,
@@ -164,7 +124,7 @@ Expected expected_error(const Calibration& calibration) {
   const ModelFit& fit = recommended_fit(calibration);
   const Recommended& r = calibration.recommended;
   const Metrics& judged = fit.on_all ? fit.on_all->validation : fit.validation;
-  if (!fit.on_all && r.expected_mae_MPa > 0) return {r.expected_mae_MPa, r.expected_interval};
+  if (!fit.on_all && r.expected.mae_MPa > 0) return r.expected;
   return {judged.mae_MPa, judged.mae_interval};
 }
 

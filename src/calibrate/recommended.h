@@ -45,10 +45,6 @@ const ModelFit& recommended_fit(const Calibration& calibration);
 // Error of the recommended law on new tests: of a law fitted again to all tests, cross-validated
 // over these; else that of the rule that chose it, repeated on resampled tests; else that on the
 // tests that judge it.
-struct Expected {
-  double mae_MPa = 0;
-  Interval interval;
-};
 Expected expected_error(const Calibration& calibration);
 
 // Sentence on why it differs from the error in the ranking, without a full stop; empty where both

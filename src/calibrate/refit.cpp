@@ -2,19 +2,16 @@
 #include "calibrate/refit.h"
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <cmath>
-#include <deque>
 
 #include <fmt/format.h>
 
 #include "calibrate/beyond_ends.h"
 #include "calibrate/cross_validation.h"
-#include "calibrate/determined.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/fit_law.h"
 #include "calibrate/folds.h"
-#include "calibrate/input_columns.h"
 #include "calibrate/metrics.h"
 #include "calibrate/row_errors.h"
 #include "core/parallel.h"
@@ -34,27 +31,22 @@ constexpr std::size_t many_experiments = 30, usual_folds = 10;
 
 ModelFit fitted_to(const Dataset& all, const models::Law& law,
                    const models::Conventions& conventions, const CalibrationOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
-  ModelFit fit = fit_law(law, conventions, all, options);
-  fit.fitted_to_all = true;
-  const models::AssembledLaw assembled(fit.model);
-  const auto [columns, tau] = predict_with_columns(assembled, assembled.inputs, all);
-  fit.data_range = columns.ranges();
-  add_determination(fit, columns, all.experiments.size());
-  RowsBeyond beyond;
-  beyond.add(*fit.model.law, assembled.inputs, columns, all);
-  for (std::string& remark : beyond.told(*fit.model.law, "training and validation"))
-    fit.remarks.push_back(std::move(remark));
-  fit.training = metrics(all, tau, options.bootstrap, options.seed);
-  fit.band = check_band(fit.model, {}, all.subset({}));
-  fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return fit;
+  return fit_and_judge(
+      law, conventions, all, options,
+      [&](ModelFit& fit, const models::AssembledLaw& assembled, const Predicted& fitted) {
+        fit.fitted_to_all = true;
+        RowsBeyond beyond;
+        beyond.add(*assembled.model.law, fitted.columns, all);
+        beyond.add_remark(fit.remarks, *assembled.model.law, "training and validation");
+        fit.training = metrics(all, fitted.tau_MPa, options.bootstrap, options.seed);
+        fit.band = check_band(fit.model);
+      });
 }
 
 void cross_validate_fits(std::vector<ModelFit>& fits, const CrossValidation& cross,
                          const CalibrationOptions& options) {
   for (std::size_t i = 0; i < fits.size(); ++i) {
-    fits[i].validation = metrics(sums_of(cross.errors[i]), options.bootstrap, options.seed);
+    fits[i].validation = metrics_of(cross.errors[i], options);
     fits[i].band.inside = cross.bands[i].inside;
     fits[i].band.experiments = cross.bands[i].experiments;
   }
@@ -65,24 +57,18 @@ void judge_on_rows(std::vector<ModelFit>& fits, const CrossValidation& cross,
                    std::span<const std::size_t> fold_of, const Dataset& all,
                    const CalibrationOptions& options) {
   if (!all.condensed) return;
-  std::deque<models::AssembledLaw> own;
-  std::deque<std::deque<models::AssembledLaw>> without;
+  RowsToJudge fitted{&all, false}, left_out{&all, true};
   for (std::size_t i = 0; i < fits.size(); ++i) {
-    own.emplace_back(fits[i].model);
-    without.emplace_back(cross.without[i].begin(), cross.without[i].end());
+    fitted.laws.push_back({models::AssembledLaw(fits[i].model)});
+    const std::vector<models::AssembledLaw> folds(cross.without[i].begin(), cross.without[i].end());
+    left_out.laws.emplace_back();
+    for (const std::size_t fold : fold_of)
+      left_out.laws.back().push_back(folds[fold]);
   }
-  const LawOfExperiment fitted = [&](std::size_t l, std::size_t) -> const models::AssembledLaw& {
-    return own[l];
-  };
-  const LawOfExperiment left_out = [&](std::size_t l,
-                                       std::size_t e) -> const models::AssembledLaw& {
-    return without[l][fold_of[e]];
-  };
-  const RowsToJudge both[] = {{&all, false, fitted}, {&all, true, left_out}};
-  const std::vector<RowFindings> found = look_at_rows(both, fits.size());
+  const std::vector<RowFindings> found = judge_rows(std::array{fitted, left_out});
   for (std::size_t i = 0; i < fits.size(); ++i) {
-    fits[i].training = metrics(sums_of(found[0].errors[i]), options.bootstrap, options.seed);
-    fits[i].validation = metrics(sums_of(found[1].errors[i]), options.bootstrap, options.seed);
+    fits[i].training = metrics_of(found[0].errors[i], options);
+    fits[i].validation = metrics_of(found[1].errors[i], options);
   }
 }
 
@@ -147,7 +133,7 @@ void refit_on_all(Calibration& calibration, const models::Conventions& conventio
   const CrossValidation cross = cross_validate(laws, conventions, all, input.options, fold_of);
   cross_validate_fits(fits, cross, input.options);
   judge_on_rows(fits, cross, fold_of, all, input.options);
-  calibration.delivery_folds = *std::max_element(fold_of.begin(), fold_of.end()) + 1;
+  calibration.delivery_folds = *std::ranges::max_element(fold_of) + 1;
   for (std::size_t i = 0; i < fits.size(); ++i)
     calibration.fits[i].on_all = std::make_shared<const ModelFit>(std::move(fits[i]));
 }
@@ -160,8 +146,8 @@ std::string delivery_sentence(const Calibration& c, int decimals) {
     return fmt::format("delivered: fitted to the {} of the training; calibration.deliver = \"all\" "
                        "fits again to all",
                        trained);
-  const auto first = std::find_if(c.fits.begin(), c.fits.end(),
-                                  [](const ModelFit& fit) { return fit.on_all != nullptr; });
+  const auto first =
+      std::ranges::find_if(c.fits, [](const ModelFit& fit) { return fit.on_all != nullptr; });
   if (first == c.fits.end()) return "";
   const ModelFit& fit = *first->on_all;
   return fmt::format("delivered: fitted again to all {}; cross-validated over these {} errs by "

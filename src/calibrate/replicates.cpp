@@ -50,11 +50,11 @@ Input input_of(const data::Quantity& quantity, const data::Dataset& data) {
   const std::span<const double> values = data.values(quantity.name);
   Input in{{values.begin(), values.end()}, 0, true};
   if (in.x.empty()) return {};
-  const bool log = quantity.log_axis && *std::min_element(in.x.begin(), in.x.end()) > 0;
+  const bool log = quantity.log_axis && *std::ranges::min_element(in.x) > 0;
   if (log)
     for (double& value : in.x)
       value = std::log(value);
-  const auto [least, most] = std::minmax_element(in.x.begin(), in.x.end());
+  const auto [least, most] = std::ranges::minmax_element(in.x);
   const double range = *most - *least;
   if (!(range > 0)) return {};
   std::vector<double> means;
@@ -115,7 +115,7 @@ bool may_be_set(const data::Column& column) {
 // Step in which a column is written: 1, 0.1, ... 1e-6; 0 for finer ones.
 double written_step(std::span<const double> values) {
   for (double step = 1; step > 5e-7; step /= 10)
-    if (std::all_of(values.begin(), values.end(), [&](double v) {
+    if (std::ranges::all_of(values, [&](double v) {
           return std::abs(v / step - std::round(v / step)) <
                  1e-6 * std::max(1.0, std::abs(v / step));
         }))
@@ -141,11 +141,10 @@ bool counts_tests(const data::Column& column, const std::vector<double>& values,
       column.role == data::Role::label)
     return false;
   if (column.levels.empty())
-    return std::all_of(values.begin(), values.end(),
-                       [](double v) { return v >= 1 && v == std::round(v); }) &&
+    return std::ranges::all_of(values, [](double v) { return v >= 1 && v == std::round(v); }) &&
            *levels.rbegin() - *levels.begin() < 2 * static_cast<double>(levels.size());
   const std::string stem = without_digits(column.levels[static_cast<std::size_t>(values.front())]);
-  return stem.find('#') != stem.npos && std::all_of(values.begin(), values.end(), [&](double v) {
+  return stem.find('#') != stem.npos && std::ranges::all_of(values, [&](double v) {
            return without_digits(column.levels[static_cast<std::size_t>(v)]) == stem;
          });
 }
@@ -173,14 +172,14 @@ Setting means_in_tests(const data::Column& column, const data::Dataset& data) {
   Setting setting;
   std::vector<double> means, ranges;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-    const auto first = column.values.begin() + static_cast<std::ptrdiff_t>(data.first_row[e]),
-               last = column.values.begin() + static_cast<std::ptrdiff_t>(data.first_row[e + 1]);
-    const auto [low, high] = std::minmax_element(first, last);
+    const std::span<const double> test = data.of_test(column.values, e);
+    const auto [low, high] = std::ranges::minmax_element(test);
     ranges.push_back(*high - *low);
-    means.push_back(std::accumulate(first, last, 0.0) / static_cast<double>(last - first));
+    means.push_back(std::accumulate(test.begin(), test.end(), 0.0) /
+                    static_cast<double>(test.size()));
     setting.of_tests.push_back({means.back()});
   }
-  const auto [low, high] = std::minmax_element(means.begin(), means.end());
+  const auto [low, high] = std::ranges::minmax_element(means);
   setting.tolerance = std::max(replicate_tolerance * (*high - *low), data::median_of(ranges));
   return setting;
 }
@@ -206,16 +205,15 @@ Setting set_within_tests(const data::Column& column, const data::Dataset& data) 
 }
 
 Setting setting_of(const data::Column& column, const data::Dataset& data) {
-  if (!may_be_set(column) || std::any_of(column.values.begin(), column.values.end(),
-                                         [](double v) { return std::isnan(v); }))
+  if (!may_be_set(column) ||
+      std::ranges::any_of(column.values, [](double v) { return std::isnan(v); }))
     return {};
   std::vector<double> values;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-    const auto first = column.values.begin() + static_cast<long>(data.first_row[e]);
-    const auto last = column.values.begin() + static_cast<long>(data.first_row[e + 1]);
-    if (std::any_of(first, last, [&](double v) { return v != *first; }))
+    const std::span<const double> test = data.of_test(column.values, e);
+    if (std::ranges::any_of(test, [&](double v) { return v != test.front(); }))
       return set_within_tests(column, data);
-    values.push_back(*first);
+    values.push_back(test.front());
   }
   return set_by_test(column, values);
 }
@@ -237,9 +235,7 @@ std::vector<std::vector<std::size_t>> replicate_groups(const data::Dataset& data
     if (in.x.empty()) continue;
     inputs += in.differs;
     for (std::size_t e = 0; e < profiles.size(); ++e)
-      append_means(profiles[e],
-                   {in.x.data() + data.first_row[e], data.first_row[e + 1] - data.first_row[e]},
-                   replicate_tolerance / in.tolerance);
+      append_means(profiles[e], data.of_test(in.x, e), replicate_tolerance / in.tolerance);
   }
   for (const data::Column& column : data.columns) {
     const Setting setting = setting_of(column, data);
@@ -254,8 +250,8 @@ std::vector<std::vector<std::size_t>> replicate_groups(const data::Dataset& data
   if (inputs < 2) return {};
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t e = 0; e < profiles.size(); ++e) {
-    const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& members) {
-      const bool kin = std::any_of(members.begin(), members.end(), [&](std::size_t other) {
+    const auto group = std::ranges::find_if(groups, [&](const auto& members) {
+      const bool kin = std::ranges::any_of(members, [&](std::size_t other) {
         return !data.recording.empty() && data.recording[other] == data.recording[e];
       });
       return !kin && alike(profiles[members.front()], profiles[e]);

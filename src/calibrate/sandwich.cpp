@@ -61,7 +61,7 @@ constexpr const char* at_its_bound = "at its bound";
 constexpr double undetermined = 1e-10; // of the scaled curvature; below this a direction is flat
 
 Scaled scale_by(const MatrixXd& hessian, std::vector<Index> used) {
-  const auto size = static_cast<Index>(used.size());
+  const Index size = used.size();
   Scaled s{std::move(used), VectorXd(size), {}, MatrixXd::Zero(size, size)};
   for (Index a = 0; a < size; ++a)
     s.scale(a) = 1 / std::sqrt(hessian(s.used[a], s.used[a]));
@@ -85,7 +85,7 @@ struct Without {
 MatrixXd covariance(const Scaled& s, std::span<const ExperimentSums> sums,
                     std::vector<VectorXd>& alone, Without& without) {
   MatrixXd meat = MatrixXd::Zero(s.root.rows(), s.root.cols());
-  without.moved.resize(s.root.rows(), static_cast<Index>(sums.size()));
+  without.moved.resize(s.root.rows(), sums.size());
   without.part = without.moved;
   for (std::size_t e = 0; e < sums.size(); ++e) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> leverage(s.root * s.matrix(sums[e].hessian) *
@@ -99,8 +99,8 @@ MatrixXd covariance(const Scaled& s, std::span<const ExperimentSums> sums,
       deleted(d) /= std::max(rest, 1e-6);
     }
     const VectorXd corrected = leverage.eigenvectors() * score;
-    without.moved.col(static_cast<Index>(e)) = -(s.root * (leverage.eigenvectors() * deleted));
-    without.part.col(static_cast<Index>(e)) = s.root * corrected;
+    without.moved.col(e) = -(s.root * (leverage.eigenvectors() * deleted));
+    without.part.col(e) = s.root * corrected;
     meat += corrected * corrected.transpose();
   }
   return s.root * meat * s.root;
@@ -117,7 +117,7 @@ std::vector<const Parameter*> named(Parameters parameters, const Scaled& s,
                                     const std::vector<char>& flags) {
   std::vector<const Parameter*> chosen;
   for (std::size_t a = 0; a < flags.size(); ++a)
-    if (flags[a]) chosen.push_back(&parameters[s.at(static_cast<Index>(a))]);
+    if (flags[a]) chosen.push_back(&parameters[s.at(a)]);
   return chosen;
 }
 
@@ -158,7 +158,7 @@ class Judge {
 public:
   Judge(Parameters parameters, std::span<const double> values)
       : parameters_(parameters), values_(values) {
-    const auto size = static_cast<Index>(values.size());
+    const Index size = values.size();
     result_ = {std::vector<double>(values.size(), no_value),
                std::vector<std::string>(values.size()),
                {},
@@ -208,7 +208,7 @@ private:
     std::vector<Index> used;
     for (std::size_t i = 0; i < values_.size(); ++i) {
       const Parameter& p = parameters_[i];
-      const auto at = static_cast<Index>(i);
+      const Index at = i;
       if (!(hessian(at, at) > 0)) {
         result_.remarks.push_back(p.name + " has no influence on these data" + settled_by({&p}));
         result_.why_none[i] = "without influence";
@@ -229,8 +229,7 @@ private:
     std::vector<char> single(flat.size(), 0);
     for (std::size_t a = 0; a < flat.size(); ++a)
       for (const VectorXd& direction : alone)
-        if (!flat[a] && std::abs(direction(static_cast<Index>(a))) > 0.05 * direction.norm())
-          single[a] = 1;
+        if (!flat[a] && std::abs(direction(a)) > 0.05 * direction.norm()) single[a] = 1;
     return single;
   }
 
@@ -255,7 +254,7 @@ private:
   void fill_covariance(const Scaled& s, const MatrixXd& variance, const std::vector<char>& single) {
     for (std::size_t a = 0; a < single.size(); ++a)
       for (std::size_t b = 0; b < single.size(); ++b) {
-        const auto i = static_cast<Index>(a), j = static_cast<Index>(b);
+        const Index i = a, j = b;
         result_.covariance(s.used[a], s.used[b]) =
             single[a] || single[b] ? no_value : variance(i, j) * s.scale(i) * s.scale(j);
       }
@@ -265,7 +264,7 @@ private:
                    const std::vector<char>& single) {
     for (std::size_t a = 0; a < flat.size(); ++a) {
       if (flat[a] || single[a]) continue;
-      const auto at = static_cast<Index>(a);
+      const Index at = a;
       const std::size_t i = s.at(at);
       const Parameter& p = parameters_[i];
       const double error = std::sqrt(variance(at, at)) * s.scale(at);
@@ -297,8 +296,8 @@ MatrixXd known_covariance(const Uncertainty& uncertainty) {
   MatrixXd known = uncertainty.covariance;
   for (std::size_t p = 0; p < uncertainty.why_none.size(); ++p) {
     if (uncertainty.why_none[p] != at_its_bound) continue;
-    known.row(static_cast<Index>(p)).setConstant(no_value);
-    known.col(static_cast<Index>(p)).setConstant(no_value);
+    known.row(p).setConstant(no_value);
+    known.col(p).setConstant(no_value);
   }
   return known;
 }

@@ -67,6 +67,17 @@ double refined(Search& search, double low, double best, double high, std::size_t
   return begins ? gsl_min_fminimizer_x_minimum(brent.get()) : best;
 }
 
+using Symbols = std::map<std::string, expr::Expr>;
+
+// Replaces symbols in the law's formula.
+Law with_symbols(Law law, const Symbols& by) {
+  law.build = [build = law.build, by](const models::Conventions& conventions) {
+    const models::Formula formula = build(conventions);
+    return models::Formula{substitute(formula.value, by), substitute(formula.combine, by)};
+  };
+  return law;
+}
+
 } // namespace
 
 std::optional<std::size_t> slip_distance(const Law& law, const models::Conventions& conventions) {
@@ -80,20 +91,15 @@ std::optional<std::size_t> slip_distance(const Law& law, const models::Conventio
 
 Law at_slip_distance(const Law& law, std::size_t parameter, double distance_mm) {
   const std::string name = law.parameters[parameter].name;
-  std::map<std::string, expr::Expr> numbers;
+  Symbols numbers;
   for (const auto& [family, rule] : data::slip_states()) {
     const std::string state = data::slip_state_name(rule, distance_mm);
     numbers.emplace(family + name, expr::Expr::symbol(state));
     numbers[name] = data::slip_state(state)->distance_mm;
   }
-  Law at = law;
-  at.parameters.erase(at.parameters.begin() + static_cast<std::ptrdiff_t>(parameter));
+  Law at = with_symbols(law, numbers);
+  at.parameters.erase(at.parameters.begin() + parameter);
   at.formula += fmt::format("; {} = {} mm", name, shortest(numbers.at(name).value()));
-  at.build = [build = law.build, numbers](const models::Conventions& conventions) {
-    const models::Formula formula = build(conventions);
-    return models::Formula{substitute(formula.value, numbers),
-                           substitute(formula.combine, numbers)};
-  };
   return at;
 }
 
@@ -107,8 +113,7 @@ SlipDistance find_slip_distance(const Law& law, std::size_t parameter,
   std::vector<double> losses(tries);
   parallel_for(
       tries, [&](std::size_t i) { losses[i] = search.loss(low + step * static_cast<double>(i)); });
-  const auto best =
-      static_cast<std::size_t>(std::min_element(losses.begin(), losses.end()) - losses.begin());
+  const auto best = static_cast<std::size_t>(std::ranges::min_element(losses) - losses.begin());
   SlipDistance found{std::exp(low + step * static_cast<double>(best)), false, tries};
   found.at_bound = best == 0 || best + 1 == tries;
   if (!found.at_bound) {
@@ -129,18 +134,12 @@ std::string slope_name(const std::string& family) {
 
 // Adds the distance to the law as a parameter of its formula: state = value + (D - D0) slope.
 Law along_distance(const Law& law, const std::string& name, double distance_mm) {
-  std::map<std::string, expr::Expr> straight;
+  Symbols straight;
   for (const auto& [family, rule] : data::slip_states())
     straight.emplace(family + name, expr::Expr::symbol(value_name(family)) +
                                         (expr::Expr::symbol(name) - distance_mm) *
                                             expr::Expr::symbol(slope_name(family)));
-  Law along = law;
-  along.build = [build = law.build, straight](const models::Conventions& conventions) {
-    const models::Formula formula = build(conventions);
-    return models::Formula{substitute(formula.value, straight),
-                           substitute(formula.combine, straight)};
-  };
-  return along;
+  return with_symbols(law, straight);
 }
 
 // Adds value and slope of every state of the law to the data.
@@ -149,7 +148,7 @@ void add_states(Dataset& data, const std::vector<std::string>& inputs, const std
   constexpr double step = 0.02;
   for (const auto& slip_state : data::slip_states()) {
     const std::string& family = slip_state.first;
-    if (std::find(inputs.begin(), inputs.end(), family + name) == inputs.end()) continue;
+    if (std::ranges::find(inputs, family + name) == inputs.end()) continue;
     const auto at = [&data, rule = slip_state.second](double distance) {
       const std::string state = data::slip_state_name(rule, distance); // rounds the distance
       return std::pair{data::slip_state(state)->distance_mm,
@@ -179,8 +178,7 @@ Uncertainty slip_distance_uncertainty(const Law& law, std::size_t parameter, dou
   const std::vector<double> tau = predict(fitted, data);
   LawFit fit;
   fit.result.parameters = fitted.parameters;
-  fit.result.parameters.insert(
-      fit.result.parameters.begin() + static_cast<std::ptrdiff_t>(parameter), rounded);
+  fit.result.parameters.insert(fit.result.parameters.begin() + parameter, rounded);
   for (std::size_t i = 0; i < tau.size(); ++i)
     fit.result.cost +=
         std::abs(data.values("tau_R_MPa")[i] - tau[i]) / static_cast<double>(tau.size());

@@ -24,7 +24,7 @@ expr::Program program_of(const models::Model& model, std::vector<std::string> co
 
 StressError::StressError(const models::Model& model, const std::vector<std::string>& inputs)
     : parameters_(model.parameters), program_(program_of(model, inputs)) {
-  const auto size = static_cast<Index>(parameters_.size());
+  const Index size = parameters_.size();
   if (model.covariance.size() != parameters_.size() * parameters_.size()) return;
   covariance_ = Eigen::Map<const Eigen::MatrixXd>(model.covariance.data(), size, size); // symmetric
   known_ = true;
@@ -36,8 +36,7 @@ std::optional<VectorXd> StressError::slope(std::span<const double> state) const 
   std::vector<double> by(row.size());
   const double tau = program_.gradient(row, {}, by);
   const VectorXd slope =
-      Eigen::Map<const VectorXd>(by.data() + state.size(), static_cast<Index>(parameters_.size())) /
-      tau;
+      Eigen::Map<const VectorXd>(by.data() + state.size(), parameters_.size()) / tau;
   if (!(tau > 0) || !std::isfinite(tau) || !slope.allFinite()) return std::nullopt;
   return slope;
 }

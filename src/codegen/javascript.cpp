@@ -8,7 +8,7 @@
 #include "codegen/statements.h"
 #include "core/template.h"
 #include "core/text.h"
-#include "expr/several.h"
+#include "expr/expr.h"
 
 namespace frictab::codegen {
 

@@ -5,7 +5,7 @@
 
 #include "codegen/step_names.h"
 #include "expr/derivative.h"
-#include "expr/several.h"
+#include "expr/expr.h"
 #include "table/states.h"
 
 namespace frictab::codegen {

@@ -15,7 +15,7 @@
 #include "core/units.h"
 #include "data/quantity.h"
 #include "data/signs.h"
-#include "expr/letters.h"
+#include "expr/expr.h"
 #include "expr/program.h"
 
 namespace frictab::data {

@@ -217,6 +217,11 @@ public:
   // Throws std::logic_error if the column is absent: check has() first.
   std::span<const double> values(std::string_view name) const;
 
+  // The rows of one test in a column of all rows.
+  std::span<const double> of_test(std::span<const double> column, std::size_t experiment) const {
+    return column.subspan(first_row[experiment], first_row[experiment + 1] - first_row[experiment]);
+  }
+
   // The setting of a test: the text, or the number with six digits. nullopt if the column varies
   // within the test or has no value there.
   std::optional<std::string> level_of_test(const Column& column, std::size_t experiment) const;

@@ -42,9 +42,12 @@ private:
   double middle(std::size_t input) const {
     return 0.5 * (e_.inputs[input].low + e_.inputs[input].high);
   }
-  double place(std::size_t input, std::size_t i) const {
-    const EffectInput& x = e_.inputs[input];
-    return x.low + (x.high - x.low) * static_cast<double>(i) / static_cast<double>(points - 1);
+  static std::vector<double> places_along(const EffectInput& x) {
+    std::vector<double> places;
+    for (std::size_t i = 0; i < points; ++i)
+      places.push_back(x.low +
+                       (x.high - x.low) * static_cast<double>(i) / static_cast<double>(points - 1));
+    return places;
   }
 
   Curve factors(const std::vector<std::vector<double>>& columns) const {
@@ -58,22 +61,13 @@ private:
     std::vector<std::vector<double>> columns;
     for (const double value : at)
       columns.emplace_back(points, value);
-    for (std::size_t i = 0; i < points; ++i)
-      columns[input][i] = place(input, i);
+    columns[input] = places_along(e_.inputs[input]);
     return factors(columns);
   }
 
   std::string what() const {
-    switch (e_.acts_on) {
-    case ActsOn::m:
-      return "limit";
-    case ActsOn::tau:
-      return "tau_R";
-    case ActsOn::mu:
-    case ActsOn::mu_m:
-      break;
-    }
-    return "friction";
+    if (e_.acts_on == ActsOn::m) return "limit";
+    return e_.acts_on == ActsOn::tau ? "tau_R" : "friction";
   }
 
   std::string change(double from, double to) const {
@@ -97,13 +91,13 @@ private:
 
   // Describes an extreme between the ends if it is clearly above or below both.
   std::string extreme(const Curve& curve) const {
-    const auto [low, high] = std::minmax_element(curve.begin(), curve.end());
+    const auto [low, high] = std::ranges::minmax_element(curve);
     const double enough = worth_telling * (*high - *low);
     const auto [small, large] = std::minmax(curve.front(), curve.back());
     std::string text;
     const auto tell = [&](const char* word, Curve::const_iterator at) {
       text += fmt::format(", {} ({}) at {:.4g}", word, change(curve.front(), *at),
-                          place(0, static_cast<std::size_t>(at - curve.begin())));
+                          places_along(e_.inputs[0])[static_cast<std::size_t>(at - curve.begin())]);
     };
     if (small - *low > enough) tell("lowest", low);
     if (*high - large > enough) tell("highest", high);
@@ -121,7 +115,7 @@ private:
       changes.push_back(names[level] + " " + change(factor[0], factor[level]));
     std::string more;
     if (names.size() > levels_shown) {
-      const auto [low, high] = std::minmax_element(factor.begin(), factor.end());
+      const auto [low, high] = std::ranges::minmax_element(factor);
       changes.clear();
       for (const auto at : {low, high})
         changes.push_back(names[static_cast<std::size_t>(at - factor.begin())] + " " +
@@ -138,19 +132,10 @@ private:
       if (other.inputs.size() != 1 || other.acts_on != e_.acts_on ||
           other.inputs[0].column != e_.inputs[input].column)
         continue;
-      const Curve own = ChangeText(other, {}).along_places(curve.size(), e_.inputs[input]);
+      const Curve own = ChangeText(other, {}).factors({places_along(e_.inputs[input])});
       for (std::size_t i = 0; i < curve.size(); ++i)
         curve[i] = e_.acts_on == ActsOn::tau ? curve[i] + own[i] : curve[i] * own[i];
     }
-  }
-
-  // Evaluates the only input over the range of another.
-  Curve along_places(std::size_t count, const EffectInput& range) const {
-    std::vector<double> x(count);
-    for (std::size_t i = 0; i < count; ++i)
-      x[i] = range.low +
-             (range.high - range.low) * static_cast<double>(i) / static_cast<double>(count - 1);
-    return factors({x});
   }
 
   // Describes the change along `input` at each level or at both ends of `other`.

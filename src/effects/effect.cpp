@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/names.h"
 #include "core/order_statistics.h"
 #include "data/derived.h"
 #include "data/quantity.h"
@@ -43,7 +44,7 @@ const char* acts_on_name(ActsOn acts_on) {
 }
 
 std::optional<ActsOn> find_acts_on(std::string_view name) {
-  const auto at = std::find(acts_on_names.begin(), acts_on_names.end(), name);
+  const auto at = std::ranges::find(acts_on_names, name);
   if (at == acts_on_names.end()) return std::nullopt;
   return static_cast<ActsOn>(at - acts_on_names.begin());
 }
@@ -61,8 +62,8 @@ double Spread::positive() const {
 Spread spread_of(std::span<const double> values) {
   std::vector<double> finite;
   finite.reserve(values.size());
-  std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
-               [](double value) { return std::isfinite(value); });
+  std::ranges::copy_if(values, std::back_inserter(finite),
+                       [](double value) { return std::isfinite(value); });
   if (finite.empty()) return {};
   const auto rank = [&](double share) {
     return static_cast<std::size_t>(share * static_cast<double>(finite.size() - 1) + 0.5);
@@ -78,20 +79,6 @@ void set_knots(PlacedEffect& effect, const std::vector<std::span<const double>>&
       effect.inputs[i].knots = spline_knots(values[i], effect.form->knots[i]);
 }
 
-Expr value_by_level(const Expr& x, std::span<const Expr> values) {
-  Expr chosen = values.back();
-  for (std::size_t level = values.size() - 1; level-- > 0;)
-    chosen = where_le(x, static_cast<double>(level) + 0.5, values[level], chosen);
-  return chosen;
-}
-
-std::vector<double> growing_pattern(const PlacedEffect& effect) {
-  std::vector<double> values(amplitudes_of(effect));
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = static_cast<double>(i + 1) / static_cast<double>(values.size());
-  return values;
-}
-
 std::vector<models::Parameter> parameters_of(const PlacedEffect& effect) {
   const EffectForm& form = *effect.form;
   return form.parameters_of ? form.parameters_of(effect) : form.parameters;
@@ -103,7 +90,7 @@ std::size_t amplitudes_of(const PlacedEffect& effect) {
 
 const EffectInput* input_of(const models::Parameter& parameter, const PlacedEffect& effect) {
   const auto symbols = input_symbols(*effect.form);
-  const auto at = std::find(symbols.begin(), symbols.end(), parameter.unit);
+  const auto at = std::ranges::find(symbols, parameter.unit);
   return at == symbols.end() ? nullptr
                              : &effect.inputs[static_cast<std::size_t>(at - symbols.begin())];
 }
@@ -159,10 +146,7 @@ const EffectForm* find_effect(std::string_view name) {
 }
 
 std::vector<std::string> effect_names() {
-  std::vector<std::string> names;
-  for (const EffectForm& form : all_effects())
-    names.push_back(form.name);
-  return names;
+  return all_names(all_effects());
 }
 
 } // namespace frictab::effects

@@ -81,7 +81,8 @@ struct PlacedEffect {
   double stiffness = 0; // of a penalised fit: weight of the form's roughness; 0: none
 };
 
-// An effect form. Closed forms are rows of forms.cpp, others have a file each. The factor is a
+// An effect form. Closed forms are rows of forms.cpp, those of several amplitudes of
+// amplitude_forms.cpp. The factor is a
 // formula of "x" (and "x2", "x3" for forms of several quantities) and of the parameters; the
 // amplitude scales the whole effect; an amplitude of 0 is neutral, bit for bit. A form with several
 // amplitudes is linear in them and neutral if all are 0.
@@ -91,11 +92,11 @@ struct EffectForm {
   std::string title;
   std::string formula; // for people
   std::vector<models::Parameter>
-      parameters;            // the amplitude first; the others have units of x, x2 or x3
-  std::vector<Shape> shapes; // one per parameter after the amplitude
+      parameters;                 // the amplitude first; the others have units of x, x2 or x3
+  std::vector<Shape> shapes = {}; // one per parameter after the amplitude
   std::size_t columns = 1;
-  bool categorical = false;         // the first input is a text column, given by level numbers
-  std::optional<expr::Expr> factor; // absent if `build` is set
+  bool categorical = false;              // the first input is a text column, given by level numbers
+  std::optional<expr::Expr> factor = {}; // absent if `build` is set
   // For forms whose parameters depend on levels or knots: all are amplitudes, and `parameters`
   // above has one entry that represents them.
   std::vector<models::Parameter> (*parameters_of)(const PlacedEffect&) = nullptr;
@@ -105,7 +106,7 @@ struct EffectForm {
   std::vector<double> (*pattern)(const PlacedEffect&) = nullptr;
   // For smooth forms: the number of knots per input (0: none), and the roughness matrix of the
   // amplitudes, row-major, symmetric and positive semidefinite; nullptr for closed forms.
-  std::vector<int> knots;
+  std::vector<int> knots = {};
   std::vector<double> (*penalty)(const PlacedEffect&) = nullptr;
   // Readable text with numbers; nullptr: the formula and its parameters.
   std::string (*text)(const PlacedEffect&) = nullptr;
@@ -116,11 +117,6 @@ struct EffectForm {
 
 // Sets the knots of every input that its form requires; `values`: one column per input.
 void set_knots(PlacedEffect& effect, const std::vector<std::span<const double>>& values);
-
-// Returns the formula that selects the value of level number x of a text column.
-expr::Expr value_by_level(const expr::Expr& x, std::span<const expr::Expr> values);
-// Returns amplitudes of a planted effect of levels, which grow in equal steps up to 1.
-std::vector<double> growing_pattern(const PlacedEffect& effect);
 
 // Returns all parameters of an effect, amplitudes first, and the number of its amplitudes.
 std::vector<models::Parameter> parameters_of(const PlacedEffect& effect);

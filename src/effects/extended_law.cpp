@@ -54,33 +54,29 @@ bool uses_parameter(const Expr& formula, const std::string& name) {
 
 // Whether `combine` contains the law's own limit parameter.
 bool own_limit(const Law& law, const models::Formula& formula) {
-  return std::any_of(law.parameters.begin(), law.parameters.end(),
-                     [](const Parameter& p) { return p.name == "m"; }) &&
+  return std::ranges::any_of(law.parameters, [](const Parameter& p) { return p.name == "m"; }) &&
          uses_parameter(formula.combine, "m");
 }
 
+// Changes of each part of a law by effects; empty for parts without an effect.
 struct Factors {
-  Expr mu = 1.0, m = 1.0, tau = 0.0;
-  bool on_mu = false, on_m = false, on_tau = false;
+  std::optional<Expr> mu, m, tau; // factors, and an added stress
 };
+
+void multiply(std::optional<Expr>& product, const Expr& factor) {
+  product = product ? *product * factor : factor;
+}
 
 Factors collect_factors(std::span<const PlacedEffect> effects) {
   Factors all;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const Expr factor = factor_of(effects[i], prefix_of(i));
     const ActsOn acts_on = effects[i].acts_on;
-    if (acts_on == ActsOn::mu || acts_on == ActsOn::mu_m) {
-      all.mu = all.on_mu ? all.mu * factor : factor;
-      all.on_mu = true;
-    }
-    if (acts_on == ActsOn::m || acts_on == ActsOn::mu_m) {
-      all.m = all.on_m ? all.m * factor : factor;
-      all.on_m = true;
-    }
+    if (acts_on == ActsOn::mu || acts_on == ActsOn::mu_m) multiply(all.mu, factor);
+    if (acts_on == ActsOn::m || acts_on == ActsOn::mu_m) multiply(all.m, factor);
     if (acts_on == ActsOn::tau) {
       const Expr shift = effects[i].tau_scale_MPa * (factor - 1.0) * pressure_fading(effects[i]);
-      all.tau = all.on_tau ? all.tau + shift : shift;
-      all.on_tau = true;
+      all.tau = all.tau ? *all.tau + shift : shift;
     }
   }
   return all;
@@ -88,14 +84,14 @@ Factors collect_factors(std::span<const PlacedEffect> effects) {
 
 models::Formula with_factors(models::Formula formula, const Law& law,
                              const models::Conventions& conventions, const Factors& factors) {
-  if (factors.on_mu)
-    formula.combine = substitute(formula.combine, {{"value", Expr::symbol("value") * factors.mu}});
-  if (factors.on_m && own_limit(law, formula))
-    formula.combine = substitute(formula.combine, {{"m", Expr::symbol("m") * factors.m}});
-  else if (factors.on_m)
-    formula.combine = minimum(formula.combine, Expr::symbol(added_limit) * factors.m *
+  if (factors.mu)
+    formula.combine = substitute(formula.combine, {{"value", Expr::symbol("value") * *factors.mu}});
+  if (factors.m && own_limit(law, formula))
+    formula.combine = substitute(formula.combine, {{"m", Expr::symbol("m") * *factors.m}});
+  else if (factors.m)
+    formula.combine = minimum(formula.combine, Expr::symbol(added_limit) * *factors.m *
                                                    models::shear_yield_stress(conventions));
-  if (factors.on_tau) formula.combine = formula.combine + factors.tau;
+  if (factors.tau) formula.combine = formula.combine + *factors.tau;
   return formula;
 }
 
@@ -245,7 +241,7 @@ Law extended_law(const Law& law, const models::Conventions& conventions,
   }
   const Factors factors = collect_factors(effects);
   const models::Formula base = law.build(conventions);
-  if (factors.on_m && !own_limit(law, base))
+  if (factors.m && !own_limit(law, base))
     extended.parameters.push_back({added_limit, "1", "friction factor of the limit", 1, 0.01, 1,
                                    "experiments that reach the limit"});
   const models::Formula formula = with_factors(base, law, conventions, factors);

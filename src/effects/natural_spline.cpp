@@ -73,9 +73,9 @@ Expr weighted_sum(std::span<const double> weights, std::span<const Expr> values)
 
 std::vector<double> spline_knots(std::span<const double> values, int count) {
   std::vector<double> sorted;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
-               [](double value) { return std::isfinite(value); });
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::copy_if(values, std::back_inserter(sorted),
+                       [](double value) { return std::isfinite(value); });
+  std::ranges::sort(sorted);
   if (sorted.empty()) return {0.0};
   std::vector<double> knots{sorted.front()};
   const double least = least_distance * (sorted.back() - sorted.front());

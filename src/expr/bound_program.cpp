@@ -145,8 +145,8 @@ private:
   }
 
   void backward(std::size_t count) {
-    std::fill(gradient_.begin(), gradient_.end(), nullptr);
-    std::fill(adjoint_.begin(), adjoint_.end(), nullptr);
+    std::ranges::fill(gradient_, nullptr);
+    std::ranges::fill(adjoint_, nullptr);
     adjoint_.back() = constant_rows(1);
     for (std::size_t i = code_.size(); i-- > 0;) {
       const auto& in = code_[i];

@@ -9,7 +9,6 @@
 #include <unordered_set>
 
 #include "expr/arithmetic.h"
-#include "expr/several.h"
 
 namespace frictab::expr {
 

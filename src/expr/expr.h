@@ -92,8 +92,9 @@ Expr substitute(const Expr& formula, const std::vector<std::pair<Expr, Expr>>& n
 // Applies an operation through the operators, which simplify the result again.
 Expr rebuild(Op op, const std::vector<Expr>& operands);
 
-// The same formula with equal subformulas stored once.
+// The same formula, or formulas, with equal subformulas stored once.
 Expr shared(const Expr& formula);
+std::vector<Expr> shared(const std::vector<Expr>& formulas);
 
 // Text in Python/numpy spelling (minimum, maximum, where, exp, log, sqrt, sin, tanh, arccos, **);
 // parse_expr reads it back to a formula with the same bits. Constants round-trip.
@@ -115,5 +116,11 @@ Expr parse_expr(std::string_view text, std::string_view file = "formula");
 // True if a text is a valid name in a formula: ASCII letters, digits and _, not starting with a
 // digit.
 bool is_name(std::string_view text);
+// True for the name of a function that parse_expr knows.
+bool is_function(std::string_view name);
+// Length in bytes of the letter or _ at the front; 0 for a digit, a sign, a blank. Names in
+// formulas that are parsed may have UTF-8 letters beyond ASCII (ü, µ, Δ): all characters but the
+// signs of Latin-1 (°, ², ×) and the blocks of punctuation and mathematical signs.
+std::size_t letter_length(std::string_view text);
 
 } // namespace frictab::expr

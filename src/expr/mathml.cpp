@@ -2,6 +2,7 @@
 #include "expr/mathml.h"
 
 #include <cmath>
+#include <map>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -83,26 +84,19 @@ Part part_of(const Expr& e, const std::function<std::string(const std::string&)>
   case Op::power:
     return {"<msup>" + bracketed(of(0), Binding::atom) + row(of(1).text) + "</msup>",
             Binding::atom};
-  case Op::exp:
-    return {call("exp", of(0).text), Binding::atom};
-  case Op::log:
-    return {call("ln", of(0).text), Binding::atom};
   case Op::sqrt:
     return {"<msqrt>" + row(of(0).text) + "</msqrt>", Binding::atom};
-  case Op::sin:
-    return {call("sin", of(0).text), Binding::atom};
-  case Op::tanh:
-    return {call("tanh", of(0).text), Binding::atom};
-  case Op::acos:
-    return {call("arccos", of(0).text), Binding::atom};
-  case Op::minimum:
-    return {call("min", of(0).text + sign_text(",") + of(1).text), Binding::atom};
-  case Op::maximum:
-    return {call("max", of(0).text + sign_text(",") + of(1).text), Binding::atom};
   case Op::where_le:
     return cases(of(0), of(1), of(2), of(3));
+  default:
+    break;
   }
-  return {};
+  static const std::map<Op, const char*> names = {
+      {Op::exp, "exp"},     {Op::log, "ln"},      {Op::sin, "sin"},    {Op::tanh, "tanh"},
+      {Op::acos, "arccos"}, {Op::minimum, "min"}, {Op::maximum, "max"}};
+  const bool one = e.operands().size() == 1;
+  return {call(names.at(e.op()), one ? of(0).text : of(0).text + sign_text(",") + of(1).text),
+          Binding::atom};
 }
 
 } // namespace

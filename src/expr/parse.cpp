@@ -10,7 +10,6 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "expr/expr.h"
-#include "expr/letters.h"
 
 namespace frictab::expr {
 
@@ -24,6 +23,35 @@ bool is_ascii_letter(char c) {
 }
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
+}
+
+// Functions composed of other operations, so that languages and bounds need not support them.
+Expr magnitude(const Expr& x) {
+  return maximum(x, -x);
+}
+Expr sign(const Expr& x) {
+  return where_le(x, 0, where_le(0, x, 0, -1), 1);
+}
+// As accurate near 0 as elsewhere; the largest error is 1e-8, within 1e-8 of pi/2.
+Expr arctangent(const Expr& x) {
+  return std::numbers::pi / 2 - acos(x / sqrt(1.0 + x * x));
+}
+
+using Function = Expr (*)(const Expr&);
+using FunctionOfTwo = Expr (*)(const Expr&, const Expr&);
+
+// Functions by the names that to_text writes, and common alternatives; nullptr for other names.
+Function function_of_one(std::string_view name) {
+  static const std::map<std::string_view, Function> known = {
+      {"exp", exp},         {"log", log},           {"ln", log},        {"sqrt", sqrt},
+      {"sin", sin},         {"tanh", tanh},         {"arccos", acos},   {"acos", acos},
+      {"atan", arctangent}, {"arctan", arctangent}, {"abs", magnitude}, {"sign", sign}};
+  const auto found = known.find(name);
+  return found == known.end() ? nullptr : found->second;
+}
+FunctionOfTwo function_of_two(std::string_view name) {
+  if (name == "minimum" || name == "min") return minimum;
+  return name == "maximum" || name == "max" ? maximum : nullptr;
 }
 
 class Parser {
@@ -183,19 +211,7 @@ private:
   }
 
   Expr call(const std::string& name) {
-    // Names that to_text writes, and common alternatives.
-    static const std::map<std::string, Op> one = {
-        {"exp", Op::exp}, {"log", Op::log},   {"ln", Op::log},      {"sqrt", Op::sqrt},
-        {"sin", Op::sin}, {"tanh", Op::tanh}, {"arccos", Op::acos}, {"acos", Op::acos}};
-    static const std::map<std::string, Op> two = {{"minimum", Op::minimum},
-                                                  {"min", Op::minimum},
-                                                  {"maximum", Op::maximum},
-                                                  {"max", Op::maximum}};
-    static const std::map<std::string, Expr (*)(const Expr&)> of_others = {
-        {"atan", arctangent}, {"arctan", arctangent}, {"abs", magnitude}, {"sign", sign}};
-    const bool is_where = name == "where";
-    const auto other = of_others.find(name);
-    if (!is_where && other == of_others.end() && !one.count(name) && !two.count(name)) {
+    if (!is_function(name)) {
       const std::vector<std::string> known = {"abs",  "arccos", "atan",    "exp",  "ln",
                                               "log",  "max",    "maximum", "min",  "minimum",
                                               "sign", "sin",    "sqrt",    "tanh", "where"};
@@ -203,34 +219,21 @@ private:
     }
     expect("(");
     const Expr a = sum();
-    if (other != of_others.end()) {
-      expect(")");
-      return counted(other->second(a));
-    }
-    if (const auto found = one.find(name); found != one.end()) {
-      expect(")");
-      return counted(Expr::make(found->second, {a}));
-    }
-    expect(is_where ? "<=" : ",");
+    if (const Function one = function_of_one(name)) return closed(one(a));
+    const FunctionOfTwo two = function_of_two(name);
+    expect(two ? "," : "<=");
     const Expr b = sum();
-    if (!is_where) {
-      expect(")");
-      return counted(Expr::make(two.at(name), {a, b}));
-    }
+    if (two) return closed(two(a, b));
     expect(",");
     const Expr x = sum();
     expect(",");
     const Expr y = sum();
-    expect(")");
-    return counted(where_le(a, b, x, y));
+    return closed(where_le(a, b, x, y));
   }
 
-  // Functions composed of other operations, so that languages and bounds need not support them.
-  static Expr magnitude(const Expr& x) { return maximum(x, -x); }
-  static Expr sign(const Expr& x) { return where_le(x, 0, where_le(0, x, 0, -1), 1); }
-  // As accurate near 0 as elsewhere; the largest error is 1e-8, within 1e-8 of pi/2.
-  static Expr arctangent(const Expr& x) {
-    return std::numbers::pi / 2 - acos(x / sqrt(1.0 + x * x));
+  Expr closed(Expr e) {
+    expect(")");
+    return counted(std::move(e));
   }
 
   std::string_view text_;
@@ -261,8 +264,11 @@ std::size_t letter_length(std::string_view text) {
 // Names that are written into routines have letters of ASCII alone.
 bool is_name(std::string_view text) {
   return !text.empty() && is_ascii_letter(text.front()) &&
-         std::all_of(text.begin(), text.end(),
-                     [](char c) { return is_ascii_letter(c) || is_digit(c); });
+         std::ranges::all_of(text, [](char c) { return is_ascii_letter(c) || is_digit(c); });
+}
+
+bool is_function(std::string_view name) {
+  return function_of_one(name) || function_of_two(name) || name == "where";
 }
 
 Expr parse_expr(std::string_view text, std::string_view file) {

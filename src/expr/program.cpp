@@ -18,7 +18,7 @@ namespace frictab::expr {
 namespace {
 
 std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
 } // namespace
@@ -154,7 +154,7 @@ double Program::gradient(std::span<const double> row, std::span<const double> sc
   double* v = work.data();
   double* adjoint = v + code_.size();
   forward(row, scalars, v);
-  std::fill(by_column.begin(), by_column.end(), 0.0);
+  std::ranges::fill(by_column, 0.0);
   adjoint[code_.size() - 1] = 1;
   for (std::size_t i = code_.size(); i-- > 0;) {
     const Instruction& in = code_[i];

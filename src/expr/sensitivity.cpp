@@ -44,15 +44,10 @@ Bounds branch_slope(const Carried& a, const Carried& b, const Carried& c, const 
   return is_zero(a.slope) && is_zero(b.slope) ? hull(c.slope, d.slope) : whole_line;
 }
 
-Bounds smaller_slope(const Carried& a, const Carried& b) {
-  if (a.range.high <= b.range.low) return a.slope;
-  if (b.range.high <= a.range.low) return b.slope;
-  return hull(a.slope, b.slope);
-}
-
-Bounds larger_slope(const Carried& a, const Carried& b) {
-  if (a.range.high <= b.range.low) return b.slope;
-  if (b.range.high <= a.range.low) return a.slope;
+// Slope `if_a` where a is the smaller operand, `if_b` where b is, or around both.
+Bounds chosen_slope(const Carried& a, const Carried& b, const Bounds& if_a, const Bounds& if_b) {
+  if (a.range.high <= b.range.low) return if_a;
+  if (b.range.high <= a.range.low) return if_b;
   return hull(a.slope, b.slope);
 }
 
@@ -84,9 +79,9 @@ Bounds slope_of(Op op, const Carried& a, const Carried& b, const Carried& c, con
   case Op::acos:
     return chain(arc_slope(a.range), a.slope);
   case Op::minimum:
-    return smaller_slope(a, b);
+    return chosen_slope(a, b, a.slope, b.slope);
   case Op::maximum:
-    return larger_slope(a, b);
+    return chosen_slope(a, b, b.slope, a.slope);
   case Op::where_le:
     return branch_slope(a, b, c, d);
   case Op::constant:
@@ -102,7 +97,7 @@ Sensitivity::Sensitivity(const Expr& formula, const std::vector<std::string>& co
                          const std::string& of) {
   std::unordered_map<const Expr::Node*, std::size_t> done;
   const auto index = [&](const std::string& name) {
-    const auto found = std::find(columns.begin(), columns.end(), name);
+    const auto found = std::ranges::find(columns, name);
     if (found == columns.end())
       throw std::logic_error("formula has the unknown symbol '" + name + "'");
     return static_cast<std::size_t>(found - columns.begin());

@@ -1,5 +1,6 @@
 // Writes formulas in Python's spelling.
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -11,26 +12,11 @@ namespace frictab::expr {
 namespace {
 
 const char* function_name(Op op) {
-  switch (op) {
-  case Op::exp:
-    return "exp";
-  case Op::log:
-    return "log";
-  case Op::sqrt:
-    return "sqrt";
-  case Op::sin:
-    return "sin";
-  case Op::tanh:
-    return "tanh";
-  case Op::acos:
-    return "arccos";
-  case Op::minimum:
-    return "minimum";
-  case Op::maximum:
-    return "maximum";
-  default:
-    throw std::logic_error("not a function");
-  }
+  static const std::map<Op, const char*> names = {
+      {Op::exp, "exp"},         {Op::log, "log"},         {Op::sqrt, "sqrt"},
+      {Op::sin, "sin"},         {Op::tanh, "tanh"},       {Op::acos, "arccos"},
+      {Op::minimum, "minimum"}, {Op::maximum, "maximum"}, {Op::where_le, "where"}};
+  return names.at(op);
 }
 
 // Binding strength in Python: + - (1), * / (2), unary minus (3), ** (4), atoms (5).
@@ -60,17 +46,9 @@ std::string number(double value) {
 
 void write(std::string& text, const Expr& e, int least);
 
-// Writes two operands with a sign between them; `left` and `right` are the binding strengths they
-// need.
-void write_pair(std::string& text, const Expr& e, const char* sign, int left, int right) {
-  write(text, e.operands()[0], left);
-  text += sign;
-  write(text, e.operands()[1], right);
-}
-
 void write_call(std::string& text, const Expr& e) {
   const bool where = e.op() == Op::where_le;
-  text += where ? "where" : function_name(e.op());
+  text += function_name(e.op());
   for (std::size_t i = 0; i < e.operands().size(); ++i) {
     text += i == 0 ? "(" : where && i == 1 ? " <= " : ", ";
     write(text, e.operands()[i], 1);
@@ -79,33 +57,27 @@ void write_call(std::string& text, const Expr& e) {
 }
 
 void write_bare(std::string& text, const Expr& e) {
-  switch (e.op()) {
-  case Op::constant:
+  struct Sign { // between two operands, and the binding strengths that these need
+    const char* text;
+    int left, right;
+  };
+  static const std::map<Op, Sign> signs = {{Op::add, {" + ", 1, 2}},
+                                           {Op::subtract, {" - ", 1, 2}},
+                                           {Op::multiply, {"*", 2, 3}},
+                                           {Op::divide, {"/", 2, 3}},
+                                           {Op::power, {"**", 5, 4}}};
+  if (e.op() == Op::constant) {
     text += number(e.value());
-    break;
-  case Op::symbol:
+  } else if (e.op() == Op::symbol) {
     text += e.name();
-    break;
-  case Op::negate:
+  } else if (e.op() == Op::negate) {
     text += "-";
     write(text, e.operands()[0], 3);
-    break;
-  case Op::add:
-    write_pair(text, e, " + ", 1, 2);
-    break;
-  case Op::subtract:
-    write_pair(text, e, " - ", 1, 2);
-    break;
-  case Op::multiply:
-    write_pair(text, e, "*", 2, 3);
-    break;
-  case Op::divide:
-    write_pair(text, e, "/", 2, 3);
-    break;
-  case Op::power:
-    write_pair(text, e, "**", 5, 4);
-    break;
-  default:
+  } else if (const auto sign = signs.find(e.op()); sign != signs.end()) {
+    write(text, e.operands()[0], sign->second.left);
+    text += sign->second.text;
+    write(text, e.operands()[1], sign->second.right);
+  } else {
     write_call(text, e);
   }
 }

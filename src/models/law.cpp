@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/names.h"
 #include "data/quantity.h"
 
 namespace frictab::models {
@@ -43,17 +44,18 @@ std::vector<std::string> inputs_of(const Expr& tau_R, const Law& law) {
 }
 
 std::vector<std::string> law_names() {
-  std::vector<std::string> names;
-  for (const Law& law : all_laws())
-    names.push_back(law.name);
-  return names;
+  return all_names(all_laws());
 }
 
 std::vector<std::string> parameter_names(const Law& law) {
-  std::vector<std::string> names;
-  for (const Parameter& parameter : law.parameters)
-    names.push_back(parameter.name);
-  return names;
+  return all_names(law.parameters);
+}
+
+std::vector<double> start_values(std::span<const Parameter> parameters) {
+  std::vector<double> values;
+  for (const Parameter& parameter : parameters)
+    values.push_back(parameter.start);
+  return values;
 }
 
 std::shared_ptr<const Law> shared_law(const Law& law) {
@@ -107,7 +109,7 @@ std::string checked_model_name(const std::string& name, const std::string& file)
     return (c < 0x80 && std::isalnum(c)) || c == '_' || c == '.' || c == '-';
   };
   if (name.empty() || name.size() > 100 || name.front() == '.' ||
-      !std::all_of(name.begin(), name.end(), is_plain))
+      !std::ranges::all_of(name, is_plain))
     throw InputError({file, 0, 0}, "the model is called '" + name + "'",
                      "a name of 1 to 100 letters, digits, '_', '.' and '-'");
   return name;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -102,6 +103,7 @@ expr::Expr limited(const expr::Expr& combine, const Conventions& conventions, do
 expr::Expr tau_formula(const Law& law, const Conventions& conventions);
 
 std::vector<std::string> parameter_names(const Law& law);
+std::vector<double> start_values(std::span<const Parameter> parameters);
 
 // One calibrated law, complete for predicting tau_R. Its law is registered, or found from data or
 // written by a user and stored only here.

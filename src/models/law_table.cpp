@@ -97,7 +97,7 @@ Law law_of_table(const LawTable& table) {
   const Expr piece = piece_of(table);
   const bool is_mu = table.quantity == PieceQuantity::mu;
   const Expr combine = table.combine ? *table.combine
-                       : is_mu       ? state::value() * state::sigma_n()
+                       : is_mu       ? state::value_times_pressure()
                                      : state::value();
   law.build = [piece, combine](const Conventions&) { return Formula{piece, combine}; };
   return law;

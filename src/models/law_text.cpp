@@ -67,7 +67,7 @@ bool is_pressure(const Expr& e) {
 bool has_pressure_factor(const Expr& e) {
   std::vector<Expr> factors;
   add_factors(e, factors);
-  return std::any_of(factors.begin(), factors.end(), is_pressure);
+  return std::ranges::any_of(factors, is_pressure);
 }
 
 // Removes the factor sigma_n_MPa from a product.
@@ -130,9 +130,7 @@ public:
     const auto rank = [](const Candidate& c) {
       return std::tuple(c.is_mu, c.states, c.operations);
     };
-    return *std::max_element(
-        found_.begin(), found_.end(),
-        [&](const Candidate& x, const Candidate& y) { return rank(x) < rank(y); });
+    return *std::ranges::max_element(found_, {}, rank);
   }
 
 private:
@@ -157,39 +155,33 @@ private:
 bool is_positive(const Expr& formula, const std::vector<Parameter>& parameters) {
   std::unordered_set<const Expr::Node*> positive;
   const auto is = [&](const Expr& e) { return positive.count(e.id()) > 0; };
-  inside_out(formula, [&](const Expr& e) {
+  const auto follows = [&](const Expr& e) { // from its operands
     const auto& a = e.operands();
-    const auto found = std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) {
-      return e.op() == Op::symbol && p.name == e.name();
-    });
-    bool yes = false;
     switch (e.op()) {
     case Op::constant:
-      yes = e.value() > 0;
-      break;
+      return e.value() > 0;
     case Op::symbol:
-      yes = e.name() == "psi" || (found != parameters.end() && found->lower > 0);
-      break;
+      return e.name() == "psi" || std::ranges::any_of(parameters, [&](const Parameter& p) {
+               return p.name == e.name() && p.lower > 0;
+             });
     case Op::exp:
-      yes = true;
-      break;
+      return true;
     case Op::sqrt:
     case Op::power:
-      yes = is(a[0]);
-      break;
+      return is(a[0]);
     case Op::maximum:
-      yes = is(a[0]) || is(a[1]);
-      break;
+      return is(a[0]) || is(a[1]);
     case Op::add:
     case Op::multiply:
     case Op::divide:
     case Op::minimum:
-      yes = is(a[0]) && is(a[1]);
-      break;
+      return is(a[0]) && is(a[1]);
     default:
-      break;
+      return false;
     }
-    if (yes) positive.insert(e.id());
+  };
+  inside_out(formula, [&](const Expr& e) {
+    if (follows(e)) positive.insert(e.id());
   });
   return is(formula);
 }
@@ -198,7 +190,7 @@ bool is_positive(const Expr& formula, const std::vector<Parameter>& parameters) 
 bool is_product(const Expr& e) {
   std::vector<Expr> factors;
   add_factors(e, factors);
-  return std::any_of(factors.begin(), factors.end(), [](const Expr& factor) {
+  return std::ranges::any_of(factors, [](const Expr& factor) {
     return factor.op() == Op::exp || factor.op() == Op::power;
   });
 }
@@ -218,14 +210,11 @@ std::map<std::string, std::vector<double>> kinks_of(const Expr& piece) {
 
 // Returns the kind of thing that already has this name; empty if the name is free.
 std::string taken_by(const std::string& name) {
-  static const std::set<std::string> functions = {
-      "exp",  "log", "ln",   "sqrt", "sin",     "tanh", "atan",    "arctan", "arccos",
-      "acos", "abs", "sign", "min",  "minimum", "max",  "maximum", "where"};
   const std::string lower = lower_case(name);
   for (const data::Quantity& quantity : data::quantities())
     if (lower == lower_case(quantity.name)) return "a quantity";
   if (data::find_derived(lower)) return "a history";
-  if (functions.count(lower)) return "a function";
+  if (expr::is_function(lower)) return "a function";
   if (lower == "value") return "the piece, in `combine`";
   if (lower == lower_case(shear_yield_symbol)) return "the shear yield stress";
   if (lower == "pi") return "a number";
@@ -290,8 +279,8 @@ private:
   }
 
   void read_parameters() {
-    const bool any_fitted = std::any_of(text_.parameters.begin(), text_.parameters.end(),
-                                        [](const ParameterText& p) { return !p.value; });
+    const bool any_fitted =
+        std::ranges::any_of(text_.parameters, [](const ParameterText& p) { return !p.value; });
     law_.calibrated = !any_fitted || text_.calibrated == "fixed" ? Calibrated::fixed
                       : text_.calibrated == "mean"               ? Calibrated::mean
                                                                  : Calibrated::fit;
@@ -387,7 +376,7 @@ private:
       return parts.formula;
     }
     Formula formula{formula_of(text_.piece), text_.combine.text.empty()
-                                                 ? state::value() * state::sigma_n()
+                                                 ? state::value_times_pressure()
                                                  : formula_of(text_.combine)};
     const auto used = expr::symbols(formula.combine);
     if (!used.count("value"))
@@ -467,8 +456,7 @@ private:
 
   // Checks the distance within the name of a slip state: D_c of aging_state_over_D_c.
   void check_distance(const std::string& state, const std::string& distance) {
-    const auto found = std::find_if(law_.parameters.begin(), law_.parameters.end(),
-                                    [&](const Parameter& p) { return p.name == distance; });
+    const auto found = std::ranges::find(law_.parameters, distance, &Parameter::name);
     if (found == law_.parameters.end())
       faults_.add(place_of(state),
                   fmt::format("law {} has no parameter '{}' for {}", text_.name, distance, state),
@@ -536,7 +524,7 @@ private:
       out += fmt::format("; {} = {}", name, formula.text);
     for (const auto& [name, number] : constants_)
       out += fmt::format("; {} = {}", name, shortest(number));
-    std::replace(out.begin(), out.end(), '\n', ' ');
+    std::ranges::replace(out, '\n', ' ');
     return out;
   }
 
@@ -544,7 +532,7 @@ private:
   void check_numbers() {
     const Expr tau = tau_formula(law_, {});
     const std::vector<std::string> names = inputs_of(tau, law_);
-    std::vector<double> row, start;
+    std::vector<double> row;
     std::string state;
     for (const std::string& name : names) {
       const data::Quantity* quantity = data::find_quantity(name);
@@ -553,9 +541,8 @@ private:
       row.push_back(std::sqrt(range.first * range.second));
       state += fmt::format("{}{} = {:.4g}", state.empty() ? "" : ", ", name, row.back());
     }
-    for (const Parameter& p : law_.parameters)
-      start.push_back(p.start);
-    const double value = expr::Program(tau, names, parameter_names(law_))(row, start);
+    const double value =
+        expr::Program(tau, names, parameter_names(law_))(row, start_values(law_.parameters));
     if (!std::isfinite(value))
       faults_.add(
           text_.place,
@@ -577,7 +564,7 @@ Parts parts_of(const Expr& tau_R, const std::vector<Parameter>& parameters) {
   splitter.look(tau_R, false);
   const Candidate& best = splitter.best();
   const Expr piece = best.times_pressure ? without_pressure(best.part) : best.part;
-  const Expr in_place = best.times_pressure ? state::value() * state::sigma_n() : state::value();
+  const Expr in_place = best.times_pressure ? state::value_times_pressure() : state::value();
   using Nodes = std::vector<std::pair<Expr, Expr>>;
   return {{piece, substitute(tau_R, Nodes{{best.part, in_place}})},
           best.is_mu ? PieceQuantity::mu : PieceQuantity::tau_R};

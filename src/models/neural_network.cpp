@@ -16,10 +16,6 @@ double NetworkInput::u(double x) const {
 
 namespace {
 
-Formula with_coefficient(const Expr& mu) {
-  return {mu, state::value() * state::sigma_n()};
-}
-
 // Output of one member; the scaling of the inputs is folded into the weights.
 Expr output(const std::vector<double>& weights, const Network& network,
             const std::vector<Expr>& u) {
@@ -65,7 +61,9 @@ Law untrained() {
   law.may_use = {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "s_mm"};
   // Before training the nets are zero, which gives Coulomb's law.
   law.parameters = {{"mu0", "1", "coefficient that the nets scale", 0.08, 0, 2}};
-  law.build = [](const Conventions&) { return with_coefficient(Expr::symbol("mu0")); };
+  law.build = [](const Conventions&) {
+    return Formula{Expr::symbol("mu0"), state::value_times_pressure()};
+  };
   return law;
 }
 
@@ -76,7 +74,7 @@ const Registered<Law> registered_law{untrained};
 Law neural_network(const Network& network) {
   Law law = untrained();
   const Expr mu = coefficient(network);
-  law.build = [mu](const Conventions&) { return with_coefficient(mu); };
+  law.build = [mu](const Conventions&) { return Formula{mu, state::value_times_pressure()}; };
   for (const NetworkInput& input : network.inputs)
     law.log_axes[input.name] = input.log;
   return law;

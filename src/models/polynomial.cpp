@@ -18,16 +18,9 @@ double PolynomialState::u(double x) const {
 }
 
 double legendre(unsigned degree, double z) {
-  switch (degree) {
-  case 0:
-    return 1;
-  case 1:
-    return z;
-  case 2:
-    return (3 * z * z - 1) / 2;
-  default:
-    return (5 * z * z - 3) * z / 2;
-  }
+  if (degree == 0) return 1;
+  if (degree == 1) return z;
+  return degree == 2 ? (3 * z * z - 1) / 2 : (5 * z * z - 3) * z / 2;
 }
 
 namespace {
@@ -56,10 +49,7 @@ std::vector<PolynomialDegrees> polynomial_terms(std::size_t states, unsigned ord
       }
   }
   terms.erase(terms.begin()); // the constant is mu0
-  std::stable_sort(terms.begin(), terms.end(),
-                   [](const PolynomialDegrees& a, const PolynomialDegrees& b) {
-                     return order_of(a) < order_of(b);
-                   });
+  std::ranges::stable_sort(terms, {}, order_of);
   return terms;
 }
 
@@ -76,10 +66,6 @@ std::string term_text(const PolynomialDegrees& degrees,
 }
 
 namespace {
-
-Formula with_mu(const Expr& mu) {
-  return {mu, state::value() * state::sigma_n()};
-}
 
 // Returns P_0 .. P_3 of one state.
 std::vector<Expr> legendre_of(const PolynomialState& state) {
@@ -140,7 +126,9 @@ Law before_data() {
   law.parameters = {
       {"mu0", "1", "geometric mean of the coefficient over the range of the data", 0.08, 0, 1e6}};
   law.log_value = true;
-  law.build = [](const Conventions&) { return with_mu(Expr::symbol("mu0")); };
+  law.build = [](const Conventions&) {
+    return Formula{Expr::symbol("mu0"), state::value_times_pressure()};
+  };
   return law;
 }
 
@@ -151,7 +139,7 @@ const Registered<Law> registered_polynomial{before_data};
 Law polynomial(const Polynomial& polynomial) {
   Law law = before_data();
   const Expr mu = coefficient_of(polynomial);
-  law.build = [mu](const Conventions&) { return with_mu(mu); };
+  law.build = [mu](const Conventions&) { return Formula{mu, state::value_times_pressure()}; };
   for (const PolynomialState& state : polynomial.states) {
     law.log_axes[state.name] = state.log;
     law.kinks[state.name] = {state.low, state.high};

@@ -17,16 +17,18 @@ enum class ShearYield {
 inline constexpr std::array shear_yields{ShearYield::mises, ShearYield::tresca,
                                          ShearYield::flow_stress};
 
-// Name of a convention in job files, calibrations and tables.
+struct ShearYieldRow {
+  const char* name; // in job files, calibrations and tables
+  double k_over_sigma_f;
+  double sigma_f_over_k; // stored too, because the inverse of k/sigma_f is rounded
+};
+inline constexpr ShearYieldRow shear_yield_rows[] = { // in the order of ShearYield
+    {"mises", 0.57735026918962584, std::numbers::sqrt3},
+    {"tresca", 0.5, 2},
+    {"flow_stress", 1, 1}};
+
 constexpr const char* shear_yield_name(ShearYield convention) {
-  switch (convention) {
-  case ShearYield::tresca:
-    return "tresca";
-  case ShearYield::flow_stress:
-    return "flow_stress";
-  default:
-    return "mises";
-  }
+  return shear_yield_rows[static_cast<int>(convention)].name;
 }
 
 constexpr std::optional<ShearYield> find_shear_yield(std::string_view name) {
@@ -35,28 +37,12 @@ constexpr std::optional<ShearYield> find_shear_yield(std::string_view name) {
   return std::nullopt;
 }
 
-// Returns k/sigma_f.
 constexpr double shear_yield_ratio(ShearYield convention) {
-  switch (convention) {
-  case ShearYield::tresca:
-    return 0.5;
-  case ShearYield::flow_stress:
-    return 1;
-  default:
-    return 0.57735026918962584; // 1/sqrt(3)
-  }
+  return shear_yield_rows[static_cast<int>(convention)].k_over_sigma_f;
 }
 
-// Returns sigma_f/k directly, because the inverse of k/sigma_f is rounded.
 constexpr double flow_stress_ratio(ShearYield convention) {
-  switch (convention) {
-  case ShearYield::tresca:
-    return 2;
-  case ShearYield::flow_stress:
-    return 1;
-  default:
-    return std::numbers::sqrt3;
-  }
+  return shear_yield_rows[static_cast<int>(convention)].sigma_f_over_k;
 }
 
 } // namespace frictab::models

@@ -1,4 +1,4 @@
-// Symbols of the states in laws' formulas, in canonical units.
+// Parts of laws' formulas: states in canonical units, and the tabulated piece.
 #pragma once
 
 #include "models/law.h"
@@ -8,23 +8,13 @@ namespace frictab::models::state {
 inline expr::Expr sigma_n() {
   return expr::Expr::symbol("sigma_n_MPa");
 }
-inline expr::Expr psi() {
-  return expr::Expr::symbol("psi");
-}
-inline expr::Expr v_rel() {
-  return expr::Expr::symbol("v_rel_mm_s");
-}
-inline expr::Expr temperature() {
-  return expr::Expr::symbol("T_contact_C");
-}
-inline expr::Expr sliding_distance() {
-  return expr::Expr::symbol("s_mm");
-}
-inline expr::Expr sigma_f() {
-  return expr::Expr::symbol("sigma_f_MPa");
-}
+// The tabulated piece, in `combine`.
 inline expr::Expr value() {
   return expr::Expr::symbol("value");
-} // the tabulated piece, in `combine`
+}
+// tau_R of a tabulated coefficient.
+inline expr::Expr value_times_pressure() {
+  return value() * sigma_n();
+}
 
 } // namespace frictab::models::state

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/names.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/text.h"
@@ -49,13 +50,6 @@ Expr piece_of(const models::AssembledLaw& law, const Table& table) {
   return table.log_value ? log_in_coordinates(value) : value;
 }
 
-std::vector<std::string> axis_names(const Table& table) {
-  std::vector<std::string> names;
-  for (const TableAxis& axis : table.axes)
-    names.push_back(axis.name);
-  return names;
-}
-
 struct Box {
   std::vector<CellPart> parts; // per axis
   std::vector<Bounds> state;   // per range; for an axis it follows from its part
@@ -76,11 +70,11 @@ class CellBounder {
 public:
   CellBounder(const models::AssembledLaw& law, const Table& table,
               const std::vector<StateRange>& ranges)
-      : ranges_(ranges), table_(table), function_(table), law_(law, table::names_of(ranges)),
+      : ranges_(ranges), table_(table), function_(table), law_(law, all_names(ranges)),
         monomials_(table.axes.size(), table.interpolation == table::Interpolation::cubic
                                           ? degree_cubic
                                           : degree_linear),
-        piece_(piece_of(law, table), axis_names(table), monomials_), interpolant_(table),
+        piece_(piece_of(law, table), all_names(table.axes), monomials_), interpolant_(table),
         rewriting_(monomials_), deviation_(monomials_, interpolant_.support()),
         combine_(
             substitute(combine_of(table), {{"value", table.log_value ? exp(Expr::symbol("value"))
@@ -88,8 +82,7 @@ public:
             table::with_value(ranges), "value") {
     for (const TableAxis& axis : table.axes) {
       coordinates_.push_back(axis.coordinates());
-      const auto range = std::find_if(ranges.begin(), ranges.end(),
-                                      [&](const StateRange& r) { return r.name == axis.name; });
+      const auto range = std::ranges::find(ranges, axis.name, &StateRange::name);
       range_of_axis_.push_back(static_cast<std::size_t>(range - ranges.begin()));
     }
   }
@@ -158,7 +151,7 @@ public:
 
 private:
   std::size_t axis_of(std::size_t range) const {
-    const auto found = std::find(range_of_axis_.begin(), range_of_axis_.end(), range);
+    const auto found = std::ranges::find(range_of_axis_, range);
     return static_cast<std::size_t>(found - range_of_axis_.begin());
   }
 
@@ -349,9 +342,9 @@ std::string obstacle(const models::AssembledLaw& law, const Table& table,
   const Expr of_law = law.in_numbers(law.combine);
   if (expr::to_text(shared(of_law)) != expr::to_text(shared(combine_of(table))))
     return "the table is combined to tau_R by a formula that is not the law's";
-  const std::vector<std::string> axes = axis_names(table);
+  const std::vector<std::string> axes = all_names(table.axes);
   for (const std::string& name : law.piece_inputs)
-    if (std::find(axes.begin(), axes.end(), name) == axes.end())
+    if (std::ranges::find(axes, name) == axes.end())
       return "the law's piece depends on " + name + ", which is not an axis of the table";
   double cells = 1, nodes = 1;
   for (const TableAxis& axis : table.axes)
@@ -433,10 +426,8 @@ namespace {
 // Estimates the rounding of kernel and law, which the bound leaves out, as 2^-40 of the largest
 // stress. No bound is shown below that.
 double rounding_of(const models::AssembledLaw& law, const std::vector<StateRange>& ranges) {
-  std::vector<std::string> names;
-  for (const StateRange& range : ranges)
-    names.push_back(range.name);
-  const Probe box = table::with_law(table::LawFunction(law, names), table::box_points(ranges, 256));
+  const Probe box =
+      table::with_law(table::LawFunction(law, all_names(ranges)), table::box_points(ranges, 256));
   double largest = 0;
   for (const double tau : box.law)
     if (std::isfinite(tau)) largest = std::max(largest, std::abs(tau));

@@ -137,7 +137,7 @@ void Rewriting::apply(const Terms& terms, std::span<double> c) const {
   std::vector<double> out(size_, 0.0);
   for (const Term& term : terms)
     out[term.to] += term.factor * c[term.from];
-  std::copy(out.begin(), out.end(), c.begin());
+  std::ranges::copy(out, c.begin());
 }
 
 void Rewriting::to_chebyshev(std::span<double> c) const {

@@ -85,7 +85,7 @@ void Monomials::describe() {
 }
 
 std::size_t Monomials::find(const Exponents& exponents) const {
-  const auto found = std::find(exponents_.begin(), exponents_.end(), exponents);
+  const auto found = std::ranges::find(exponents_, exponents);
   return static_cast<std::size_t>(found - exponents_.begin());
 }
 
@@ -304,7 +304,7 @@ TaylorProgram::TaylorProgram(const Expr& formula, const std::vector<std::string>
     Step step{.op = e.op()};
     if (e.op() == Op::constant) step.value = e.value();
     if (e.op() == Op::symbol) {
-      const auto column = std::find(columns.begin(), columns.end(), e.name());
+      const auto column = std::ranges::find(columns, e.name());
       if (column == columns.end())
         throw std::logic_error("formula has the unknown symbol '" + e.name() + "'");
       step.symbol = static_cast<std::size_t>(column - columns.begin());
@@ -475,7 +475,7 @@ double TaylorProgram::operator()(std::span<const Bounds> box, Work& work,
   Run run(*this, work);
   run(box);
   const Model last = run.model(steps_.size() - 1);
-  std::fill(polynomial.begin(), polynomial.end(), 0.0);
+  std::ranges::fill(polynomial, 0.0);
   std::copy(last.c, last.c + monomials_.size_to(last.degree), polynomial.begin());
   return last.error;
 }

@@ -38,6 +38,10 @@ void add_block(ErrorSums& sums, double r, double rows, double within_MPa2) {
   sums.rows += rows;
 }
 
+void add_row(ErrorSums& sums, const data::Dataset& data, std::size_t row, double r) {
+  add_block(sums, r, data.row_weight(row), data.condensed ? data.condensed->within_MPa2[row] : 0.0);
+}
+
 std::vector<ErrorSums> error_sums(const data::Dataset& data, std::span<const double> predicted) {
   const auto measured = data.values("tau_R_MPa");
   std::vector<ErrorSums> sums(data.experiments.size());

@@ -35,6 +35,8 @@ std::vector<ErrorSums> by_recording(std::span<const ErrorSums> sums);
 
 // Adds `rows` rows that scatter with the sum of squares `within` about the residual r.
 void add_block(ErrorSums& sums, double r, double rows, double within_MPa2);
+// Adds the residual r of a row of the data, or of a block of condensed rows.
+void add_row(ErrorSums& sums, const data::Dataset& data, std::size_t row, double r);
 
 // Draws resample number `index` with replacement: how often it contains each experiment (one entry
 // of `times` each). The same seed, index and number of experiments give the same counts, so laws on

@@ -12,7 +12,7 @@ namespace frictab::table {
 std::size_t nodes_beyond_data(const TableAxis& axis) {
   if (!axis.data) return 0;
   const auto beyond = [&](double x) { return x < axis.data->first || x > axis.data->second; };
-  return static_cast<std::size_t>(std::count_if(axis.nodes.begin(), axis.nodes.end(), beyond));
+  return static_cast<std::size_t>(std::ranges::count_if(axis.nodes, beyond));
 }
 
 double share_beyond_data(const TableAxis& axis) {

@@ -26,7 +26,7 @@ using Counts = std::vector<std::size_t>; // per axis
 
 AxisPlan plan_axis(const models::Law& law, const StateRange& range, const TableOptions& options) {
   const data::Meaning quantity = data::meaning_of(range.name);
-  const auto asked = options.axes.find(range.name);
+  const AxisOptions asked = options.axis(range.name);
   AxisPlan plan;
   plan.axis.name = range.name;
   plan.axis.unit = quantity.unit;
@@ -36,33 +36,33 @@ AxisPlan plan_axis(const models::Law& law, const StateRange& range, const TableO
   const bool plain = options.coordinates == "plain";
   plan.axis.log =
       !plain && (own == law.log_axes.end() ? quantity.log_axis : own->second) && range.low > 0;
-  if (asked != options.axes.end() && asked->second.spacing) {
-    plan.axis.log = *asked->second.spacing == "log";
+  if (asked.spacing) {
+    plan.axis.log = *asked.spacing == "log";
     plan.even = true;
     if (plan.axis.log && plain)
-      throw InputError(asked->second.place,
+      throw InputError(asked.place,
                        "table.coordinates is \"plain\", and the axis " + range.name +
                            " is asked to be logarithmic",
                        "spacing = \"linear\", or table.coordinates = \"law\"");
     if (plan.axis.log && range.low <= 0)
-      throw InputError(asked->second.place,
+      throw InputError(asked.place,
                        fmt::format("the axis {} cannot be logarithmic: its range starts at {}",
                                    range.name, range.low),
                        "spacing = \"linear\", or a range that starts above 0");
   }
   plan.axis.below = range.below.value_or(usual_below(range.name));
-  if (asked != options.axes.end() && !asked->second.outside.empty()) {
-    plan.axis.below = *find_outside(asked->second.outside.front());
-    plan.axis.above = *find_outside(asked->second.outside.back());
+  if (!asked.outside.empty()) {
+    plan.axis.below = *find_outside(asked.outside.front());
+    plan.axis.above = *find_outside(asked.outside.back());
   }
   plan.fixed = {range.low, range.high};
   if (const auto kinks = law.kinks.find(range.name); kinks != law.kinks.end())
     for (const double kink : kinks->second)
       if (kink > range.low && kink < range.high) plan.axis.kinks.push_back(kink);
   plan.fixed.insert(plan.fixed.end(), plan.axis.kinks.begin(), plan.axis.kinks.end());
-  std::sort(plan.fixed.begin(), plan.fixed.end());
-  if (asked != options.axes.end() && asked->second.nodes) {
-    plan.cells = *asked->second.nodes - 1;
+  std::ranges::sort(plan.fixed);
+  if (asked.nodes) {
+    plan.cells = *asked.nodes - 1;
     plan.by_user = true;
   }
   return plan;
@@ -125,7 +125,7 @@ bool has_log_value(const models::AssembledLaw& law, const Pieces& pieces,
                    const TableOptions& options) {
   if (!law.model.law->log_value || options.coordinates != "law") return false;
   const std::vector<double> values = sample(pieces, ranges, axes);
-  return *std::min_element(values.begin(), values.end()) > 0;
+  return *std::ranges::min_element(values) > 0;
 }
 
 // Says in the record to what the table was made.
@@ -443,9 +443,7 @@ Table table_on_nodes(const models::AssembledLaw& law, const std::vector<StateRan
   for (const AxisPlan& plan : plan_axes(law, ranges, options)) {
     least.push_back(axis_with(plan, plan.cells));
     axes.push_back(least.back());
-    const auto own = std::find_if(grid.axes.begin(), grid.axes.end(), [&](const TableAxis& axis) {
-      return axis.name == plan.axis.name;
-    });
+    const auto own = std::ranges::find(grid.axes, plan.axis.name, &TableAxis::name);
     if (own == grid.axes.end()) continue;
     axes.back().nodes = own->nodes;
     axes.back().nodes.front() = plan.fixed.front();

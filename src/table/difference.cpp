@@ -25,13 +25,13 @@ constexpr std::size_t most_states = 200000; // limit for each kind
 std::vector<std::string> inputs_of(const Table& a, const Table& b) {
   std::vector<std::string> names = a.inputs();
   for (const std::string& name : b.inputs())
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   return names;
 }
 
 bool needs(const Table& table, const std::string& name) {
   const auto inputs = table.inputs();
-  return std::find(inputs.begin(), inputs.end(), name) != inputs.end();
+  return std::ranges::find(inputs, name) != inputs.end();
 }
 
 StateRange common_range(const Table& a, const Table& b, const std::string& name) {
@@ -76,39 +76,24 @@ std::vector<TableAxis> joint_axes(const Table& a, const Table& b,
   return axes;
 }
 
-// Returns all nodes of the grid, or every n-th; n shares no factor with the axes, so that each axis
-// is covered.
-States node_points(const std::vector<TableAxis>& axes) {
-  double count = 1;
+States nodes_of(const std::vector<TableAxis>& axes) {
+  States nodes;
   for (const TableAxis& axis : axes)
-    count *= static_cast<double>(axis.nodes.size());
-  auto stride = static_cast<std::size_t>(count / most_states) + 1;
-  while (stride > 1 && std::any_of(axes.begin(), axes.end(), [&](const TableAxis& axis) {
-           return axis.nodes.size() % stride == 0;
-         }))
-    ++stride;
-  States points(axes.size());
-  for (std::size_t i = 0; static_cast<double>(i) < count; i += stride) {
-    std::size_t rest = i;
-    for (std::size_t d = 0; d < axes.size(); ++d) {
-      points[d].push_back(axes[d].nodes[rest % axes[d].nodes.size()]);
-      rest /= axes[d].nodes.size();
-    }
-  }
-  return points;
+    nodes.push_back(axis.nodes);
+  return nodes;
 }
 
-// Centres of cells, along the axes that have cells.
-States middle_points(const std::vector<TableAxis>& axes) {
-  std::vector<TableAxis> middles = axes;
-  for (TableAxis& axis : middles) {
-    const std::vector<double> x = axis.nodes;
+// Middles of cells, along the axes that have cells.
+States middles_of(const std::vector<TableAxis>& axes) {
+  States middles = nodes_of(axes);
+  for (std::size_t d = 0; d < axes.size(); ++d) {
+    const std::vector<double>& x = axes[d].nodes;
     if (x.size() < 2) continue;
-    axis.nodes.clear();
+    middles[d].clear();
     for (std::size_t i = 0; i + 1 < x.size(); ++i)
-      axis.nodes.push_back(axis.log ? std::sqrt(x[i] * x[i + 1]) : 0.5 * (x[i] + x[i + 1]));
+      middles[d].push_back(axes[d].log ? std::sqrt(x[i] * x[i + 1]) : 0.5 * (x[i] + x[i + 1]));
   }
-  return node_points(middles);
+  return middles;
 }
 
 std::vector<double> answers(const Table& table, const std::vector<StateRange>& ranges,
@@ -144,8 +129,9 @@ TableDifference difference(const Table& a, const Table& b, const FixedStates& he
                                           : StateRange{name, at->second, at->second, "held"});
   }
   const auto axes = joint_axes(a, b, out.ranges);
-  States states = node_points(axes);
-  for (const States& more : {middle_points(axes), box_points(out.ranges, most_states)})
+  States states = grid_points(nodes_of(axes), most_states);
+  for (const States& more :
+       {grid_points(middles_of(axes), most_states), box_points(out.ranges, most_states)})
     for (std::size_t d = 0; d < states.size(); ++d)
       states[d].insert(states[d].end(), more[d].begin(), more[d].end());
   const std::vector<double> one = answers(a, out.ranges, states),
@@ -158,8 +144,7 @@ TableDifference difference(const Table& a, const Table& b, const FixedStates& he
     sum += apart[i];
     squares += apart[i] * apart[i];
   }
-  const auto worst =
-      static_cast<std::size_t>(std::max_element(apart.begin(), apart.end()) - apart.begin());
+  const auto worst = static_cast<std::size_t>(std::ranges::max_element(apart) - apart.begin());
   out.drift.max_abs = apart[worst];
   out.drift.mean_abs = sum / static_cast<double>(apart.size());
   out.drift.rms = std::sqrt(squares / static_cast<double>(apart.size()));

@@ -72,7 +72,7 @@ PointsOfTests points_of(const std::vector<Scale>& scales,
       const std::size_t row = first_row[test] + (2 * i + 1) * rows / (2 * kept);
       for (std::size_t a = 0; a < u.size(); ++a)
         u[a] = scales[a](columns[a][row]);
-      if (!std::all_of(u.begin(), u.end(), [](double x) { return std::isfinite(x); })) continue;
+      if (!std::ranges::all_of(u, [](double x) { return std::isfinite(x); })) continue;
       all.points.at.insert(all.points.at.end(), u.begin(), u.end());
       all.weight.push_back(1 / static_cast<double>(kept));
     }
@@ -89,7 +89,7 @@ struct TestRows::Data {
   std::unique_ptr<Tree> tree; // null without points
 
   double far(const std::vector<double>& u) const {
-    if (!tree || !std::all_of(u.begin(), u.end(), [](double x) { return std::isfinite(x); }))
+    if (!tree || !std::ranges::all_of(u, [](double x) { return std::isfinite(x); }))
       return HUGE_VAL;
     unsigned index[most_rows];
     double squared[most_rows];
@@ -149,13 +149,8 @@ std::vector<double> at_nodes(const Table& table, const TestRows& rows) {
   std::vector<double> distances(table.nodes());
   parallel_for((distances.size() + sample_block - 1) / sample_block, [&](std::size_t block) {
     const std::size_t end = std::min(distances.size(), (block + 1) * sample_block);
-    std::vector<double> state(table.axes.size());
-    for (std::size_t i = block * sample_block; i < end; ++i) {
-      std::size_t rest = i;
-      for (std::size_t a = state.size(); a-- > 0; rest /= table.axes[a].nodes.size())
-        state[a] = table.axes[a].nodes[rest % table.axes[a].nodes.size()];
-      distances[i] = rows.distance(state);
-    }
+    for (std::size_t i = block * sample_block; i < end; ++i)
+      distances[i] = rows.distance(values_at(table.axes, i));
   });
   return distances;
 }

@@ -57,27 +57,31 @@ States box_points(const std::vector<StateRange>& ranges, std::size_t samples) {
   return points;
 }
 
-States cell_points(const std::vector<StateRange>& ranges, const std::vector<TableAxis>& axes,
-                   std::size_t wanted) {
-  States points(ranges.size()), grid;
-  std::size_t cells = 1;
-  for (const StateRange& range : ranges) {
-    grid.push_back(middles(range, axes));
-    cells *= grid.back().size();
-  }
-  // Takes every n-th cell, where n shares no factor with the counts of the axes.
-  std::size_t stride = cells / wanted + 1;
-  while (stride > 1 && std::any_of(grid.begin(), grid.end(),
-                                   [&](const auto& g) { return g.size() % stride == 0; }))
+States grid_points(const States& values, std::size_t wanted) {
+  double count = 1;
+  for (const std::vector<double>& one : values)
+    count *= static_cast<double>(one.size());
+  auto stride = static_cast<std::size_t>(count / static_cast<double>(wanted)) + 1;
+  while (stride > 1 &&
+         std::ranges::any_of(values, [&](const auto& one) { return one.size() % stride == 0; }))
     ++stride;
-  for (std::size_t i = 0; i < cells; i += stride) {
+  States points(values.size());
+  for (std::size_t i = 0; static_cast<double>(i) < count; i += stride) {
     std::size_t rest = i;
-    for (std::size_t d = 0; d < ranges.size(); ++d) {
-      points[d].push_back(grid[d][rest % grid[d].size()]);
-      rest /= grid[d].size();
+    for (std::size_t d = 0; d < values.size(); ++d) {
+      points[d].push_back(values[d][rest % values[d].size()]);
+      rest /= values[d].size();
     }
   }
   return points;
+}
+
+States cell_points(const std::vector<StateRange>& ranges, const std::vector<TableAxis>& axes,
+                   std::size_t wanted) {
+  States centres;
+  for (const StateRange& range : ranges)
+    centres.push_back(middles(range, axes));
+  return grid_points(centres, wanted);
 }
 
 States probe_points(const std::vector<StateRange>& ranges, const std::vector<TableAxis>& axes,
@@ -186,7 +190,7 @@ WorstCase worst_case(const LawFunction& law, const TableFunction& table,
     order[i] = i;
   const auto drift = [&](std::size_t i) { return difference(probed.table[i], probed.law[i]); };
   const std::size_t climbs = std::min(starts, count);
-  std::partial_sort(order.begin(), order.begin() + static_cast<long>(climbs), order.end(),
+  std::partial_sort(order.begin(), order.begin() + climbs, order.end(),
                     [&](std::size_t a, std::size_t b) {
                       return drift(a) != drift(b) ? drift(a) > drift(b) : a < b;
                     });

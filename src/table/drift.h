@@ -29,6 +29,10 @@ using States = std::vector<std::vector<double>>;
 // Points that fill a box of states: `samples` Halton points, and all corners.
 States box_points(const std::vector<StateRange>& ranges, std::size_t samples);
 
+// All combinations of these values, one list per state; every n-th where there are more than
+// `wanted`. n shares no factor with the lengths, so that each list is covered.
+States grid_points(const States& values, std::size_t wanted);
+
 // Centres of a table's cells, with the other states at their ends and middle: all of them, or about
 // `wanted`, evenly spread, where there are more.
 States cell_points(const std::vector<StateRange>& ranges, const std::vector<TableAxis>& axes,

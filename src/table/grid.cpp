@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/columns.h"
+#include "core/names.h"
 #include "core/random.h"
 #include "table/spline.h"
 
@@ -34,20 +35,13 @@ double straight(const std::vector<double>& from, const std::vector<double>& to, 
 } // namespace
 
 std::vector<std::string> with_value(const std::vector<StateRange>& ranges) {
-  std::vector<std::string> row{"value"};
-  for (const StateRange& range : ranges)
-    row.push_back(range.name);
-  return row;
-}
-
-std::vector<std::string> names_of(const std::vector<StateRange>& ranges) {
-  std::vector<std::string> row = with_value(ranges);
-  row.erase(row.begin());
+  std::vector<std::string> row = all_names(ranges);
+  row.insert(row.begin(), "value");
   return row;
 }
 
 Pieces::Pieces(const models::AssembledLaw& law, const std::vector<StateRange>& ranges)
-    : names(names_of(ranges)), value(law.piece, names, law.parameters),
+    : names(all_names(ranges)), value(law.piece, names, law.parameters),
       combine(law.combine, with_value(ranges), law.parameters), parameters(law.model.parameters) {}
 
 // Cells are distributed over the segments between fixed nodes in proportion to their measure.
@@ -136,8 +130,7 @@ std::vector<double> AxisErrors::by_cell(const AxisPlan& plan, const TableAxis& a
   std::vector<double> value(positions.size() * lines);
   pieces_.value.evaluate(value.size(), pointers(columns), pieces_.parameters, value.data());
   const std::size_t nodes = axis.nodes.size() * lines, middles = cells * lines;
-  const std::vector<double> guess =
-      between(axis, {value.begin(), value.begin() + static_cast<long>(nodes)});
+  const std::vector<double> guess = between(axis, {value.begin(), value.begin() + nodes});
   std::vector<double> tau_guess(middles), tau(middles);
   std::vector<const double*> row{guess.data()};
   for (const auto& column : columns)
@@ -155,7 +148,7 @@ std::vector<double> AxisErrors::by_cell(const AxisPlan& plan, const TableAxis& a
 
 double AxisErrors::largest(const AxisPlan& plan, std::size_t cells) const {
   const std::vector<double> errors = by_cell(plan, axis_with(plan, cells));
-  return *std::max_element(errors.begin(), errors.end());
+  return *std::ranges::max_element(errors);
 }
 
 std::size_t AxisErrors::cells_for(const AxisPlan& plan, double target) const {
@@ -186,7 +179,7 @@ void AxisErrors::distribute_nodes(AxisPlan& plan, double target) const {
     const TableAxis axis = axis_with(graded, resolution);
     const std::vector<double> u = axis.coordinates();
     std::vector<double> errors = by_cell(graded, axis);
-    const double worst = *std::max_element(errors.begin(), errors.end());
+    const double worst = *std::ranges::max_element(errors);
     if (!(worst > 0) || std::isinf(worst)) return;
     const double least = 1e-4 * worst;
     std::vector<double> density;

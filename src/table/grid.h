@@ -10,8 +10,7 @@
 
 namespace frictab::table {
 
-// Names of the ranges, and the same preceded by "value": the columns of the two programs of Pieces.
-std::vector<std::string> names_of(const std::vector<StateRange>& ranges);
+// Names of the ranges, preceded by "value": the columns of Pieces::combine.
 std::vector<std::string> with_value(const std::vector<StateRange>& ranges);
 
 // The tabulated piece of a law, and tau_R from it, as functions of all states of its ranges.

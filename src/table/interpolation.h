@@ -15,7 +15,16 @@ enum class Interpolation {
 inline constexpr Interpolation grid_interpolations[] = {Interpolation::linear,
                                                         Interpolation::cubic};
 
-const char* interpolation_name(Interpolation interpolation); // "linear", "cubic", "none"
-std::optional<Interpolation> find_interpolation(std::string_view name);
+// Name in jobs, files and recipes.
+constexpr const char* interpolation_name(Interpolation interpolation) {
+  constexpr const char* names[] = {"linear", "cubic", "none"}; // in the order of Interpolation
+  return names[static_cast<int>(interpolation)];
+}
+
+constexpr std::optional<Interpolation> find_interpolation(std::string_view name) {
+  for (const Interpolation one : {Interpolation::linear, Interpolation::cubic, Interpolation::none})
+    if (name == interpolation_name(one)) return one;
+  return std::nullopt;
+}
 
 } // namespace frictab::table

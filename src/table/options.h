@@ -44,9 +44,14 @@ struct TableOptions {
   io::Hdf5Storage hdf5;
   Place place;
 
+  // Options of one axis; the defaults where the job gives none.
+  AxisOptions axis(const std::string& name) const {
+    const auto found = axes.find(name);
+    return found == axes.end() ? AxisOptions{} : found->second;
+  }
   // Whether `model` consists of names, without "best", "recommended" or "all".
   bool names_laws() const {
-    return std::none_of(model.begin(), model.end(), [](const std::string& name) {
+    return std::ranges::none_of(model, [](const std::string& name) {
       return name == "best" || name == "recommended" || name == "all";
     });
   }

@@ -120,15 +120,14 @@ std::vector<AxisEnds> axis_ends(const Table& table) {
   const std::vector<std::string> inputs = table.inputs();
   std::vector<AxisEnds> ends;
   for (const TableAxis& axis : table.axes) {
-    const auto at = std::find(inputs.begin(), inputs.end(), axis.name);
+    const auto at = std::ranges::find(inputs, axis.name);
     ends.emplace_back(axis, static_cast<std::size_t>(at - inputs.begin()));
   }
   return ends;
 }
 
 bool OutsideRule::needed(const Table& table) {
-  return table.is_direct() ||
-         std::any_of(table.axes.begin(), table.axes.end(), [](const TableAxis& axis) {
+  return table.is_direct() || std::ranges::any_of(table.axes, [](const TableAxis& axis) {
            return axis.below != Outside::clamp || axis.above != Outside::clamp;
          });
 }
@@ -154,7 +153,7 @@ OutsideRule::Answer OutsideRule::prepare(std::span<const double> state, double* 
                                          unsigned* outside) const {
   unsigned bits = 0;
   bool law = direct_, refused = false;
-  std::copy(state.begin(), state.end(), row);
+  std::ranges::copy(state, row);
   for (std::size_t a = 0; a < ends_.size(); ++a) {
     const double x = state[ends_[a].input];
     if (ends_[a].leaves(x)) bits |= 1u << a;
@@ -170,8 +169,7 @@ std::optional<double> OutsideRule::tau(std::span<const double> state, unsigned* 
   double row[2 * most_inputs];
   const Answer answer = prepare(state, row, outside);
   if (answer == Answer::table) return std::nullopt;
-  const bool missing =
-      std::any_of(state.begin(), state.end(), [](double x) { return std::isnan(x); });
+  const bool missing = std::ranges::any_of(state, [](double x) { return std::isnan(x); });
   if (answer == Answer::none || missing) return std::nan("");
   return (*law_)({row, state.size() + ends_.size()}, constants_);
 }
@@ -182,7 +180,7 @@ std::optional<double> OutsideRule::gradient(std::span<const double> state,
   const Answer answer = prepare(state, row, outside);
   if (answer == Answer::table) return std::nullopt;
   if (answer == Answer::none) {
-    std::fill(derivative.begin(), derivative.end(), std::nan(""));
+    std::ranges::fill(derivative, std::nan(""));
     return std::nan("");
   }
   const std::size_t inputs = state.size(), size = inputs + ends_.size();

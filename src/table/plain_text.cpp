@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/names.h"
 #include "core/text.h"
 
 namespace frictab::table {
@@ -14,10 +15,8 @@ namespace frictab::table {
 const PlainFormat& plain_format(const std::string& name) {
   const PlainFormat* format = Registry<PlainFormat>::instance().find(name);
   if (format) return *format;
-  std::vector<std::string> names;
-  for (const PlainFormat& one : Registry<PlainFormat>::instance().all())
-    names.push_back(one.name);
-  throw InputError({}, fmt::format("there is no format '{}'", name), suggest(name, names));
+  throw InputError({}, fmt::format("there is no format '{}'", name),
+                   suggest(name, all_names(Registry<PlainFormat>::instance().all())));
 }
 
 namespace {
@@ -29,7 +28,7 @@ template <class Body> void for_values(const Table& table, const Body& body) {
   std::vector<double> block;
   for (std::size_t first = 0; first < table.nodes(); first += rows_at_once) {
     block.resize(std::min(rows_at_once, table.nodes() - first));
-    std::copy_n(table.value.begin() + static_cast<long>(first), block.size(), block.begin());
+    std::copy_n(table.value.begin() + first, block.size(), block.begin());
     body(first, block);
   }
 }
@@ -38,14 +37,17 @@ template <class Body> void for_values(const Table& table, const Body& body) {
 void write_csv(const PlainRequest& request, std::ostream& out) {
   const Table& table = request.table;
   const auto inputs = table.inputs();
-  std::vector<std::string> held, row;
+  std::vector<std::string> row = all_names(table.axes);
+  std::vector<double> fixed;
   for (const std::string& name : inputs)
-    if (!find_axis(table, name) && request.fixed.count(name)) held.push_back(name);
-  const bool known = held.size() + table.axes.size() == inputs.size();
-  for (const TableAxis& axis : table.axes)
-    row.push_back(axis.name);
-  for (const std::string& name : held)
-    row.push_back(name);
+    if (!find_axis(table, name) && request.fixed.count(name)) {
+      row.push_back(name);
+      fixed.push_back(request.fixed.at(name));
+    }
+  const bool known = row.size() == inputs.size();
+  std::vector<std::size_t> input; // of each column
+  for (const std::string& name : row)
+    input.push_back(static_cast<std::size_t>(std::ranges::find(inputs, name) - inputs.begin()));
   row.push_back(table.quantity == models::PieceQuantity::mu ? "mu" : "value_MPa");
   if (known) row.push_back("tau_R_MPa");
   out << join(row, ",") << '\n';
@@ -53,21 +55,12 @@ void write_csv(const PlainRequest& request, std::ostream& out) {
   std::vector<double> state(inputs.size());
   for_values(table, [&](std::size_t first, const std::vector<double>& block) {
     for (std::size_t i = 0; i < block.size(); ++i) {
+      std::vector<double> columns = values_at(table.axes, first + i);
+      columns.insert(columns.end(), fixed.begin(), fixed.end());
       row.clear();
-      std::size_t rest = first + i;
-      for (std::size_t a = table.axes.size(); a-- > 0;) {
-        const std::vector<double>& nodes = table.axes[a].nodes;
-        const double x = nodes[rest % nodes.size()];
-        rest /= nodes.size();
-        row.insert(row.begin(), shortest(x));
-        state[static_cast<std::size_t>(std::find(inputs.begin(), inputs.end(), table.axes[a].name) -
-                                       inputs.begin())] = x;
-      }
-      for (const std::string& name : held) {
-        const double x = request.fixed.at(name);
-        row.push_back(shortest(x));
-        state[static_cast<std::size_t>(std::find(inputs.begin(), inputs.end(), name) -
-                                       inputs.begin())] = x;
+      for (std::size_t c = 0; c < columns.size(); ++c) {
+        row.push_back(shortest(columns[c]));
+        state[input[c]] = columns[c];
       }
       row.push_back(shortest(block[i]));
       if (known) row.push_back(shortest(function(state)));

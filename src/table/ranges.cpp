@@ -13,6 +13,7 @@
 #include "data/quantity.h"
 #include "table/build.h"
 #include "table/outside.h"
+#include "table/states.h"
 
 namespace frictab::table {
 
@@ -89,8 +90,8 @@ StateRange asked_range(const data::Quantity& quantity, const AxisOptions& axis, 
 // is.
 void check_outside(const models::AssembledLaw& law, const std::string& name,
                    const AxisOptions& axis) {
-  const auto other = std::find_if(axis.outside.begin(), axis.outside.end(),
-                                  [](const std::string& side) { return side != "law"; });
+  const auto other =
+      std::ranges::find_if(axis.outside, [](const std::string& side) { return side != "law"; });
   if (other == axis.outside.end() || law.piece_inputs.count(name)) return;
   throw InputError(
       axis.place,
@@ -148,16 +149,15 @@ std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data
   for (std::size_t i = 0; i < columns.names().size(); ++i) {
     const std::string& name = columns.names()[i];
     const data::Quantity* quantity = data::find_quantity(name);
-    const auto found = options.axes.find(name);
-    if (found != options.axes.end()) check_outside(law, name, found->second);
-    if (quantity && found != options.axes.end() && found->second.range)
-      ranges.push_back(asked_range(*quantity, found->second, columns.range(i)));
+    const AxisOptions axis = options.axis(name);
+    check_outside(law, name, axis);
+    if (quantity && axis.range)
+      ranges.push_back(asked_range(*quantity, axis, columns.range(i)));
     else if (quantity && quantity->state)
       ranges.push_back(default_range(*quantity, columns.range(i), options));
     else
       ranges.push_back(further_range(*law.model.law, name, columns.range(i)));
-    if (found == options.axes.end() || found->second.outside.empty())
-      judge_end(ranges.back(), i, law, columns);
+    if (axis.outside.empty()) judge_end(ranges.back(), i, law, columns);
   }
   return ranges;
 }
@@ -167,9 +167,7 @@ std::vector<StateRange> table_ranges(const Table& table, const data::Dataset* da
   std::vector<StateRange> ranges;
   for (const std::string& name : table.inputs()) {
     const InputRecord& input = table.record.input(name);
-    const auto axis = std::find_if(table.axes.begin(), table.axes.end(),
-                                   [&](const TableAxis& a) { return a.name == name; });
-    if (axis != table.axes.end())
+    if (const TableAxis* axis = find_axis(table, name))
       ranges.push_back({name, axis->nodes.front(), axis->nodes.back(), "axis"});
     else if (input.low && input.high && *input.low <= *input.high)
       ranges.push_back({name, *input.low, *input.high, "attribute"});

@@ -92,7 +92,7 @@ Table describe_table(const models::AssembledLaw& law, const std::vector<StateRan
   table.axes = std::move(axes);
   table.combine = law.combine;
   add_constants(table, law, table.combine);
-  if (std::any_of(table.axes.begin(), table.axes.end(), [](const TableAxis& axis) {
+  if (std::ranges::any_of(table.axes, [](const TableAxis& axis) {
         return axis.below == Outside::law || axis.above == Outside::law;
       }))
     add_extension(table, law);
@@ -114,14 +114,11 @@ Table describe_table(const models::AssembledLaw& law, const std::vector<StateRan
 namespace {
 
 std::string state_at(const Table& table, std::size_t node) {
-  std::string text;
-  for (std::size_t a = table.axes.size(); a-- > 0;) {
-    const TableAxis& axis = table.axes[a];
-    const double x = axis.nodes[node % axis.nodes.size()];
-    text = fmt::format("{} = {:g}{}{}", axis.name, x, text.empty() ? "" : ", ", text);
-    node /= axis.nodes.size();
-  }
-  return text;
+  const std::vector<double> values = values_at(table.axes, node);
+  std::vector<std::string> parts;
+  for (std::size_t a = 0; a < values.size(); ++a)
+    parts.push_back(fmt::format("{} = {:g}", table.axes[a].name, values[a]));
+  return join(parts, ", ");
 }
 
 } // namespace

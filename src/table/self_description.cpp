@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/names.h"
 #include "core/text.h"
 #include "expr/expr.h"
 
@@ -43,9 +44,7 @@ bool is_plainly_linear(const Table& table) {
 } // namespace
 
 std::map<std::string, std::string> root_description(const Table& table) {
-  std::vector<std::string> axes;
-  for (const TableAxis& axis : table.axes)
-    axes.push_back(axis.name);
+  const std::vector<std::string> axes = all_names(table.axes);
   return {
       {"Conventions", "CF-1.8, ACDD-1.3"},
       {"title", fmt::format("Friction table of {}{}{}", table.model.empty() ? "a law" : table.model,

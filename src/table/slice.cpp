@@ -26,7 +26,7 @@ void check_along(const Table& table, const FixedStates& held,
     if (held.count(along[i]))
       throw InputError({}, fmt::format("{} is both held and run along", along[i]),
                        "keep --at or --along");
-    if (std::count(along.begin(), along.end(), along[i]) > 1)
+    if (std::ranges::count(along, along[i]) > 1)
       throw InputError({}, fmt::format("{} is named twice by --along", along[i]));
   }
 }
@@ -47,7 +47,7 @@ Slice slice(const Table& table, const FixedStates& held, const std::vector<std::
   }
   for (const std::string& name : out.inputs) {
     std::vector<double> column(rows);
-    const auto at = std::find(along.begin(), along.end(), name) - along.begin();
+    const auto at = std::ranges::find(along, name) - along.begin();
     const auto a = static_cast<std::size_t>(at);
     const std::size_t inner = a + 1 == along.size() ? 1 : points;
     for (std::size_t i = 0; i < rows; ++i)

@@ -98,7 +98,7 @@ SplineAxis spline_axis(const std::vector<double>& u, const std::vector<double>& 
   axis.u = u;
   std::size_t begin = 0;
   for (std::size_t i = 1; i < u.size(); ++i)
-    if (i + 1 == u.size() || std::find(kinks.begin(), kinks.end(), u[i]) != kinks.end()) {
+    if (i + 1 == u.size() || std::ranges::find(kinks, u[i]) != kinks.end()) {
       add_segment(axis, begin, i);
       begin = i;
     }

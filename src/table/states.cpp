@@ -38,7 +38,7 @@ FixedStates fixed_states(const std::vector<std::string>& texts,
     if (!number || !std::isfinite(value))
       throw InputError({}, fmt::format("'{}' is not a state", text),
                        "name=number, for example psi=2");
-    if (std::find(inputs.begin(), inputs.end(), name) == inputs.end()) no_input(name, inputs);
+    if (std::ranges::find(inputs, name) == inputs.end()) no_input(name, inputs);
     if (!held.emplace(name, value).second)
       throw InputError({}, fmt::format("{} is given twice", name));
   }
@@ -47,7 +47,7 @@ FixedStates fixed_states(const std::vector<std::string>& texts,
 
 void check_input(const Table& table, const std::string& name) {
   const auto inputs = table.inputs();
-  if (std::find(inputs.begin(), inputs.end(), name) == inputs.end()) no_input(name, inputs);
+  if (std::ranges::find(inputs, name) == inputs.end()) no_input(name, inputs);
 }
 
 const TableAxis* find_axis(const Table& table, const std::string& name) {
@@ -79,7 +79,7 @@ std::vector<std::string> hold_others(const Table& table, const std::vector<std::
                                      FixedStates& held) {
   std::vector<std::string> parts;
   for (const std::string& name : table.inputs()) {
-    if (held.count(name) || std::find(free.begin(), free.end(), name) != free.end()) continue;
+    if (held.count(name) || std::ranges::find(free, name) != free.end()) continue;
     const TableAxis* axis = find_axis(table, name);
     const auto range = axis && axis->data ? axis->data : table.range(name);
     if (!range) continue;
@@ -100,7 +100,7 @@ void check_all_known(const Table& table, const FixedStates& held,
                      const std::vector<std::string>& free) {
   std::vector<std::string> missing, options;
   for (const std::string& name : table.inputs()) {
-    if (held.count(name) || std::find(free.begin(), free.end(), name) != free.end()) continue;
+    if (held.count(name) || std::ranges::find(free, name) != free.end()) continue;
     const auto range = table.range(name);
     missing.push_back(fmt::format("{} ({})", name, range_text(table, name)));
     options.push_back(fmt::format("--at {}={:g}", name, range ? range->first : 1.0));

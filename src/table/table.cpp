@@ -32,6 +32,13 @@ double TableAxis::per_step() const {
   return table::per_step(coordinates());
 }
 
+std::vector<double> values_at(const std::vector<TableAxis>& axes, std::size_t node) {
+  std::vector<double> values(axes.size());
+  for (std::size_t a = axes.size(); a-- > 0; node /= axes[a].nodes.size())
+    values[a] = axes[a].nodes[node % axes[a].nodes.size()];
+  return values;
+}
+
 std::vector<std::string> Table::inputs() const {
   std::set<std::string> used = expr::symbols(combine);
   for (const TableAxis& axis : axes)
@@ -145,7 +152,7 @@ double TableFunction::Data::raw(const double* u, double* by_u, unsigned* outside
 void TableFunction::Data::add_axes(const Table& table) {
   is_cubic = table.interpolation == Interpolation::cubic;
   for (const TableAxis& axis : table.axes) {
-    const auto input = std::find(inputs.begin(), inputs.end(), axis.name) - inputs.begin();
+    const auto input = std::ranges::find(inputs, axis.name) - inputs.begin();
     axes.push_back({static_cast<std::size_t>(input), axis.log});
     searches.push_back(axis_search(axis.coordinates()));
     if (is_cubic) splines.push_back(spline_axis(axis));
@@ -206,7 +213,7 @@ double TableFunction::Data::gradient(std::span<const double> state, std::span<do
   coordinates([&](std::size_t i) { return state[i]; }, u);
   const double x = raw(u, by_u, outside);
   row[0] = log_value ? std::exp(x) : x;
-  std::copy(state.begin(), state.end(), row + 1);
+  std::ranges::copy(state, row + 1);
   const double answer =
       of_all->gradient({row, state.size() + 1}, {}, std::span<double>(by_row, state.size() + 1));
   for (std::size_t i = 0; i < state.size(); ++i)

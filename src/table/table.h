@@ -47,6 +47,9 @@ struct TableAxis {
   per_step() const; // 1/step where the coordinates are evenly spaced (1e-9 of a step), else 0
 };
 
+// Values of the axes at one node of their grid, row-major.
+std::vector<double> values_at(const std::vector<TableAxis>& axes, std::size_t node);
+
 // Drift as stored in a table and in verify.json. All in MPa.
 struct Drift {
   double max_abs = 0;

@@ -212,7 +212,7 @@ private:
             known.empty() ? "" : "it is one of " + join(known, ", "));
       return "";
     }
-    if (!known.empty() && std::find(known.begin(), known.end(), *found) == known.end())
+    if (!known.empty() && std::ranges::find(known, *found) == known.end())
       fault(fmt::format("attribute '{}' of '{}' is '{}'", name, object, *found),
             "it is one of " + join(known, ", "));
     return *found;
@@ -278,8 +278,8 @@ private:
       for (double& value : table.value)
         value = std::exp(value);
     const auto bad = static_cast<std::size_t>(
-        std::find_if(table.value.begin(), table.value.end(),
-                     [&](double value) { return !(value > above && value < infinite); }) -
+        std::ranges::find_if(table.value,
+                             [&](double value) { return !(value > above && value < infinite); }) -
         table.value.begin());
     if (bad < table.nodes())
       fault(fmt::format("value {} of {} is not finite{}", bad, table.nodes(),
@@ -337,7 +337,7 @@ private:
     for (std::string word; words >> word;) {
       double kink = std::nan("");
       io::scan_number(word.data(), word.data() + word.size(), '.', kink);
-      if (std::find(axis.nodes.begin(), axis.nodes.end(), kink) == axis.nodes.end())
+      if (std::ranges::find(axis.nodes, kink) == axis.nodes.end())
         fault(fmt::format("axis '{}' has a kink at '{}', where it has no node", axis.name, word),
               "a kink is a node, written so that it reads back to the same bits");
       else
@@ -358,8 +358,8 @@ private:
   }
 
   bool is_axis(const std::string& name) const {
-    return std::any_of(table_.axes.begin(), table_.axes.end(),
-                       [&](const TableAxis& axis) { return axis.name == name; });
+    return std::ranges::any_of(table_.axes,
+                               [&](const TableAxis& axis) { return axis.name == name; });
   }
 
   // Whether the name is a canonical state, or an input of an effect: the table then gives its
@@ -375,10 +375,9 @@ private:
     if (constant == "k" || constant == "k_MPa") return true;
     if (table_.model == foreign_model) return constant == "m" || constant == "mu";
     const models::Law* law = models::find_law(table_.model);
-    return law && std::any_of(law->parameters.begin(), law->parameters.end(),
-                              [&](const models::Parameter& parameter) {
-                                return parameter.name == constant && parameter.lower >= 0;
-                              });
+    return law && std::ranges::any_of(law->parameters, [&](const models::Parameter& parameter) {
+             return parameter.name == constant && parameter.lower >= 0;
+           });
   }
 
   // Checks the numbers with which generated sources would compute.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/names.h"
 #include "table/drift.h"
 
 namespace frictab::table {
@@ -30,10 +31,7 @@ Tolerance auto_tolerance(double error_MPa, double mean_stress_MPa, const std::st
 
 Tolerance auto_tolerance(const models::AssembledLaw& law, const std::vector<StateRange>& ranges) {
   constexpr std::size_t points = 4096;
-  std::vector<std::string> names;
-  for (const StateRange& range : ranges)
-    names.push_back(range.name);
-  const Probe probe = with_law(LawFunction(law, names), box_points(ranges, points));
+  const Probe probe = with_law(LawFunction(law, all_names(ranges)), box_points(ranges, points));
   double mean = 0;
   for (const double tau : probe.law)
     mean += std::abs(tau) / static_cast<double>(probe.law.size());

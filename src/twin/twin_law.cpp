@@ -36,9 +36,7 @@ effects::PlacedEffect planted_on(effects::ActsOn acts_on) {
 
 // Compiles the law: columns are its states and the three factors, scalars are its own parameters.
 expr::Program program_of(const models::Law& law, const models::Conventions& conventions) {
-  std::vector<double> start;
-  for (const models::Parameter& parameter : law.parameters)
-    start.push_back(parameter.start);
+  const std::vector<double> start = models::start_values(law.parameters);
   const std::vector<effects::PlacedEffect> effects = {planted_on(effects::ActsOn::mu),
                                                       planted_on(effects::ActsOn::m),
                                                       planted_on(effects::ActsOn::tau)};

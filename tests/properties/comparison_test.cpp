@@ -12,9 +12,9 @@
 #include "calibrate/comparison.h"
 #include "calibrate/metrics.h"
 #include "calibrate/recommended.h"
-#include "core/parallel.h"
 #include "core/random.h"
 #include "support/sample_data.h"
+#include "support/threads.h"
 
 namespace frictab::comparison_test {
 
@@ -177,7 +177,7 @@ TEST(SlowComparison, PValuesOfEquallyGoodLawsAreUniform) {
     rmse.push_back(c.pairs[0].rmse.p_value);
   }
   for (auto* p : {&mae, &rmse}) {
-    std::sort(p->begin(), p->end());
+    std::ranges::sort(*p);
     double distance = 0;
     for (std::size_t i = 0; i < pairs; ++i)
       distance = std::max({distance, std::abs((*p)[i] - static_cast<double>(i) / pairs),
@@ -224,11 +224,11 @@ TEST(SlowComparison, DeclaresABestAmongEqualLawsInAtMostFivePercent) {
   for (int i = 0; i < campaigns; ++i) {
     auto laws = exchangeable(8, 30, random);
     const auto mae = [](const LawErrors& l) { return metrics(l.sums, 0, 0).mae_MPa; };
-    std::stable_sort(laws.begin(), laws.end(),
-                     [&](const LawErrors& a, const LawErrors& b) { return mae(a) < mae(b); });
+    std::ranges::stable_sort(
+        laws, [&](const LawErrors& a, const LawErrors& b) { return mae(a) < mae(b); });
     const Comparisons c = compare(laws, 500, static_cast<std::uint64_t>(i));
     const auto best = calibrate::possibly_best(c);
-    first_excluded += std::find(best.begin(), best.end(), "law0") == best.end();
+    first_excluded += std::ranges::find(best, "law0") == best.end();
     one_left += best.size() == 1;
     naive += calibrate::as_good_as_first(c).size() < 7;
   }
@@ -267,12 +267,12 @@ double mae_of(const LawErrors& one) {
 }
 
 void rank(std::vector<LawErrors>& laws) {
-  std::stable_sort(laws.begin(), laws.end(),
-                   [](const LawErrors& a, const LawErrors& b) { return mae_of(a) < mae_of(b); });
+  std::ranges::stable_sort(
+      laws, [](const LawErrors& a, const LawErrors& b) { return mae_of(a) < mae_of(b); });
 }
 
 bool loses_a_pair(const Comparisons& c, const std::string& name) {
-  return std::any_of(c.pairs.begin(), c.pairs.end(), [&](const calibrate::Comparison& pair) {
+  return std::ranges::any_of(c.pairs, [&](const calibrate::Comparison& pair) {
     return pair.other == name && pair.mae.value_MPa > 0 && pair.mae.p_value < 0.05;
   });
 }
@@ -314,7 +314,7 @@ TEST(SlowComparison, WhatMayBeTheBestFallsWithTheErrorWhereALossIsCertain) {
         EXPECT_GE(c.best_p_values[better], 0.05) << "campaign " << i;
     }
     for (const std::string& name : c.laws) // nor is one left out that nobody beats
-      if (std::find(best.begin(), best.end(), name) == best.end()) {
+      if (std::ranges::find(best, name) == best.end()) {
         EXPECT_TRUE(loses_a_pair(c, name));
         ++lost;
       }
@@ -414,13 +414,12 @@ TEST(Recommended, TakesTheSimplerOfTwoWaysToWriteALaw) {
 TEST(SlowComparison, IsTheSameForAnyNumberOfThreads) {
   Random random(3);
   const auto laws = exchangeable(5, 12, random);
-  calibrate::Calibration one, two;
-  set_threads(1);
-  one.comparisons = compare(laws, 300, 1);
-  set_threads(2);
-  two.comparisons = compare(laws, 300, 1);
-  set_threads(0);
-  EXPECT_EQ(calibrate::calibration_json(one), calibrate::calibration_json(two));
+  const auto text = [&] {
+    calibrate::Calibration calibration;
+    calibration.comparisons = compare(laws, 300, 1);
+    return calibrate::calibration_json(calibration);
+  };
+  EXPECT_EQ(test::with_threads(1, text), test::with_threads(2, text));
 }
 
 TEST(SlowComparison, OfOneExperimentOrWithoutResamplesIsNotMade) {

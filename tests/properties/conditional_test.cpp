@@ -7,6 +7,7 @@
 #include "calibrate/conditional.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "support/refusal.h"
 #include "support/sample_data.h"
 #include "twin/twin.h"
 
@@ -169,12 +170,7 @@ TEST(Conditional, CountsExperimentsWithoutAStartOrWithoutARest) {
 }
 
 std::string refusal(const calibrate::CalibrationInput& input) {
-  try {
-    calibrate::calibrate(input);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { calibrate::calibrate(input); });
 }
 
 TEST(Conditional, BeyondEveryExperimentIsRefusedWithTheLongestDistance) {

@@ -35,8 +35,7 @@ Dataset measured_again(Dataset data, const Model& truth, double scatter, double 
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
       tau[i] = std::max(0.0, tau[i] * factor + noise_MPa * random.normal());
   }
-  for (data::Column& column : data.columns)
-    if (column.name == "tau_R_MPa") column.values = tau;
+  test::column(data, "tau_R_MPa").values = tau;
   return data;
 }
 

@@ -34,8 +34,7 @@ data::Dataset campaign(const models::Model& truth, std::uint64_t replicate) {
       tau[i] = tau[i] * gain + 4 * drift + 3 * random.normal();
     }
   }
-  for (data::Column& column : data.columns)
-    if (column.name == "tau_R_MPa") column.values = tau;
+  test::column(data, "tau_R_MPa").values = tau;
   return data;
 }
 

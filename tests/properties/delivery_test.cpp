@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "data/append.h"
+#include "support/refusal.h"
 #include "support/sample_data.h"
 
 namespace frictab::delivery_test {
@@ -202,15 +203,10 @@ TEST(Deliver, FilesReadBackAndThoseOfEarlierVersionsToo) {
 
   auto mixed = nlohmann::ordered_json::parse(text);
   mixed["models"][0]["delivered"] = mixed["models"][1]["delivered"];
-  try {
-    calibrate::parse_calibration(mixed.dump(), "c.json");
-    ADD_FAILURE() << "was taken";
-  } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()),
-              fmt::format("c.json: error: what is delivered of '{}' is a '{}'\n"
-                          "  hint: calibrate again",
-                          c.fits[0].model.law->name, c.fits[1].model.law->name));
-  }
+  EXPECT_EQ(test::refusal([&] { calibrate::parse_calibration(mixed.dump(), "c.json"); }),
+            fmt::format("c.json: error: what is delivered of '{}' is a '{}'\n"
+                        "  hint: calibrate again",
+                        c.fits[0].model.law->name, c.fits[1].model.law->name));
 }
 
 TEST(LongDeliver, AllIsTheSameForAnyNumberOfThreads) {

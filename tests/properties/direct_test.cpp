@@ -4,6 +4,7 @@
 #include "codegen/compile.h"
 #include "codegen/exporter.h"
 #include "codegen/layer.h"
+#include "core/columns.h"
 #include "core/random.h"
 #include "models/law.h"
 #include "support/generated.h"
@@ -62,9 +63,7 @@ void expect_law(const models::Model& model, bool by_language = false) {
   const table::Probe probe = // all corners too
       table::with_law(table::LawFunction(law, table.inputs()),
                       table::box_points(ranges_of(law), 20000));
-  std::vector<const double*> columns;
-  for (const auto& column : probe.states)
-    columns.push_back(column.data());
+  const std::vector<const double*> columns = pointers(probe.states);
   for (const codegen::Exporter& exporter : codegen::all_exporters()) {
     if (!exporter.is_routine()) continue; // solvers' own tables have tests of their own
     if (by_language && !test::stands_for_its_language(exporter)) continue;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/names.h"
 #include "core/text.h"
 #include "effects/effect.h"
 #include "expr/program.h"
@@ -51,15 +52,9 @@ PlacedEffect placed(const EffectForm& form, double amplitude) {
   return placed(form, {spreads[0], spreads[0], spreads[0]}, amplitude);
 }
 
-std::vector<std::string> names_of(const PlacedEffect& effect) {
-  std::vector<std::string> names;
-  for (const models::Parameter& parameter : parameters_of(effect))
-    names.push_back(parameter.name);
-  return names;
-}
-
 Program program_of(const PlacedEffect& effect) {
-  return {effects::formula_of(effect), effects::input_symbols(*effect.form), names_of(effect)};
+  return {effects::formula_of(effect), effects::input_symbols(*effect.form),
+          all_names(parameters_of(effect))};
 }
 
 class EffectForms : public testing::TestWithParam<const EffectForm*> {};
@@ -124,7 +119,7 @@ TEST_P(EffectForms, UsesOnlyItsInputsAndParameters) {
   std::set<std::string> known;
   for (const auto& name : effects::input_symbols(*effect.form))
     known.insert(name);
-  for (const auto& name : names_of(effect))
+  for (const auto& name : all_names(parameters_of(effect)))
     known.insert(name);
   EXPECT_EQ(expr::symbols(effects::formula_of(effect)), known);
 }

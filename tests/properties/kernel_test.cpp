@@ -201,7 +201,7 @@ std::vector<std::uint64_t> answers(const test::KernelVariant& kernel, const Grid
   };
   take(kernel.linear(axes, grid.linear.data(), v, u.data(), &outside[0]));
   take(kernel.linear_gradient(axes, grid.linear.data(), v, u.data(), by.data(), &outside[1]));
-  std::fill(by.begin(), by.end(), 0);
+  std::ranges::fill(by, 0);
   take(kernel.cubic(axes, grid.cubic.data(), c, u.data(), &outside[2]));
   take(kernel.cubic_gradient(axes, grid.cubic.data(), c, u.data(), by.data(), &outside[3]));
   out.insert(out.end(), outside, outside + 4);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "calibrate/fit.h"
+#include "core/columns.h"
 #include "core/random.h"
 #include "data/quantity.h"
 #include "models/law.h"
@@ -24,13 +25,6 @@ class EveryLaw : public testing::TestWithParam<std::string> {
 protected:
   const models::Law& law() const { return *models::find_law(GetParam()); }
 };
-
-std::vector<const double*> pointers(const std::vector<std::vector<double>>& states) {
-  std::vector<const double*> columns;
-  for (const auto& column : states)
-    columns.push_back(column.data());
-  return columns;
-}
 
 TEST_P(EveryLaw, DescribesItself) {
   EXPECT_FALSE(law().title.empty());
@@ -141,7 +135,7 @@ TEST_P(EveryLaw, WithoutTheShearLimitNeedsNoFlowStressUnlessItsFormulaDoes) {
   const auto limited = inputs(law(), {});
   const auto free = inputs(law(), conventions);
   EXPECT_LE(free.size(), limited.size());
-  EXPECT_NE(std::find(limited.begin(), limited.end(), "sigma_f_MPa"), limited.end());
+  EXPECT_NE(std::ranges::find(limited, "sigma_f_MPa"), limited.end());
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryLaw, testing::ValuesIn(models::law_names()),
@@ -226,9 +220,7 @@ TEST(Wzl, OfItsPublishedConstantsIsThePublishedProduct) {
   conventions.shear_limit = false;
   const Program program(tau_formula(law, conventions), {"sigma_n_MPa", "v_rel_mm_s", "T_contact_C"},
                         parameter_names(law));
-  std::vector<double> published;
-  for (const models::Parameter& p : law.parameters)
-    published.push_back(p.start);
+  const std::vector<double> published = models::start_values(law.parameters);
   EXPECT_NEAR(published[0], 0.0198, 5e-5);
   for (const double p : {0.5, 20.0, 1500.0})
     for (const double v : {2.0, 80.0})

@@ -79,7 +79,7 @@ std::vector<std::vector<double>> parameters_of(const Model& model) {
 }
 
 std::size_t place_of(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
 std::string words(const std::vector<double>& values) {
@@ -164,8 +164,7 @@ TEST_P(EveryLawOfTheLiteratureFarOut, StaysFiniteAndBetweenZeroAndK) {
   const std::size_t sigma_f = place_of(names, "sigma_f_MPa");
   Model model;
   model.law = models::unregistered_law(law);
-  for (const models::Parameter& parameter : law.parameters)
-    model.parameters.push_back(parameter.start);
+  model.parameters = models::start_values(law.parameters);
   for (const std::vector<double>& row : far_states(names)) {
     const double tau = program(row, model.parameters);
     ASSERT_TRUE(std::isfinite(tau)) << words(row) << "| " << words(model.parameters);

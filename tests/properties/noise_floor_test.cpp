@@ -250,7 +250,7 @@ TEST(NoiseFloor, WithinExperimentsIsTheWhiteNoiseAndNotTheOffsetsBetweenThem) {
         offsets[i / 200] + 20 * std::sin(0.01 * static_cast<double>(i % 200)) + 5 * random.normal();
   for (std::size_t e = 0; e <= 20; ++e)
     data.first_row[e] = 200 * e;
-  const auto floor = calibrate::within_floor(data, 100, 1);
+  const auto floor = calibrate::within_floor(calibrate::scatter_in_tests(data), 100, 1);
   ASSERT_TRUE(floor);
   EXPECT_TRUE(floor->lower_bound);
   EXPECT_NEAR(floor->rmse_MPa, 5, 0.2);

@@ -169,8 +169,7 @@ std::vector<LawErrors> equal_laws(std::size_t laws, std::size_t tests, std::uint
       sum += one.absolute;
     return sum;
   };
-  std::stable_sort(all.begin(), all.end(),
-                   [&](const auto& a, const auto& b) { return mae(a) < mae(b); });
+  std::ranges::stable_sort(all, [&](const auto& a, const auto& b) { return mae(a) < mae(b); });
   return all;
 }
 

@@ -13,7 +13,7 @@
 
 #include "codegen/compile.h"
 #include "codegen/exporter.h"
-#include "core/error.h"
+#include "support/refusal.h"
 
 // Relative to what is expected.
 #define EXPECT_CLOSE(value, expected, bound)                                                       \
@@ -27,16 +27,6 @@ protected:
     if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 };
-
-// The message of the InputError that `body` ends with, else "accepted".
-template <class Body> std::string refusal(const Body& body) {
-  try {
-    body();
-    return "accepted";
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
 
 // For gfortran. (The constants of a solver's include, and its other arguments, are not ours to
 // use.)

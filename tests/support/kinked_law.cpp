@@ -11,9 +11,9 @@ namespace {
 
 models::Formula build(const models::Conventions&) {
   const Expr mu = Expr::symbol("mu0") * pow(state::sigma_n() / 1000, Expr::symbol("a")) *
-                  pow(state::psi(), Expr::symbol("b")) *
-                  (1 - Expr::symbol("c") * log(state::v_rel())) *
-                  exp(-(Expr::symbol("d") * (state::temperature() - 20)));
+                  pow(Expr::symbol("psi"), Expr::symbol("b")) *
+                  (1 - Expr::symbol("c") * log(Expr::symbol("v_rel_mm_s"))) *
+                  exp(-(Expr::symbol("d") * (Expr::symbol("T_contact_C") - 20)));
   return {mu, minimum(state::value() * state::sigma_n(),
                       Expr::symbol("m") * Expr::symbol("sigma_f_MPa"))};
 }

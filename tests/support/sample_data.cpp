@@ -1,6 +1,7 @@
 // Small campaigns for tests.
 #include "support/sample_data.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -72,6 +73,10 @@ data::Dataset sample_data(const Model& truth, const SampleOptions& options) {
   return data;
 }
 
+data::Column& column(data::Dataset& data, const std::string& name) {
+  return *std::ranges::find(data.columns, name, &data::Column::name);
+}
+
 Model plausible_model(const models::Law& law) {
   static const std::map<std::string, std::vector<double>> truth = {
       {"coulomb", {0.07}},
@@ -85,11 +90,8 @@ Model plausible_model(const models::Law& law) {
       {"wzl", {0.0855, -0.15, -0.06, -0.05}}};
   Model model;
   model.law = models::shared_law(law);
-  if (const auto found = truth.find(law.name); found != truth.end())
-    model.parameters = found->second;
-  else
-    for (const models::Parameter& parameter : law.parameters)
-      model.parameters.push_back(parameter.start);
+  const auto found = truth.find(law.name);
+  model.parameters = found == truth.end() ? models::start_values(law.parameters) : found->second;
   return model;
 }
 

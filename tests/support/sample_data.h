@@ -19,6 +19,9 @@ struct SampleOptions {
 // tau_R_MPa = the model's tau_R, times the experiment's factor, plus noise.
 data::Dataset sample_data(const models::Model& truth, const SampleOptions& options = {});
 
+// The column of this name, which the data have.
+data::Column& column(data::Dataset& data, const std::string& name);
+
 // A model with plausible parameters: fixed and mean laws at their start values, others away from
 // theirs.
 models::Model plausible_model(const models::Law& law);

@@ -68,8 +68,7 @@ Model traced_model(const Model& base, const std::vector<PlacedEffect>& effects) 
   Model model;
   model.law = models::unregistered_law(effects::extended_law(
       *base.law, model.conventions, base.parameters, effects, models::traced_name(base.law->name)));
-  for (const models::Parameter& parameter : model.law->parameters)
-    model.parameters.push_back(parameter.start);
+  model.parameters = models::start_values(model.law->parameters);
   return model;
 }
 

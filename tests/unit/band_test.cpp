@@ -6,6 +6,7 @@
 #include "calibrate/band.h"
 #include "calibrate/calibration_file.h"
 #include "core/random.h"
+#include "support/refusal.h"
 #include "support/sample_data.h"
 
 namespace frictab::band_test {
@@ -61,14 +62,11 @@ TEST(Band, SaysWhichQuantilesSoManyExperimentsGive) {
   EXPECT_EQ(at_quantile(model, 0.2, {}).gain, 0.8);
   EXPECT_EQ(at_quantile(model, 0.8, {}).gain, 1.1);
   EXPECT_EQ(at_quantile(model, 0.5, {}).gain, 1) << "the law itself";
-  try {
-    at_quantile(model, 0.05, {"job.toml", 7, 1});
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "job.toml:7:1: error: 4 experiments do not give the quantile 0.05 of 'coulomb'\n"
-                 "  hint: between 0.2 and 0.8, or more experiments");
-  }
+  EXPECT_EQ(test::refusal([&] {
+              at_quantile(model, 0.05, {"job.toml", 7, 1});
+            }),
+            "job.toml:7:1: error: 4 experiments do not give the quantile 0.05 of 'coulomb'\n"
+            "  hint: between 0.2 and 0.8, or more experiments");
 }
 
 TEST(Band, MultipliesTheLawBelowTheShearLimit) {

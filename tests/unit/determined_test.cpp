@@ -257,9 +257,9 @@ TEST(Influence, OfATestAtHalfItsStressIsNamedWithTheLawWithoutIt) {
     data.columns[3].values[i] *= 0.5;
   const Calibration found = calibrated(data, {"coulomb", "wzl"});
   for (const char* law : {"coulomb", "wzl"}) {
-    const auto named =
-        std::find_if(found.influence.begin(), found.influence.end(),
-                     [&](const auto& one) { return one.law == law && one.experiment == "t04"; });
+    const auto named = std::ranges::find_if(found.influence, [&](const auto& one) {
+      return one.law == law && one.experiment == "t04";
+    });
     ASSERT_NE(named, found.influence.end()) << law;
     ASSERT_FALSE(named->moved.empty());
     const models::Law& of = *models::find_law(law);
@@ -314,10 +314,9 @@ TEST(Influence, SaysWhichTestDecidesTheFirstPlace) {
     for (std::size_t e = 0; e < 10; ++e)
       if (e != 2) mae[l] += found.fits[l].unseen[e].mae_MPa;
   const bool turns = mae[1] < mae[0] * (1 - 1e-4);
-  const auto named =
-      std::find_if(found.influence.begin(), found.influence.end(), [&](const auto& one) {
-        return one.experiment == "t02" && one.law == found.fits[0].model.law->name;
-      });
+  const auto named = std::ranges::find_if(found.influence, [&](const auto& one) {
+    return one.experiment == "t02" && one.law == found.fits[0].model.law->name;
+  });
   ASSERT_NE(named, found.influence.end());
   EXPECT_EQ(named->first, turns ? found.fits[1].model.law->name : "");
 }

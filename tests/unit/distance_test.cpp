@@ -146,7 +146,7 @@ TEST_F(TableDistance, OfEveryNodeIsThatOfItsState) {
   EXPECT_EQ(table.distance.front(), rows.distance(first));
   EXPECT_EQ(table.distance.back(), rows.distance(last));
   EXPECT_EQ(table.record.share_far, rows.share_far());
-  EXPECT_GT(*std::max_element(table.distance.begin(), table.distance.end()), 0);
+  EXPECT_GT(*std::ranges::max_element(table.distance), 0);
 }
 
 TEST_F(TableDistance, StandsInTheFileOnTheAxesOfTheValues) {

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "expr/program.h"
+#include "support/refusal.h"
 
 namespace frictab::expr_test {
 
@@ -53,12 +54,7 @@ TEST(Expr, TextKeepsTheTreeSoThatBitsAreKept) {
 
 TEST(Expr, FaultsNameTheColumn) {
   const auto message = [](const char* text) {
-    try {
-      parse_expr(text, "table.h5");
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("no error");
+    return test::refusal([&] { parse_expr(text, "table.h5"); });
   };
   EXPECT_EQ(message("1 + "),
             "table.h5:1:5: error: the formula ends too early in the formula '1 + '");

@@ -16,6 +16,7 @@ using effects::PlacedEffect;
 using effects::symbol_of;
 using models::find_law;
 using models::Law;
+using models::start_values;
 
 namespace {
 
@@ -48,13 +49,6 @@ PlacedEffect effect(const char* form, ActsOn acts_on, double amplitude) {
   return effect;
 }
 
-std::vector<double> starts_of(const Law& law) {
-  std::vector<double> starts;
-  for (const models::Parameter& p : law.parameters)
-    starts.push_back(p.start);
-  return starts;
-}
-
 // tau_R at one state; `column` is the effect's first column.
 double tau(const Law& law, double sigma, double column, double second = 0.25) {
   const auto names = models::inputs(law, {});
@@ -69,7 +63,7 @@ double tau(const Law& law, double sigma, double column, double second = 0.25) {
                   : name == "humidity_pct" || name == "tool" ? column
                                                              : second);
   return expr::Program(models::tau_formula(law, {}), names,
-                       models::parameter_names(law))(row, starts_of(law));
+                       models::parameter_names(law))(row, start_values(law.parameters));
 }
 
 TEST(SlowExtendedLaw, NeutralEffectsLeaveEveryBitOfEveryLaw) {
@@ -77,7 +71,8 @@ TEST(SlowExtendedLaw, NeutralEffectsLeaveEveryBitOfEveryLaw) {
     for (const effects::EffectForm& form : effects::all_effects())
       for (const ActsOn place : {ActsOn::mu, ActsOn::m, ActsOn::mu_m, ActsOn::tau}) {
         const PlacedEffect neutral[] = {effect(form.name.c_str(), place, 0)};
-        const Law extended = extended_law(law, {}, starts_of(law), neutral, "extended");
+        const Law extended =
+            extended_law(law, {}, start_values(law.parameters), neutral, "extended");
         for (const double sigma : {0.0, 300.0, 900.0, 2700.0})
           for (const double column : {0.0, 1.0, 37.3, 90.0})
             EXPECT_EQ(tau(extended, sigma, column), tau(law, sigma, column))
@@ -96,7 +91,8 @@ TEST(ExtendedLaw, AnEffectWithoutAllItsParametersIsRefused) {
 TEST(ExtendedLaw, AnEffectOnMuActsBelowTheLimitOnly) {
   const Law& coulomb = *find_law("coulomb");
   const PlacedEffect half[] = {effect("linear", ActsOn::mu, 0.5)};
-  const Law extended = extended_law(coulomb, {}, starts_of(coulomb), half, "extended");
+  const Law extended =
+      extended_law(coulomb, {}, start_values(coulomb.parameters), half, "extended");
   // (x - 45)/20 = 0.5 at 55
   EXPECT_NEAR(tau(extended, 1000, 55) / tau(coulomb, 1000, 55), 1.25, 1e-12);
   EXPECT_EQ(tau(extended, 9000, 55), tau(coulomb, 9000, 55)) << "both at k";
@@ -105,7 +101,7 @@ TEST(ExtendedLaw, AnEffectOnMuActsBelowTheLimitOnly) {
 TEST(ExtendedLaw, AnEffectOnTheLimitActsAtTheLimitOnly) {
   const Law& orowan = *find_law("orowan");
   const PlacedEffect half[] = {effect("linear", ActsOn::m, 0.5)};
-  const Law extended = extended_law(orowan, {}, starts_of(orowan), half, "extended");
+  const Law extended = extended_law(orowan, {}, start_values(orowan.parameters), half, "extended");
   EXPECT_EQ(tau(extended, 100, 55), tau(orowan, 100, 55));
   EXPECT_NEAR(tau(extended, 5000, 55) / tau(orowan, 5000, 55), 1.25, 1e-12);
 }
@@ -113,7 +109,7 @@ TEST(ExtendedLaw, AnEffectOnTheLimitActsAtTheLimitOnly) {
 TEST(ExtendedLaw, AnEffectOnMuAndTheLimitActsOnTheLawAsAWhole) {
   const Law& orowan = *find_law("orowan");
   const PlacedEffect half[] = {effect("linear", ActsOn::mu_m, 0.5)};
-  const Law extended = extended_law(orowan, {}, starts_of(orowan), half, "extended");
+  const Law extended = extended_law(orowan, {}, start_values(orowan.parameters), half, "extended");
   EXPECT_EQ(extended.parameters.size(), orowan.parameters.size() + 1);
   for (const double sigma : {100.0, 5000.0})
     EXPECT_NEAR(tau(extended, sigma, 55) / tau(orowan, sigma, 55), 1.25, 1e-12) << sigma;
@@ -122,7 +118,8 @@ TEST(ExtendedLaw, AnEffectOnMuAndTheLimitActsOnTheLawAsAWhole) {
 TEST(ExtendedLaw, AnAddedEffectIsInUnitsOfItsScale) {
   const Law& coulomb = *find_law("coulomb");
   const PlacedEffect half[] = {effect("linear", ActsOn::tau, 0.5)};
-  const Law extended = extended_law(coulomb, {}, starts_of(coulomb), half, "extended");
+  const Law extended =
+      extended_law(coulomb, {}, start_values(coulomb.parameters), half, "extended");
   EXPECT_NEAR(tau(extended, 1000, 55) - tau(coulomb, 1000, 55), 25, 1e-10);
 }
 
@@ -131,7 +128,7 @@ TEST(ExtendedLaw, AnAddedEffectFadesWithThePressure) {
     const Law& law = *find_law(name);
     PlacedEffect half[] = {effect("linear", ActsOn::tau, 0.5)};
     half[0].pressure_MPa = 200;
-    const Law extended = extended_law(law, {}, starts_of(law), half, "extended");
+    const Law extended = extended_law(law, {}, start_values(law.parameters), half, "extended");
     const auto added = [&](double sigma) { return tau(extended, sigma, 55) - tau(law, sigma, 55); };
     EXPECT_NEAR(added(1000), 25, 1e-10) << name;
     EXPECT_NEAR(added(200), 25, 1e-10) << name;
@@ -147,7 +144,8 @@ TEST(ExtendedLaw, HoldsAnEffectAtTheEndsOfWhereItWasLearned) {
   for (const effects::EffectForm& form : effects::all_effects()) {
     if (form.categorical) continue;
     const PlacedEffect some[] = {effect(form.name.c_str(), ActsOn::mu, 0.3)};
-    const Law extended = extended_law(coulomb, {}, starts_of(coulomb), some, "extended");
+    const Law extended =
+        extended_law(coulomb, {}, start_values(coulomb.parameters), some, "extended");
     EXPECT_EQ(tau(extended, 500, 60), tau(extended, 500, 1e4)) << form.name;
     EXPECT_EQ(tau(extended, 500, 30), tau(extended, 500, -1e4)) << form.name;
   }
@@ -156,7 +154,8 @@ TEST(ExtendedLaw, HoldsAnEffectAtTheEndsOfWhereItWasLearned) {
 TEST(ExtendedLaw, GivesEachLevelItsFactor) {
   const Law& coulomb = *find_law("coulomb");
   const PlacedEffect tools[] = {effect("category", ActsOn::mu, 0.1)};
-  const Law extended = extended_law(coulomb, {}, starts_of(coulomb), tools, "extended");
+  const Law extended =
+      extended_law(coulomb, {}, start_values(coulomb.parameters), tools, "extended");
   const double base = tau(coulomb, 500, 0);
   EXPECT_EQ(tau(extended, 500, 0), base);
   EXPECT_NEAR(tau(extended, 500, 1) / base, 1.1, 1e-12);
@@ -167,7 +166,7 @@ TEST(ExtendedLaw, ListsFittedParametersOfEveryEffectBehindTheLawsOwn) {
   const Law& coulomb = *find_law("coulomb");
   const PlacedEffect two[] = {effect("saturation", ActsOn::mu, 0.1),
                               effect("hinge", ActsOn::m, 0.2)};
-  const Law extended = extended_law(coulomb, {}, starts_of(coulomb), two, "extended");
+  const Law extended = extended_law(coulomb, {}, start_values(coulomb.parameters), two, "extended");
   EXPECT_EQ(models::parameter_names(extended),
             (std::vector<std::string>{"mu", "e1_a", "e1_x0", "e2_a", "e2_x0", "m_limit"}));
   EXPECT_EQ(models::inputs(extended, {}),
@@ -184,7 +183,7 @@ TEST(ExtendedLaw, ParametersHaveTheUnitsOfTheColumnsTheyAreValuesOf) {
   pair.inputs[0].column = "v_rel_mm_s";
   pair.inputs[1].column = "T_contact_C";
   const PlacedEffect all[] = {sliding, work, pair, humid};
-  const Law extended = extended_law(coulomb, {}, starts_of(coulomb), all, "extended");
+  const Law extended = extended_law(coulomb, {}, start_values(coulomb.parameters), all, "extended");
   std::map<std::string, std::string> unit;
   for (const models::Parameter& parameter : extended.parameters)
     unit[parameter.name] = parameter.unit;

@@ -32,7 +32,7 @@ Dataset campaign(std::size_t experiments, std::size_t rows) {
 std::vector<std::string> in_both(const Dataset& a, const Dataset& b) {
   std::vector<std::string> shared;
   for (const std::string& name : b.experiments)
-    if (std::count(a.experiments.begin(), a.experiments.end(), name) > 0) shared.push_back(name);
+    if (std::ranges::count(a.experiments, name) > 0) shared.push_back(name);
   return shared;
 }
 
@@ -44,7 +44,7 @@ TEST(Folds, AreBalancedAndEveryExperimentIsInExactlyOne) {
       std::vector<std::size_t> size(5, 0);
       for (const std::size_t f : fold)
         ++size.at(f);
-      const auto [low, high] = std::minmax_element(size.begin(), size.end());
+      const auto [low, high] = std::ranges::minmax_element(size);
       EXPECT_GE(*low, 1U);
       EXPECT_LE(*high - *low, 1U);
     }

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "data/derived.h"
 #include "expr/program.h"
+#include "support/refusal.h"
 #include "support/traced_law.h"
 
 namespace frictab::input_columns_test {
@@ -16,21 +17,12 @@ using calibrate::predict;
 using data::Column;
 using data::Dataset;
 using models::Model;
+using test::refusal;
 
 namespace {
 
-std::string refusal(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 Column& column(Dataset& data, const std::string& name) {
-  return *std::find_if(data.columns.begin(), data.columns.end(),
-                       [&](const Column& c) { return c.name == name; });
+  return *std::ranges::find(data.columns, name, &Column::name);
 }
 
 TEST(InputColumns, AreRecordedOnesWhateverCharactersTheirNamesHave) {
@@ -118,7 +110,7 @@ TEST(InputColumns, FollowTheLawsOwnStressUntilNothingChanges) {
         ASSERT_EQ(found.columns[c][i], peak[i]);
       }
     }
-  EXPECT_GT(*std::max_element(work.begin(), work.end()), 1000);
+  EXPECT_GT(*std::ranges::max_element(work), 1000);
   // Measured stress has no say.
   for (double& tau : column(data, "tau_R_MPa").values)
     tau *= 3;

@@ -8,11 +8,11 @@
 
 #include "calibrate/calibration_file.h"
 #include "calibrate/network_fit.h"
-#include "core/parallel.h"
 #include "core/random.h"
 #include "expr/program.h"
 #include "models/assembled_law.h"
 #include "support/sample_data.h"
+#include "support/threads.h"
 
 namespace frictab::network_test {
 
@@ -183,12 +183,7 @@ TEST(SlowNeuralNetwork, DoesNotLearnTheFactorOfAnExperiment) {
 TEST(SlowNeuralNetwork, IsTheSameForAnyNumberOfThreads) {
   const Dataset data = campaign(0.05, 5, 3, 12);
   const auto text = [&] { return expr::to_text(models::tau_formula(trained_on(data).law, {})); };
-  set_threads(1);
-  const std::string one = text();
-  set_threads(2);
-  const std::string two = text();
-  set_threads(0);
-  EXPECT_EQ(one, two);
+  EXPECT_EQ(test::with_threads(1, text), test::with_threads(2, text));
 }
 
 TEST(SlowNeuralNetwork, DependsOnTheSeed) {
@@ -209,19 +204,16 @@ TEST(SlowNeuralNetwork, NeverSeesTheValidationExperiments) {
 
 TEST(NeuralNetwork, UsesTheStatesThatVary) {
   Dataset data = campaign(0.05, 5, 3, 12);
-  for (Column& column : data.columns) {
-    if (column.name == "psi") column.values.assign(data.rows(), 1.0);
-    if (column.name == "s_mm") column.name = "other";
-  }
+  test::column(data, "psi").values.assign(data.rows(), 1.0);
+  test::column(data, "s_mm").name = "other";
   EXPECT_THAT(trained_on(data).record.inputs,
               testing::ElementsAre("sigma_n_MPa", "v_rel_mm_s", "T_contact_C"));
 }
 
 TEST(NeuralNetwork, ModelFileReadsBackToTheSameBits) {
   const Dataset data = campaign(0.05, 5, 3, 12);
-  calibrate::CalibrationInput input{data, data, {}, {}};
-  input.models.use = {"neural_network"};
-  const calibrate::Calibration calibration = calibrate::calibrate(input);
+  const calibrate::Calibration calibration =
+      calibrate::calibrate({data, data, {.use = {"neural_network"}}, {}});
   const calibrate::ModelFit& fit = calibration.fits.front();
   const models::Model again =
       calibrate::parse_model(calibrate::model_json(fit, calibration), "model.json");
@@ -242,16 +234,14 @@ TEST(NeuralNetwork, NeedsFiveExperiments) {
 
 TEST(NeuralNetwork, StaysFiniteOnDataWithoutFriction) {
   Dataset data = campaign(0, 0, 3, 8);
-  for (Column& column : data.columns)
-    if (column.name == "tau_R_MPa") column.values.assign(data.rows(), 0.0);
+  test::column(data, "tau_R_MPa").values.assign(data.rows(), 0.0);
   EXPECT_EQ(mean_error(trained_on(data), data), 0);
 }
 
 TEST(NeuralNetwork, StaysFiniteOnDataWithoutLoad) {
   Dataset data = campaign(0, 0, 3, 8);
-  for (Column& column : data.columns)
-    if (column.name == "sigma_n_MPa" || column.name == "tau_R_MPa")
-      column.values.assign(data.rows(), 0.0);
+  for (const char* name : {"sigma_n_MPa", "tau_R_MPa"})
+    test::column(data, name).values.assign(data.rows(), 0.0);
   EXPECT_EQ(mean_error(trained_on(data), data), 0);
 }
 

@@ -7,13 +7,13 @@
 
 #include "calibrate/calibration_file.h"
 #include "calibrate/polynomial_bins.h"
-#include "core/parallel.h"
 #include "core/random.h"
 #include "data/condense.h"
 #include "expr/program.h"
 #include "models/assembled_law.h"
 #include "models/polynomial.h"
 #include "support/sample_data.h"
+#include "support/threads.h"
 
 namespace frictab::polynomial_test {
 
@@ -68,8 +68,7 @@ double mean_error_of(const models::Model& model, const Dataset& data) {
 }
 
 void set(Dataset& data, const std::string& name, double value) {
-  for (Column& column : data.columns)
-    if (column.name == name) column.values.assign(data.rows(), value);
+  test::column(data, name).values.assign(data.rows(), value);
 }
 
 // ln mu = ln 0.08 - 0.2 z_sigma + 0.1 P2(z_v) + 0.05 z_sigma z_v, over the range of sample_data.
@@ -354,28 +353,21 @@ TEST(Polynomial, DoesNotLearnTheFactorOfAnExperiment) {
 TEST(Polynomial, IsTheSameForAnyNumberOfThreads) {
   const Dataset data = campaign(0.05, 5, 12);
   const auto text = [&] { return expr::to_text(models::tau_formula(fitted_to(data).law, {})); };
-  set_threads(1);
-  const std::string one = text();
-  set_threads(2);
-  const std::string two = text();
-  set_threads(0);
-  EXPECT_EQ(one, two);
+  EXPECT_EQ(test::with_threads(1, text), test::with_threads(2, text));
 }
 
 TEST(Polynomial, LeavesConstantStatesOut) {
   Dataset data = campaign(0.05, 5, 12);
   set(data, "psi", 1);
-  for (Column& column : data.columns)
-    if (column.name == "s_mm") column.name = "other";
+  test::column(data, "s_mm").name = "other";
   EXPECT_THAT(fitted_to(data).record.inputs,
               testing::ElementsAre("sigma_n_MPa", "v_rel_mm_s", "T_contact_C"));
 }
 
 TEST(Polynomial, ModelFileReadsBackToTheSameBits) {
   const Dataset data = campaign(0.05, 5, 12);
-  calibrate::CalibrationInput input{data, data, {}, {}};
-  input.models.use = {"polynomial"};
-  const calibrate::Calibration calibration = calibrate::calibrate(input);
+  const calibrate::Calibration calibration =
+      calibrate::calibrate({data, data, {.use = {"polynomial"}}, {}});
   const calibrate::ModelFit& fit = calibration.fits.front();
   EXPECT_GT(fit.std_error.front(), 0);
   const models::Model again =
@@ -391,9 +383,8 @@ TEST(Polynomial, CountsRowsBeyondItsEndsAsARemark) {
   const Dataset data = campaign(0.05, 5, 12);
   Dataset beyond = data;
   set(beyond, "v_rel_mm_s", 1e4);
-  calibrate::CalibrationInput input{data, beyond, {}, {}};
-  input.models.use = {"polynomial"};
-  const calibrate::Calibration calibration = calibrate::calibrate(input);
+  const calibrate::Calibration calibration =
+      calibrate::calibrate({data, beyond, {.use = {"polynomial"}}, {}});
   EXPECT_THAT(calibration.fits.front().remarks,
               testing::Contains(testing::AllOf(
                   testing::HasSubstr("validation rows lie beyond the ends at which the law is "

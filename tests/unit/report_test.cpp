@@ -504,8 +504,12 @@ TEST(Report, ShowsAllPairsAsATriangleWithTheirShades) {
 TEST(Report, ShowsTheNoiseFloorBelowTheLawsAndSaysWhatItIs) {
   ReportSample sample = report_sample(2, 4, 50);
   sample.calibration.noise_floors = {
-      {"oracle", "validation", 8.34, 10.71, {6.68, 11.18}, {8.4, 15.2}, 16500, 30, 0, false},
-      {"within_experiments", "validation", 2.8, 3.6, {2.7, 2.9}, {3.5, 3.8}, 16500, 30, 0, true}};
+      {{8.34, 10.71, 0, {6.68, 11.18}, {8.4, 15.2}, {}, 16500, 30}, "oracle", "validation"},
+      {{2.8, 3.6, 0, {2.7, 2.9}, {3.5, 3.8}, {}, 16500, 30},
+       "within_experiments",
+       "validation",
+       0,
+       true}};
   const std::string page = report_html(sample.input());
   EXPECT_EQ(xml_fault(page), "");
   EXPECT_THAT(
@@ -539,16 +543,16 @@ TEST(Benchmark, SaysWhatChoosingTheLawDoesToItsError) {
   c.judged_by = calibrate::JudgedBy::leave_one_out;
   c.choice = {"wzl", 8.7, 9.12, {{"wzl", 0.71}, {"shaw", 0.288}, {"shear", 0.002}}, 1000, false};
   c.recommended.law = c.fits.front().model.law->name;
-  c.recommended.expected_mae_MPa = c.fits.front().validation.mae_MPa + 1;
+  c.recommended.expected.mae_MPa = c.fits.front().validation.mae_MPa + 1;
   const std::string expected = fmt::format(
       "\nOn new tests {} is expected to err by {:.2f} MPa: {:.2f} MPa is optimistic, "
       "because the same tests chose the law.\n",
-      c.recommended.law, c.recommended.expected_mae_MPa, c.fits.front().validation.mae_MPa);
+      c.recommended.law, c.recommended.expected.mae_MPa, c.fits.front().validation.mae_MPa);
   EXPECT_THAT(benchmark_md(c), HasSubstr(expected));
   EXPECT_THAT(benchmark_md(c), HasSubstr("\nOf 1,000 resamples of the tests 71 % choose "
                                          "wzl, 29 % shaw.\n"));
   EXPECT_THAT(report_html(sample.input()), HasSubstr(" is expected to err by "));
-  c.recommended.expected_mae_MPa = c.fits.front().validation.mae_MPa; // said once
+  c.recommended.expected.mae_MPa = c.fits.front().validation.mae_MPa; // said once
   EXPECT_THAT(benchmark_md(c), Not(HasSubstr(" is expected to err by ")));
   c.choice.splits = true;
   EXPECT_THAT(benchmark_md(c), HasSubstr("\nOf 1,000 other splits of all tests 71 % choose wzl, "));

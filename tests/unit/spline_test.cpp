@@ -52,15 +52,8 @@ Table table_of(const Field& field, std::vector<TableAxis> axes, Interpolation in
   std::size_t count = 1;
   for (const TableAxis& axis : table.axes)
     count *= axis.nodes.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    std::vector<double> x(table.axes.size());
-    std::size_t rest = i;
-    for (std::size_t d = x.size(); d-- > 0;) {
-      x[d] = table.axes[d].nodes[rest % table.axes[d].nodes.size()];
-      rest /= table.axes[d].nodes.size();
-    }
-    table.value.push_back(field(x));
-  }
+  for (std::size_t i = 0; i < count; ++i)
+    table.value.push_back(field(table::values_at(table.axes, i)));
   return table;
 }
 

@@ -8,14 +8,15 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/parallel.h"
 #include "core/random.h"
 #include "io/hdf5.h"
 #include "models/law.h"
 #include "support/law_parameter.h"
 #include "support/rebuilt.h"
+#include "support/refusal.h"
 #include "support/run_command.h"
 #include "support/sample_data.h"
+#include "support/threads.h"
 #include "table/drift.h"
 #include "table/table_file.h"
 
@@ -127,7 +128,7 @@ TEST(Table, ClampOfALawGetsANode) {
   const Table table = table_of("wzl");
   const auto& v = table.axes[1];
   ASSERT_EQ(v.name, "v_rel_mm_s");
-  EXPECT_NE(std::find(v.nodes.begin(), v.nodes.end(), 10.0), v.nodes.end());
+  EXPECT_NE(std::ranges::find(v.nodes, 10.0), v.nodes.end());
   EXPECT_LT(worst_of("wzl", table), 1e-11);
 }
 
@@ -186,16 +187,9 @@ TEST(Table, GridThatDoesNotFitIntoMemoryIsRefused) {
   options.place = {"job.toml", 9, 1};
   for (const char* name : {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C"})
     options.axes[name].nodes = 1000;
-  try {
-    table_of("log_coulomb", options);
-    FAIL() << "8 TB were accepted";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what())
-                  .find("job.toml:9:1: error: the table needs 7450.6 GiB "
-                        "(1,000,000,000,000 nodes: sigma_n_MPa 1000, "),
-              std::string::npos)
-        << error.what();
-  }
+  EXPECT_THAT(test::refusal([&] { table_of("log_coulomb", options); }),
+              testing::HasSubstr("job.toml:9:1: error: the table needs 7450.6 GiB "
+                                 "(1,000,000,000,000 nodes: sigma_n_MPa 1000, "));
 }
 
 TEST(Table, LogarithmicAxisFromZeroIsRefused) {
@@ -203,14 +197,9 @@ TEST(Table, LogarithmicAxisFromZeroIsRefused) {
   options.axes["sigma_n_MPa"].range = {0, 3000};
   options.axes["sigma_n_MPa"].spacing = "log";
   options.axes["sigma_n_MPa"].place = {"job.toml", 12, 3};
-  try {
-    table_of("levanov", options);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "job.toml:12:3: error: the axis sigma_n_MPa cannot be logarithmic: its range starts "
-              "at 0\n  hint: spacing = \"linear\", or a range that starts above 0");
-  }
+  EXPECT_EQ(test::refusal([&] { table_of("levanov", options); }),
+            "job.toml:12:3: error: the axis sigma_n_MPa cannot be logarithmic: its range starts "
+            "at 0\n  hint: spacing = \"linear\", or a range that starts above 0");
 }
 
 TEST(TableFunction, ReportsEveryClampedAxisAndKeepsNaN) {
@@ -300,12 +289,7 @@ TEST(TableFile, FirstLayoutHoldsLogarithmsAndIsRead) {
 TEST(TableFile, LayoutThatDoesNotSayWhetherItHoldsLogarithmsIsRefused) {
   const test::TemporaryDirectory directory;
   const auto what = [&](const std::string& layout) {
-    try {
-      read_table(file_of_logarithms(directory, layout));
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return test::refusal([&] { read_table(file_of_logarithms(directory, layout)); });
   };
   EXPECT_THAT(what(""), testing::HasSubstr("the root has no attribute 'schema'"));
   EXPECT_THAT(what("frictab/table/3"), testing::HasSubstr("the layout is frictab/table/3"));
@@ -396,11 +380,8 @@ TEST(TableFile, TruncatedAndForeignFilesAreFaultsNotCrashes) {
 }
 
 TEST(Table, DoesNotDependOnTheNumberOfThreads) {
-  set_threads(1);
-  const Table one = table_of("wanheim_bay");
-  set_threads(2);
-  const Table two = table_of("wanheim_bay");
-  set_threads(0);
+  const auto made = [] { return table_of("wanheim_bay"); };
+  const Table one = test::with_threads(1, made), two = test::with_threads(2, made);
   EXPECT_EQ(one.value, two.value);
   EXPECT_TRUE(one.record == two.record);
 }
@@ -427,14 +408,10 @@ TEST(TableFile, DamagedChunkIsAFaultThatNamesTheFile) {
     ASSERT_LT(at, bytes.size());
     bytes[at] = static_cast<char>(bytes[at] ^ 1);
     directory.write("t.h5", bytes);
-    try {
-      read_table(file);
-      FAIL() << storage.compress;
-    } catch (const InputError& error) {
-      EXPECT_EQ(std::string(error.what()),
-                file + ": error: 'value' cannot be read: a chunk does not fit its checksum or its "
-                       "compression\n  hint: the file is damaged: write it again, or take a copy");
-    }
+    EXPECT_EQ(test::refusal([&] { read_table(file); }),
+              file + ": error: 'value' cannot be read: a chunk does not fit its checksum or its "
+                     "compression\n  hint: the file is damaged: write it again, or take a copy")
+        << storage.compress;
   }
 }
 

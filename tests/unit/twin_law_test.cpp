@@ -131,10 +131,7 @@ TEST(TwinLaw, EffectsAreThoseOfTheExtendedLaw) {
     }
     const models::Law law = effects::extended_law(twin.law->law(), Conventions{},
                                                   twin.law->parameters(), effects, "truth");
-    std::vector<double> parameters;
-    for (const models::Parameter& parameter : law.parameters)
-      parameters.push_back(parameter.start);
-    const auto expected = tau_by_hand(law, twin.validation, parameters);
+    const auto expected = tau_by_hand(law, twin.validation, models::start_values(law.parameters));
     for (std::size_t i = 0; i < expected.size(); ++i)
       ASSERT_NEAR(twin.validation.oracle_MPa[i], expected[i], 1e-9 * expected[i]) << name;
   }
