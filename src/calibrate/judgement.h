@@ -105,6 +105,9 @@ struct Recommended {
   // Number of tests, left out in turn, over which this was decided; 0: those that judge the laws.
   std::size_t tests = 0;
   Expected expected; // for a law chosen by this rule
+  // Candidates that the same tests cannot distinguish from it: worse by less than two standard
+  // errors.
+  std::vector<std::string> as_good = {};
 };
 
 // Parameters that the design of the tests leaves open (determined.h).

@@ -36,6 +36,21 @@ Simplest simplest_near(const PairedErrors& errors, std::span<const double> times
   return out;
 }
 
+// Names the laws that are not worse than one of them by two standard errors or more.
+std::vector<std::string> as_good_as(std::size_t law, const PairedErrors& errors,
+                                    std::span<const LawErrors> laws) {
+  constexpr double std_errors = 2;
+  const std::vector<double> once(errors.experiments(), 1.0);
+  const PairedErrors::Estimates mae = errors.at(once);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    if (i != law && mae.value[i] - mae.value[law] <=
+                        std::max(std_errors * errors.error_of_difference(mae, law, i, once),
+                                 same_error * mae.value[law]))
+      names.push_back(laws[i].law);
+  return names;
+}
+
 std::string numbers_text(std::size_t numbers) {
   return thousands(numbers) + (numbers == 1 ? " number" : " numbers");
 }
@@ -71,7 +86,9 @@ Recommended recommend(std::span<const LawErrors> laws, std::span<const std::size
   out.behind_MPa = simplest.behind_MPa;
   out.std_error_MPa = simplest.std_error_MPa;
   out.expected.mae_MPa = errors.at(once).value[simplest.law];
-  if (experiments < 2 || resamples == 0) return out;
+  if (experiments < 2) return out;
+  out.as_good = as_good_as(simplest.law, errors, laws);
+  if (resamples == 0) return out;
   const auto rule = [&](std::span<const double> times) {
     return simplest_near(errors, times, best_of(laws, times), numbers).law;
   };

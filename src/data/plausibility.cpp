@@ -538,7 +538,7 @@ Implausible force_offset(const Dataset& data) {
           "{ formula = \"COLUMN - 3.2\" }"};
 }
 
-// Counts the rows under load, at both ends of a test, with next to no friction.
+// Counts the rows with next to no friction at both ends of the part of a test under load.
 std::size_t rows_without_friction(const Forces& forces) {
   const double rubs = quantile({forces.friction.begin(), forces.friction.end()}, 0.75);
   const auto is_still = [&](std::size_t i) {
@@ -546,11 +546,12 @@ std::size_t rows_without_friction(const Forces& forces) {
     return size < still_share * rubs && size < still_mu * forces.normal[i] &&
            forces.normal[i] > half_load * forces.load;
   };
-  const std::size_t rows = forces.normal.size();
+  const std::size_t rows = forces.normal.size(), first = forces.ends(true, half_load).second,
+                    end = forces.ends(false, half_load).first;
   std::size_t front = 0, back = 0;
-  while (front < rows && is_still(front))
+  while (first + front < rows && is_still(first + front))
     ++front;
-  while (front + back < rows && is_still(rows - 1 - back))
+  while (first + front + back < end && is_still(end - 1 - back))
     ++back;
   return (front >= rows_at_rest ? front : 0) + (back >= rows_at_rest ? back : 0);
 }

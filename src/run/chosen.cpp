@@ -71,6 +71,21 @@ std::vector<const ModelFit*> fits_to_trace(const calibrate::Calibration& calibra
   return chosen;
 }
 
+std::vector<const ModelFit*> simpler_laws(const calibrate::Calibration& calibration) {
+  const ModelFit& best = calibrate::best_fit(calibration);
+  const auto may_be_traced = [&](const ModelFit& fit) {
+    return !fit.reference && &fit != &best && !is_constant(*fit.model.law);
+  };
+  Fits laws;
+  if (const ModelFit& fit = calibrate::recommended_fit(calibration); may_be_traced(fit))
+    add_once(laws, fit);
+  const auto closed_form = std::ranges::find_if(calibration.fits, [&](const ModelFit& fit) {
+    return may_be_traced(fit) && !fit.network && !fit.polynomial;
+  });
+  if (closed_form != calibration.fits.end()) add_once(laws, *closed_form);
+  return laws;
+}
+
 const ModelFit& fit_named(const calibrate::Calibration& calibration, const std::string& name,
                           const table::TableOptions& options) {
   if (name.empty())

@@ -31,24 +31,43 @@ in_order_of(const std::vector<std::string>& names,
   return sorted;
 }
 
-// Moves a traced law before the law it extends if the validation tests rank it after that law.
-// Validation tests may be few; the left-out tests of the trace, on which the effects were selected,
-// are more. Returns true if it moved the law.
-bool put_before_its_law(std::vector<ModelFit>& fits, const trace::Trace& trace) {
+// Moves a traced law before another, with its error on the left-out tests of the trace, if the
+// validation tests rank it after that law. Validation tests may be few; the left-out tests, on
+// which the effects were selected, are more. Returns true if it moved the law.
+bool put_before(const std::string& law, double error_MPa, std::vector<ModelFit>& fits,
+                const trace::Trace& trace) {
   const auto with_name = [&](const std::string& name) {
     return std::ranges::find_if(fits,
                                 [&](const ModelFit& fit) { return fit.model.name() == name; });
   };
-  const auto traced = with_name(trace.extended_model), own = with_name(trace.model);
+  const auto traced = with_name(trace.extended_model), own = with_name(law);
   if (trace.unseen == "validation" || trace.effects.empty() || traced == fits.end() || traced < own)
     return false;
   traced->remarks.push_back(
       fmt::format("stands before {} by the {} left-out tests of its trace, {:.4g} MPa there "
                   "against {:.4g}: the validation tests are {}",
-                  trace.model, trace.after.validation.n_experiments, trace.after.validation.mae_MPa,
-                  trace.before.validation.mae_MPa, traced->validation.n_experiments));
+                  law, trace.after.validation.n_experiments, trace.after.validation.mae_MPa,
+                  error_MPa, traced->validation.n_experiments));
   std::rotate(own, traced, traced + 1);
   return true;
+}
+
+// Takes the law with effects that predicts unseen tests best: a law that ranks first without
+// effects may be the wrong place for them.
+template <class TraceLaw>
+void try_simpler_laws(trace::Trace& best, const Calibration& calibration,
+                      const TraceLaw& trace_law) {
+  const std::string first = best.model;
+  const double error_MPa = best.after.validation.mae_MPa;
+  for (const ModelFit* fit : simpler_laws(calibration)) {
+    trace::Trace other = trace_law(*fit);
+    if (other.effects.empty() || other.unseen != best.unseen ||
+        !(other.after.validation.mae_MPa < best.after.validation.mae_MPa))
+      continue;
+    best = std::move(other);
+    best.chosen_over = first;
+    best.chosen_over_MPa = error_MPa;
+  }
 }
 
 std::vector<trace::Trace> traces_of(const Calibration& calibration, const JobData& data,
@@ -59,10 +78,15 @@ std::vector<trace::Trace> traces_of(const Calibration& calibration, const JobDat
                      "\"best\", or a name from the ranking");
   const Progress progress("tracing", fits.size());
   std::vector<trace::Trace> traces;
+  const auto trace_law = [&](const ModelFit& fit) {
+    return trace::trace({data.training, data.validation, fit, job.trace, job.calibration.bootstrap,
+                         job.calibration.seed, data.all()});
+  };
   for (const ModelFit* fit : fits) {
     with_rows_in_memory(data, [&] {
-      traces.push_back(trace::trace({data.training, data.validation, *fit, job.trace,
-                                     job.calibration.bootstrap, job.calibration.seed, data.all()}));
+      traces.push_back(trace_law(*fit));
+      if (job.trace.models == trace::TraceOptions{}.models && !traces.back().effects.empty())
+        try_simpler_laws(traces.back(), calibration, trace_law);
     });
     progress.tick();
   }
@@ -90,10 +114,13 @@ void add_traced_laws(Calibration& calibration, std::vector<trace::Trace>& traces
   calibrate::add_comparisons(calibration, input);
   // Laws without an effect that is proven, or ranked after their extension by the left-out tests.
   std::vector<std::string> overruled;
-  for (const trace::Trace& trace : traces)
-    if (put_before_its_law(calibration.fits, trace) ||
+  for (const trace::Trace& trace : traces) {
+    if (put_before(trace.model, trace.before.validation.mae_MPa, calibration.fits, trace) ||
         (!trace.effects.empty() && trace.improvement.interval.low > 0))
       overruled.push_back(trace.model);
+    if (!trace.chosen_over.empty())
+      put_before(trace.chosen_over, trace.chosen_over_MPa, calibration.fits, trace);
+  }
   calibrate::add_recommended(calibration, input, overruled);
 }
 

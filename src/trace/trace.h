@@ -186,6 +186,10 @@ struct BeforeAndAfter {
 struct Trace : BeforeAndAfter {
   std::string model;          // the law that was traced
   std::string extended_model; // name of the law with effects; empty: none was added
+  // The law that ranked first and was traced as well, and its error with effects of its own on the
+  // same unseen tests, which this law predicts better; empty: this one ranked first.
+  std::string chosen_over;
+  double chosen_over_MPa = 0;
   Verdict verdict = Verdict::nothing_found;
   std::vector<TracedEffect> effects;
   TraceErrors as_calibrated; // by the calibration stage; `validation` is always on those tests

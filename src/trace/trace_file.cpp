@@ -248,6 +248,8 @@ static void describe(Fields& f, Alias& one) {
 static void describe(Fields& f, Trace& t) {
   f("model", t.model);
   f.null_if_empty("extended_model", t.extended_model);
+  f.unless_default("chosen_over", t.chosen_over);
+  f.unless_default("chosen_over_MPa", t.chosen_over_MPa);
   describe_verdict(f, t.verdict);
   f.known("alpha", t.alpha);
   f("effects", t.effects);

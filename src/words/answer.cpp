@@ -32,14 +32,13 @@ bool is_calibrated(const Answers& answers) {
 // Candidates that may be as good as the law to take; empty: nothing was compared, or none is left.
 std::string others_text(const Calibration& calibration) {
   constexpr std::size_t shown = 3;
-  std::vector<std::string> possible = calibrate::possibly_best(calibration.comparisons);
+  std::vector<std::string> possible = calibration.recommended.as_good;
   const auto candidates = static_cast<std::size_t>(
       std::ranges::count_if(calibration.fits, [](const ModelFit& fit) { return !fit.reference; }));
-  if (possible.size() > 1 && possible.size() == candidates)
+  if (!possible.empty() && possible.size() + 1 == candidates)
     return candidates == 2
                ? "; these tests cannot separate the two laws"
                : fmt::format("; these tests cannot separate any of the {} laws", candidates);
-  std::erase(possible, calibration.recommended.law);
   std::erase(possible, calibration.recommended.best);
   if (possible.empty()) return "";
   return fmt::format("; {} may be as good", possible.size() > shown
@@ -74,7 +73,7 @@ std::string many_numbers(const ModelFit& fit, const Calibration& calibration) {
   std::string text =
       fmt::format("; careful, {} numbers fitted to {}", numbers, count_of(tests, "test"));
   const ModelFit* safer = nullptr;
-  for (const std::string& name : calibrate::possibly_best(calibration.comparisons))
+  for (const std::string& name : calibration.recommended.as_good)
     if (const ModelFit* one = calibrate::find_fit(calibration, name);
         one && numbers_of(*one) <= tests && (!safer || numbers_of(*one) < numbers_of(*safer)))
       safer = one;
@@ -203,6 +202,21 @@ Text valid_text(const Answers& answers) {
   return text;
 }
 
+// Effects, unless the law errs by much more than repeats scatter though no column explains it: then
+// its form is wrong, or rows that do not slide.
+std::string effects_text(const trace::Trace& trace, const Answers& answers) {
+  constexpr double more = 2;
+  if (trace.verdict != trace::Verdict::nothing_missing || !is_calibrated(answers) ||
+      answers.calibration->noise_floors.empty())
+    return trace_in_short(trace);
+  const calibrate::NoiseFloor& floor = answers.calibration->noise_floors.front();
+  const double error = calibrate::expected_error(*answers.calibration).mae_MPa;
+  if (floor.lower_bound || error <= more * floor.mae_MPa) return trace_in_short(trace);
+  return fmt::format("{}: no recorded column explains more, yet the law errs by {} MPa and repeats "
+                     "scatter by {}: look for rows that do not slide, or for another form of law",
+                     trace.model, short_figures(error, 3), short_figures(floor.mae_MPa, 3));
+}
+
 // ---- next: tests, checks, a command ----
 
 struct Next {
@@ -294,7 +308,7 @@ Section in_short(const Answers& answers) {
     add("take", "no law was calibrated");
   }
   for (const trace::Trace& trace : answers.traces)
-    add("effects", trace_in_short(trace));
+    add("effects", effects_text(trace, answers));
   if (is_calibrated(answers)) add("tested", valid_text(answers));
   if (answers.verification) add("FE files", drift_in_short(*answers.verification));
   add("next", next_text(answers));

@@ -249,13 +249,17 @@ std::string effect_in_product(const std::string& name, const char* verb) {
                                        name.substr(at + times.size()));
 }
 
-// The first lead that tests can settle; empty: none, or it is among those not confirmed.
+// The first lead that tests can settle, or that is hardly chance; empty: none, or it is among those
+// not confirmed.
 std::string suspect(const Trace& t) {
-  const auto lead = std::ranges::find_if(
-      t.leads, [](const Lead& one) { return !one.significant && !one.design.tests.empty(); });
+  constexpr double hardly_chance = 0.05;
+  const auto lead = std::ranges::find_if(t.leads, [](const Lead& one) {
+    return !one.significant && (!one.design.tests.empty() || one.p_value < hardly_chance);
+  });
   if (lead == t.leads.end()) return "";
   const std::string product = effect_in_product(lead_name(*lead), "changes with");
-  return "suspected, not proven: " + (product.empty() ? lead_name(*lead) : product);
+  return fmt::format("suspected, not proven: {} ({})", product.empty() ? lead_name(*lead) : product,
+                     p_clause(lead->p_value));
 }
 
 // Findings that are not confirmed, or that nothing was found; with the remaining structure.
@@ -428,7 +432,8 @@ std::string question_of(const trace::Design& d) {
 }
 
 std::string design_in_short(const trace::Design& d) {
-  std::string chance = fmt::format("{:.0f} % chance of a clear answer", 100 * d.probability);
+  std::string chance = fmt::format(
+      "{:.0f} % chance of a clear answer, if it is as large as it looks", 100 * d.probability);
   if (d.tests_needed > static_cast<double>(d.tests.size()))
     chance += fmt::format("; about {:.0f} such tests give 80 %", d.tests_needed);
   return fmt::format("run {}, otherwise like {}, {} ({})", tests_in_short(d), d.like,
@@ -461,7 +466,11 @@ std::string trace_in_short(const Trace& t) {
   const std::string named =
       causes.size() > shown ? count_of(causes.size(), "effect") : join(causes, ", ");
   const std::string open = suspect(t);
-  return fmt::format("{} added to {}: {}; {}{}", named, t.model, gained_in_short(t),
+  const std::string first = t.chosen_over.empty()
+                                ? ""
+                                : fmt::format(" ({} with effects of its own: {})", t.chosen_over,
+                                              digits(t.chosen_over_MPa));
+  return fmt::format("{} added to {}: {}{}; {}{}", named, t.model, gained_in_short(t), first,
                      t.order.found           ? trace::order_text(t.order)
                      : t.remaining.structure ? "structure is left"
                      : open.empty()          ? "no other effect found"

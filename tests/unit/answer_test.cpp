@@ -23,19 +23,16 @@ struct Box {
   Box() {
     calibrate::Calibration& c = sample.calibration;
     c.recommended.law = name(0);
-    for (const calibrate::ModelFit& fit : c.fits) {
-      c.comparisons.laws.push_back(fit.model.law->name);
-      c.comparisons.best_p_values.push_back(0.001);
-    }
-    c.comparisons.best_p_values[0] = 1;
     c.mean_stress_MPa = 100;
   }
 
   calibrate::ModelFit& fit(std::size_t i) { return sample.calibration.fits[i]; }
   const std::string& name(std::size_t i) { return fit(i).model.law->name; }
   void may_be_best(std::size_t laws) {
+    calibrate::Recommended& recommended = sample.calibration.recommended;
+    recommended.as_good.clear();
     for (std::size_t i = 0; i < laws; ++i)
-      sample.calibration.comparisons.best_p_values[i] = 0.5;
+      if (name(i) != recommended.law) recommended.as_good.push_back(name(i));
   }
   std::string text() {
     return words::as_text(words::in_short(
@@ -123,11 +120,13 @@ TEST(FirstBox, PutsTestsThatWouldProbablySettleNothingLast) {
                         "whether a better law is worth seeking; (2) run 2 tests with oil = A, "
                         "otherwise like E3, to "
                         "see whether the effect of oil depends on psi (38 % chance of a clear "
-                        "answer; about 15 such tests give 80 %)"));
+                        "answer, if it is as large as it looks; about 15 such tests give 80 %)"));
   t.leads[0].design = design_of("oil", 0.9, 2);
-  EXPECT_THAT(box.text(), HasSubstr("next: (1) run 2 tests with oil = A, otherwise like E3, to see "
-                                    "whether oil has an effect (90 % chance of a clear answer); "
-                                    "(2) repeat any"));
+  EXPECT_THAT(box.text(),
+              HasSubstr("next: (1) run 2 tests with oil = A, otherwise like E3, to see "
+                        "whether oil has an effect (90 % chance of a clear answer, if it is "
+                        "as large as it looks); "
+                        "(2) repeat any"));
 }
 
 TEST(FirstBox, NamesAnEffectWhoseGainIsNotCertain) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "data/name_words.h"
 #include "data/quantity.h"
 #include "data/recordings.h"
 #include "data/roles.h"
@@ -73,6 +74,12 @@ Range range_of(const std::vector<double>& values) {
   return {*low, *high};
 }
 
+bool names_batches(const std::string& column) {
+  return data::has_word(data::words_of_name(column),
+                        {"batch", "lot", "charge", "heat", "coil", "melt", "schmelze", "delivery",
+                         "lieferung", "bottle", "drum", "fass", "gebinde"});
+}
+
 class CandidateTestBuilder {
 public:
   CandidateTestBuilder(const Dataset& data, std::vector<Setting> settings) : data_(data) {
@@ -80,6 +87,7 @@ public:
     if (built_.settings.size() > tuning::most_varied_settings)
       built_.settings.resize(tuning::most_varied_settings);
     choose_template();
+    find_nested_texts();
   }
 
   CandidateTests run() {
@@ -135,7 +143,7 @@ private:
       rows[column.name] = of_template(column);
     for (std::size_t s = 0; s < at.size(); ++s)
       set(rows, built_.settings[s].column, built_.settings[s].values[at[s]]);
-    if (!is_reachable(rows)) return;
+    if (!is_reachable(rows) || !follow_nesting(rows)) return;
     for (Column& column : built_.data.columns) {
       const std::vector<double>& values = rows.at(column.name);
       column.values.insert(column.values.end(), values.begin(), values.end());
@@ -172,6 +180,46 @@ private:
         t /= factor;
   }
 
+  // Batches, each of which belongs to one level of another text: to a supplier. Other texts that
+  // are nested so may be so by chance, and could be run otherwise.
+  struct Nested {
+    std::string inner, outer;
+    std::map<double, double> outer_of; // by level of inner
+  };
+
+  void find_nested_texts() {
+    for (const Column& inner : data_.columns)
+      for (const Column& outer : data_.columns) {
+        if (outer.levels.size() < 2 || inner.levels.size() <= outer.levels.size() ||
+            !names_batches(inner.name))
+          continue;
+        Nested nested{inner.name, outer.name, {}};
+        const bool belongs = std::ranges::all_of(
+            data_.first_row.begin(), data_.first_row.end() - 1, [&](std::size_t row) {
+              const double level = outer.values[row];
+              return nested.outer_of.emplace(inner.values[row], level).first->second == level;
+            });
+        if (belongs && 2 * nested.outer_of.size() <= data_.experiments.size())
+          nested_.push_back(std::move(nested));
+      }
+  }
+
+  // Gives a batch its supplier; false for tests of a batch with another one.
+  bool follow_nesting(Rows& rows) const {
+    const auto is_set = [&](const std::string& name) {
+      return contains(built_.settings, name, &Setting::column);
+    };
+    for (const Nested& nested : nested_) {
+      if (!is_set(nested.inner) && !is_set(nested.outer)) continue;
+      const auto outer = nested.outer_of.find(rows.at(nested.inner).front());
+      if (outer == nested.outer_of.end()) return false;
+      if (rows.at(nested.outer).front() == outer->second) continue;
+      if (is_set(nested.outer)) return false;
+      std::ranges::fill(rows.at(nested.outer), outer->second);
+    }
+    return true;
+  }
+
   static void shift(std::vector<double>& values, double by) {
     for (double& v : values)
       v += by;
@@ -190,6 +238,7 @@ private:
   const Dataset& data_;
   CandidateTests built_;
   std::size_t begin_ = 0, rows_ = 0;
+  std::vector<Nested> nested_;
 };
 
 // Whether the column is an order of tests (a date, 1, 2, 3, ...), which nobody sets.

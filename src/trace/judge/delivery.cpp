@@ -281,10 +281,12 @@ private:
     return *reading;
   }
 
-  // Returns the first finding without which unseen tests are predicted as well.
+  // Returns the first finding without which unseen tests are predicted hardly worse.
   std::optional<std::size_t> gains_nothing() const {
     for (std::size_t i = 0; i < d_.findings.size(); ++i)
-      if (d_.gain_MPa[i] <= 0 && !is_parent(d_.findings[i])) return d_.findings[i];
+      if (d_.gain_MPa[i] <= tuning::least_gain_share * d_.before.validation.mae_MPa &&
+          !is_parent(d_.findings[i]))
+        return d_.findings[i];
     return std::nullopt;
   }
 
