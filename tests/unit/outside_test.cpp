@@ -1,6 +1,7 @@
 // The sides of a table's axes: as the job asks, in the file, and as rows outside are counted.
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
