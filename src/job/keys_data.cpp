@@ -137,7 +137,7 @@ std::vector<KeyRule> file_keys() {
       key<std::string>(
           "data.tests", [](Job & job) -> auto& { return job.data.tests; },
           "a file with one row per experiment (humidity, batch, tool) and a column experiment: its "
-          "columns are joined by name",
+          "columns are joined by name, also that of a file",
           "none", "\"tests.csv\""),
       key<std::string>(
           "data.tests_sheet", [](Job & job) -> auto& { return job.data.tests_sheet; },
@@ -359,7 +359,8 @@ std::vector<KeyRule> match_key() {
       "data.files.*.match",
       [](Job & job, const std::string& name) -> auto& { return file_rule(job, name).match; },
       "which files, with * for any letters: by the file's name, or by the whole name where "
-      "this one holds a /; the first rule that matches a file counts",
+      "this one holds a /; the first rule that matches a file counts; the own name of data.tests: "
+      "its dialect",
       "an error", "\"pin_*.csv\"")};
 }
 
