@@ -129,6 +129,12 @@ std::vector<CutName> with_dates(std::vector<CutName> names) {
   return alike ? joined : names;
 }
 
+bool is_alone_a_date(const std::string& text) {
+  CutName name = cut(text + ".x"); // a point in it begins no extension
+  join_date(name);
+  return name.date == 0 && name.tokens.size() == 1;
+}
+
 // The form of a date: its runs of digits, and the signs between them.
 std::string pattern_of_date(const std::string& date) {
   std::string out;
@@ -209,9 +215,13 @@ private:
   std::set<std::string> values_, numbers_, units_;
 };
 
-bool names_test(const NamePattern& guess) {
+bool has_group(const NamePattern& guess, const char* group) {
   return std::any_of(guess.parts.begin(), guess.parts.end(),
-                     [](const NamePart& part) { return part.group == "experiment"; });
+                     [&](const NamePart& part) { return part.group == group; });
+}
+
+bool names_test(const NamePattern& guess) {
+  return has_group(guess, "experiment");
 }
 
 // Pattern for one position of the files' own names, the `number`th from 1.
@@ -266,7 +276,8 @@ std::string guess_parts(const std::vector<CutName>& names, NamePattern& guess) {
     if (place.has_empty() && place.differs()) return "";
     if (t > 0) pattern += as_pattern(first.signs.substr(t - 1, 1));
     if (t == first.date && place.differs()) {
-      pattern += place.group("date", pattern_of_date(first.tokens[t]), found);
+      const std::string form = pattern_of_date(first.tokens[t]);
+      pattern += has_group(guess, "date") ? form : place.group("date", form, found);
       continue;
     }
     pattern += part_of_name(place, t + 1, t + 1 == first.tokens.size(), names.size(), found);
@@ -298,7 +309,10 @@ std::string guess_folders(const std::vector<std::string>& files, NamePattern& gu
       texts.push_back(folder[level]);
     const NamePlace place(texts);
     const std::string number = guess.parts.empty() ? "" : std::to_string(guess.parts.size() + 1);
-    if (place.differs())
+    const bool dates = std::all_of(texts.begin(), texts.end(), is_alone_a_date);
+    if (place.differs() && dates && !has_group(guess, "date"))
+      pattern += place.group("date", pattern_of_date(texts.front()), guess) + "/";
+    else if (place.differs())
       pattern += place.group("folder" + number, "[^/]+", guess) + "/";
     else if (!pattern.empty())
       pattern += place.same() + "/";

@@ -210,21 +210,40 @@ std::set<std::string> above_that_differ(const guess::Campaign& campaign) {
   return out;
 }
 
-// The pattern of names without the name of the test, where a table of tests has those of the files.
-guess::NamePattern without_tests(guess::NamePattern names, const guess::Campaign& campaign) {
+// Takes a group out of the pattern of names.
+void forget_group(guess::NamePattern& names, const std::string& group) {
+  names.pattern = replace_all(names.pattern, "(?<" + group + ">", "(?:");
+  std::erase_if(names.parts, [&](const guess::NamePart& part) { return part.group == group; });
+  if (names.parts.empty()) names = {};
+}
+
+// True if the table of tests has the names of most files.
+bool lists_files(const guess::Campaign& campaign) {
   const guess::Column* const listed = campaign.tests ? campaign.tests->find("experiment") : nullptr;
+  if (!listed) return false;
   std::set<std::string> keys;
-  for (const std::string& name : listed ? listed->names : std::vector<std::string>())
+  for (const std::string& name : listed->names)
     keys.insert(data::test_key(name));
   const auto found =
       std::count_if(campaign.files.begin(), campaign.files.end(), [&](const guess::File& file) {
         return keys.count(data::test_key(file.label())) > 0;
       });
-  if (2 * static_cast<std::size_t>(found) < campaign.files.size() || found == 0) return names;
-  names.pattern = replace_all(names.pattern, "(?<experiment>", "(?:");
-  std::erase_if(names.parts,
-                [](const guess::NamePart& part) { return part.group == "experiment"; });
-  return names.parts.empty() ? guess::NamePattern() : names;
+  return found > 0 && 2 * static_cast<std::size_t>(found) >= campaign.files.size();
+}
+
+// The pattern of names without groups that would hide or repeat what the files have: the name of
+// the test where a table lists the files, and names of columns.
+guess::NamePattern without_known(guess::NamePattern names, const guess::Campaign& campaign) {
+  if (lists_files(campaign)) forget_group(names, "experiment");
+  std::vector<guess::File> all = campaign.files;
+  if (campaign.tests) all.push_back(*campaign.tests);
+  for (const guess::File& file : all)
+    for (const guess::Column& column : file.columns)
+      if (!column.above && column.name != "experiment" &&
+          std::any_of(names.parts.begin(), names.parts.end(),
+                      [&](const guess::NamePart& part) { return part.group == column.name; }))
+        forget_group(names, column.name);
+  return names;
 }
 
 class Writer {
@@ -232,7 +251,7 @@ public:
   Writer(const guess::Campaign& campaign, const guess::NamePattern& names,
          const std::vector<std::string>& training)
       : campaign_(campaign), files_(campaign.files), points_(campaign), most_(points_.file()),
-        names_(without_tests(names, campaign)), training_(training),
+        names_(without_known(names, campaign)), training_(training),
         above_(above_that_differ(campaign)),
         decimal_(campaign.tests && needs_decimal(*campaign.tests) ? campaign.tests->decimal
                                                                   : most_.decimal) {}

@@ -38,6 +38,12 @@ TEST(FileNames, DateIsOneGroupWithTheTimeOfDayAfterIt) {
   EXPECT_EQ(group_of(points, "date", "20N 1.4.2026.csv"), "1.4.2026");
 }
 
+TEST(FileNames, FolderMayBeADate) {
+  const auto names = guess_names({"10.03.2026/10N.csv", "10.03.2026/20N.csv", "9.4.2026/10N.csv"});
+  EXPECT_EQ(groups(names), (Groups{"date", "x1_N"}));
+  EXPECT_EQ(group_of(names, "date", "rig/9.4.2026/10N.csv"), "9.4.2026");
+}
+
 TEST(FileNames, NumberOfEightDigitsOutsideTheCalendarIsNoDate) {
   EXPECT_EQ(groups(guess_names({"oil_12345678.csv", "oil_22345678.csv"})), (Groups{"name2"}));
   EXPECT_EQ(groups(guess_names({"oil_20261345.csv", "oil_20261346.csv"})), (Groups{"name2"}));

@@ -135,6 +135,20 @@ TEST_F(ProposedFormulas, SurfaceEnlargementBelowAHundredPercentIsAnIncrease) {
                            HasSubstr("\n# psi = { formula = \"1 + Surface_enlargement/100\" }")));
 }
 
+TEST_F(ProposedFormulas, GroupsOfNamesDoNotRepeatColumnsOfThePlan) {
+  for (const char* const name : {"B7_20260302.csv", "B8_20260303.csv", "B9_20260304.csv"})
+    write(name, "Time (s),COF,Pressure (MPa)\n0,0.1,5\n1,0.1,5\n2,0.1,5\n");
+  write("plan.csv", "File,date,Oil age [h]\nB7_20260302.csv,2.3.2026,2\n"
+                    "B8_20260303.csv,3.3.2026,10\nB9_20260304.csv,4.3.2026,18\n");
+  EXPECT_THAT(job(), AllOf(HasSubstr("\ntests = \"plan.csv\""), Not(HasSubstr("from_name"))));
+}
+
+TEST_F(ProposedFormulas, PlanOfFewTestsAboveALegendIsFound) {
+  write_tests("", "COF,Pressure (MPa)", "0.1,5");
+  write("plan.csv", "Test,Oil,Age (h)\na1,A,2\na2,B,10\na3,B,18\n\nLegend\nA,mineral\nB,rape\n");
+  EXPECT_THAT(job(), HasSubstr("\ntests = \"plan.csv\""));
+}
+
 TEST_F(ProposedFormulas, TableOfTestsIsFoundByTheNamesOfFiles) {
   write_tests("", "COF,Pressure (MPa)", "0.1,5");
   write("list.csv",
