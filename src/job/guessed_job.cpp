@@ -132,6 +132,21 @@ bool says_itself(const guess::Column& column) {
   return column.name == column.canonical && column.number == 0;
 }
 
+// Quantities that are computed.
+std::string formula_lines(const guess::File& file) {
+  std::string out;
+  if (!file.pressure.empty())
+    out += line(fmt::format("sigma_n_MPa = {{ formula = {} }}", toml_quoted(file.pressure)),
+                "the force over the area of contact, where the model is in N and mm");
+  for (const auto& [canonical_name, formula] :
+       {std::pair("F_R_N", &file.friction), std::pair("v_rel_mm_s", &file.speed)})
+    if (!formula->empty())
+      out +=
+          line(fmt::format("{} = {{ formula = {} }}", canonical_name, toml_quoted(formula->text)),
+               shown(formula->comment));
+  return out;
+}
+
 // `taken`: names of lines above the rows; `tests`: the table of tests, whose column of their names
 // has its own name.
 std::string columns_lines(const guess::File& file, const std::set<std::string>& taken,
@@ -161,15 +176,7 @@ std::string columns_lines(const guess::File& file, const std::set<std::string>& 
       canonical.push_back(column.name);
     else
       out += column_line(column, file);
-  if (!file.pressure.empty())
-    out += line(fmt::format("sigma_n_MPa = {{ formula = {} }}", toml_quoted(file.pressure)),
-                "the force over the area of contact, where the model is in N and mm");
-  for (const auto& [canonical_name, formula] :
-       {std::pair("F_R_N", &file.friction), std::pair("v_rel_mm_s", &file.speed)})
-    if (!formula->empty())
-      out +=
-          line(fmt::format("{} = {{ formula = {} }}", canonical_name, toml_quoted(formula->text)),
-               shown(formula->comment));
+  out += formula_lines(file);
   if (!canonical.empty()) out += "# known by their names: " + join(canonical, ", ") + "\n";
   if (!others.empty())
     out +=
