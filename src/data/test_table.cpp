@@ -207,7 +207,7 @@ void add_test_columns(Part& part, const TestTable& table) {
       continue;
     }
     (filed_as(data, e) == name ? by_number : by_file) = true;
-    by_number = by_number || *found != filed_as(data, e);
+    by_number = by_number || test_key(*found) != test_key(filed_as(data, e));
   }
   for (const auto& [name, at] : table.row)
     known.push_back(name);
