@@ -84,7 +84,7 @@ std::size_t rule_of(const std::string& file, const DataOptions& options) {
   return i;
 }
 
-void apply(const FileRule& rule, DataOptions& options) {
+void apply_dialect(const FileRule& rule, DataOptions& options) {
   if (rule.delimiter) options.delimiter = *rule.delimiter;
   if (rule.decimal) options.decimal = *rule.decimal;
   if (rule.thousands) options.thousands = *rule.thousands;
@@ -93,6 +93,10 @@ void apply(const FileRule& rule, DataOptions& options) {
   if (rule.units_row) options.units_row = *rule.units_row;
   if (rule.header) options.header = rule.header;
   if (rule.header_rows) options.header_rows = *rule.header_rows;
+}
+
+void apply(const FileRule& rule, DataOptions& options) {
+  apply_dialect(rule, options);
   if (!rule.segments.begins.empty()) options.segments = rule.segments;
   if (!rule.sheets.empty()) options.sheets = rule.sheets;
   for (const auto& [name, source] : rule.columns) {
@@ -105,6 +109,14 @@ void apply(const FileRule& rule, DataOptions& options) {
   }
   options.labels.insert(rule.labels.begin(), rule.labels.end());
   if (!rule.experiment.empty()) options.experiment = rule.experiment;
+}
+
+// The rule of the table of tests; nullptr if there is none.
+const FileRule* rule_of_tests(const DataOptions& options) {
+  const std::string name = fs::path(options.tests).filename().string();
+  for (const FileRule& rule : options.files)
+    if (!options.tests.empty() && (rule.match == options.tests || rule.match == name)) return &rule;
+  return nullptr;
 }
 
 // ---- contents of names ----
@@ -182,9 +194,11 @@ private:
     const bool dash = quantity || dash_is_decimal(levels);
     if (quantity) check(*quantity);
     double value = 0;
-    const bool numbers = std::all_of(levels.begin(), levels.end(), [&](const std::string& text) {
-      return is_number(text, dash, value);
-    });
+    // days that tests share order them as a text only
+    const bool numbers =
+        name != "date" && std::all_of(levels.begin(), levels.end(), [&](const std::string& text) {
+          return is_number(text, dash, value);
+        });
     for (std::size_t i = 0; i < files_.size(); ++i) {
       const std::string& text = groups_[i].at(name);
       DataOptions& options = files_[i]->options;
@@ -362,9 +376,20 @@ std::vector<std::string> names_of(const FilePlans& plans) {
   return names;
 }
 
+void take_dialect_of_tests(DataOptions& options) {
+  const FileRule* const rule = rule_of_tests(options);
+  if (!rule) return;
+  for (const auto* list : {&options.training, &options.validation}) {
+    const std::vector<std::string> files = find_files(*list, options.base, options.place);
+    if (std::find(files.begin(), files.end(), options.tests) != files.end()) return;
+  }
+  apply_dialect(*rule, options);
+}
+
 void check_rules(const std::vector<std::string>& files, const DataOptions& options) {
   FaultList faults;
   for (std::size_t r = 0; r < options.files.size(); ++r) {
+    if (&options.files[r] == rule_of_tests(options)) continue;
     const auto is_its = [&](const std::string& file) { return rule_of(file, options) == r; };
     if (std::any_of(files.begin(), files.end(), is_its)) continue;
     const auto would = [&](const std::string& file) { return fits(options.files[r], file); };

@@ -40,7 +40,12 @@ FilePlans plan_files(const std::vector<std::string>& files, const Reading& optio
 
 std::vector<std::string> names_of(const FilePlans& plans);
 
-// Throws InputError for a rule that is not the first match of any file.
+// Applies the dialect of the rule that matches the table of tests by its own name, without signs of
+// a pattern, unless the file is among the data files too.
+void take_dialect_of_tests(DataOptions& options);
+
+// Throws InputError for a rule that is not the first match of any file, nor that of the table of
+// tests.
 void check_rules(const std::vector<std::string>& files, const DataOptions& options);
 
 } // namespace frictab::data

@@ -103,6 +103,7 @@ struct DataOptions {
   std::size_t skip_rows = 0;   // preamble lines before the header
   std::size_t skip_footer = 0; // lines after the data
   bool units_row = false;      // a line of units below the header
+  bool list = false;           // a row per test: texts between and below its rows are remarks
   // false: no line of names; absent: there is one, unless it would be numbers and the job takes
   // columns by number alone
   std::optional<bool> header;

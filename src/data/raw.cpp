@@ -83,6 +83,7 @@ io::CsvFormat csv_format(const std::string& path, const DataOptions& options) {
   format.skip_rows = options.skip_rows;
   format.skip_footer = options.skip_footer;
   format.units_row = options.units_row;
+  format.list = options.list;
   format.header = options.header.value_or(true);
   format.may_lack_header = !options.header && takes_by_number_alone(options);
   format.header_rows = options.header_rows;

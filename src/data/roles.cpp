@@ -61,8 +61,10 @@ constexpr NameRule name_rules[] = {
      "(id|no|nr|number|nummer|name|index)$|^lfd_?nr$|"
      "^(test|specimen|sample|probe|versuch|exp(eriment)?|(mess)?p(oin|unk)t)$",
      When::per_test, Role::test},
-    {"^(rep|repeat|repetition|replicate|wiederholung|wdh)_?(id|no|nr|number)?$", When::per_test,
-     Role::ignore},
+    {"^(rep|repeat|repetition|replicate|wiederholung|wdh)_?(id|no|nr|number|nummer)?$|"
+     "^(screw|schraube|bolt|pin|stift|ball|kugel|strip|streifen|coupon|platine|ronde)n?_?"
+     "(id|no|nr|number|nummer)$",
+     When::per_test, Role::ignore},
     {"remark|comment|bemerkung|kommentar|^notes?$", When::any, Role::ignore},
     {"wear|worn|mass_?loss|weight_?loss|debris|scar|acoustic|vibration|"
      "contact_?(potential|resistance|voltage)",

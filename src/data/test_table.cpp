@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/file_list.h"
+#include "data/list_of_tests.h"
 #include "data/name_words.h"
 #include "data/quantity.h"
 #include "data/workbooks.h"
@@ -73,8 +75,29 @@ bool is_same_test(const std::string& a, const std::string& b) {
   return one.empty() || other.empty() || one.starts_with(other) || other.starts_with(one);
 }
 
+std::string test_key(const std::string& name) {
+  std::string stem = name.substr(name.find_last_of("/\\") + 1);
+  constexpr std::size_t most = 6; // of an extension with its point
+  const std::size_t point = stem.find_last_of('.');
+  if (point != stem.npos && point > 0 && stem.size() - point <= most &&
+      std::all_of(stem.begin() + static_cast<long>(point) + 1, stem.end(),
+                  [](unsigned char c) { return std::isalnum(c) != 0; }) &&
+      point + 1 < stem.size() && std::isalpha(static_cast<unsigned char>(stem[point + 1])))
+    stem.resize(point);
+  std::string key;
+  for (const char c : lower_case(stem)) {
+    const bool is_zero_in_front =
+        !key.empty() && key.back() == '0' && std::isdigit(static_cast<unsigned char>(c)) &&
+        (key.size() < 2 || !std::isdigit(static_cast<unsigned char>(key[key.size() - 2])));
+    if (is_zero_in_front) key.pop_back();
+    key += c;
+  }
+  return key;
+}
+
 const std::string* TestTable::name_of(const std::string& experiment) const {
   if (const auto own = row.find(experiment); own != row.end()) return &own->first;
+  if (const auto own = by_key.find(test_key(experiment)); own != by_key.end()) return &own->second;
   const auto other = numbered.find(first_number(experiment));
   return other != numbered.end() && is_same_test(experiment, other->second) ? &other->second
                                                                             : nullptr;
@@ -109,20 +132,46 @@ void check_numbered(const TestTable& table, const Dataset& data) {
   }
 }
 
-TestTable read_test_table(DataOptions& options) {
-  TestTable table;
-  table.file = options.tests;
-  FaultList faults;
+namespace {
+
+// The table as the file has it.
+io::CsvTable read_cells(const DataOptions& options, FaultList& faults) {
   const auto path = std::filesystem::path(options.base) / options.tests;
   DataOptions dialect = options;
   dialect.skip_rows = dialect.skip_footer = 0;
   dialect.units_row = false;
+  dialect.list = true;
+  take_dialect_of_tests(dialect);
   std::string named = options.tests;
   if (io::looks_like_workbook(path)) {
     dialect.sheets = {sheet_of_tests(path.string(), options.tests, options)};
     named += "/" + dialect.sheets.front();
   }
-  io::CsvTable raw = read_raw(path.string(), named, dialect, faults);
+  return read_raw(path.string(), named, dialect, faults);
+}
+
+// Keeps the name of each test in `by_key` and `numbered` where no other test shares it.
+void index_names(TestTable& table) {
+  std::map<long, std::size_t> names_with;
+  std::map<std::string, std::size_t> names_of;
+  for (const auto& [name, at] : table.row) {
+    ++names_with[first_number(name)];
+    ++names_of[test_key(name)];
+  }
+  for (const auto& [name, at] : table.row) {
+    if (const long number = first_number(name); number >= 0 && names_with[number] == 1)
+      table.numbered.emplace(number, name);
+    if (const std::string key = test_key(name); names_of[key] == 1) table.by_key.emplace(key, name);
+  }
+}
+
+} // namespace
+
+TestTable read_test_table(DataOptions& options) {
+  TestTable table;
+  table.file = options.tests;
+  FaultList faults;
+  io::CsvTable raw = list_of_tests(read_cells(options, faults));
   table.header_line = raw.header_line;
   table.columns = map_columns(raw, ReadRequest(take_over(options, raw)), "", faults);
   FaultsByCause causes;
@@ -138,12 +187,7 @@ TestTable read_test_table(DataOptions& options) {
       faults.add(row_place(raw, i), fmt::format("test '{}' stands here again", found->first),
                  fmt::format("it stands in line {} already", raw.line[found->second]));
   faults.throw_if_any();
-  std::map<long, std::size_t> names_with;
-  for (const auto& [name, at] : table.row)
-    ++names_with[first_number(name)];
-  for (const auto& [name, at] : table.row)
-    if (const long number = first_number(name); number >= 0 && names_with[number] == 1)
-      table.numbered.emplace(number, name);
+  index_names(table);
   return table;
 }
 
@@ -151,15 +195,19 @@ void add_test_columns(Part& part, const TestTable& table) {
   const Dataset& data = part.data;
   std::vector<std::size_t> row; // row of the table for each experiment
   std::vector<std::string> missing, known;
-  bool by_number = false, by_file = false;
+  bool by_key = false, by_number = false, by_file = false;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const std::string& name = data.experiments[e];
     const std::string* const found = table.name_of(data, e);
     row.push_back(found ? table.row.at(*found) : 0);
     if (!found) missing.push_back(name);
     if (!found || *found == name) continue;
+    if (test_key(*found) == test_key(name)) {
+      by_key = true;
+      continue;
+    }
     (filed_as(data, e) == name ? by_number : by_file) = true;
-    by_number = by_number || *found != filed_as(data, e);
+    by_number = by_number || test_key(*found) != test_key(filed_as(data, e));
   }
   for (const auto& [name, at] : table.row)
     known.push_back(name);
@@ -168,6 +216,8 @@ void add_test_columns(Part& part, const TestTable& table) {
                     fmt::format("test '{}' of {} is not in this table", name, part.raw.file),
                     "add a row for it (a cell may be empty); " + suggest(name, known));
   if (!missing.empty()) return;
+  if (by_key)
+    part.data.notes.push_back(table.file + ": tests are found by the names of their files");
   if (by_number)
     part.data.notes.push_back(table.file + ": tests are found by the numbers in their names");
   if (by_file)

@@ -14,23 +14,28 @@ namespace frictab::data {
 struct TestTable {
   std::string file;
   MappedFile columns;
-  std::map<std::string, std::size_t> row; // by experiment
-  std::map<long, std::string> numbered;   // by first_number of these; empty if two are equal
+  std::map<std::string, std::size_t> row;    // by experiment
+  std::map<std::string, std::string> by_key; // by test_key of these, without those that share one
+  std::map<long, std::string> numbered;      // by first_number of these; empty if two are equal
 
-  // The table's name of an experiment: its own, or the only one with the same number if
-  // is_same_test(); nullptr if there is none.
+  // The table's name of an experiment: its own, the one with the same test_key(), or the only one
+  // with the same number if is_same_test(); nullptr if there is none.
   const std::string* name_of(const std::string& experiment) const;
   // The same for a test of a dataset; an interval may have the row of its file.
   const std::string* name_of(const Dataset& data, std::size_t test) const;
   std::size_t header_line = 0;
 };
 
-// Reads data.tests in the dialect of [data]: experiment, quantities (with their units) and other
-// columns. Quantities that [data.columns] maps to a column of this table are removed from
-// `options`: the data files need not have them. Throws InputError for faults and for a test that
-// occurs twice.
+// Reads data.tests in the dialect of [data], or that of a rule for this file: experiment,
+// quantities (with their units) and other columns. A line of units below the names is taken as
+// such; legends below the table are passed over. Quantities that [data.columns] maps to a column of
+// this table are removed from `options`: the data files need not have them. Throws InputError for
+// faults and for a test that occurs twice.
 TestTable read_test_table(DataOptions& options);
 
+// A name without folders, extension, capitals and zeros in front of its numbers: "bor_7" for
+// "BoR/bor_007.csv".
+std::string test_key(const std::string& name);
 // The first whole number in a name: 1 in "Versuch_001_C45"; -1 if there is none.
 long first_number(const std::string& name);
 // True if two names have one first number, and their other words may be the same: "V01" and

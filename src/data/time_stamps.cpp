@@ -60,9 +60,9 @@ int month_of(const std::string& name) {
 
 std::optional<Stamp> read_stamp(const std::string& text) {
   static const Pattern pattern(
-      R"(^\s*(?<a>\d{1,4})(?<between>[-./ ])(?<b>\d{1,2}|[^\s\d./:-]{3,10}))"
-      R"(\g{between}(?<c>\d{1,4})(?:[ T]+(?<hour>\d{1,2}):(?<minute>\d{2}))"
-      R"((?::(?<second>\d{2}(?:[.,]\d+)?))?(?:\s*(?<half>[AaPp])[Mm])?)"
+      R"(^\s*(?<a>\d{1,4})(?<between>[-./_ ])(?<b>\d{1,2}|[^\s\d./:-]{3,10}))"
+      R"(\g{between}(?<c>\d{1,4})(?:[ T_]+(?<hour>\d{1,2})[:-]?(?<minute>\d{2}))"
+      R"((?:[:-]?(?<second>\d{2}(?:[.,]\d+)?))?(?:\s*(?<half>[AaPp])[Mm])?)"
       R"((?:Z|(?<sign>[-+])(?<zone_hour>\d{2}):?(?<zone_minute>\d{2}))?)?)"
       R"(\s*$)",
       {});

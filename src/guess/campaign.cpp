@@ -46,11 +46,13 @@ std::vector<std::string> tests_of(const File& file) {
 // Whether at least half of the tests of the other guesses are among the names.
 bool names_tests(const std::vector<std::string>& names, std::size_t own,
                  const std::vector<File>& files) {
-  const std::set<std::string> known(names.begin(), names.end());
+  std::set<std::string> known;
+  for (const std::string& name : names)
+    known.insert(data::test_key(name));
   std::size_t found = 0, all = 0;
   for (std::size_t i = 0; i < files.size(); ++i)
     for (const std::string& test : i == own ? std::vector<std::string>() : tests_of(files[i])) {
-      found += known.count(test);
+      found += known.count(data::test_key(test));
       ++all;
     }
   // only the first tests of one file of all tests are seen, perhaps one

@@ -46,13 +46,16 @@ const std::vector<Names>& known_names() {
        false,
        {"f n", "fn", "fz", "load", "last", "fnormal", "carico", "carga", "Нагрузка", "载荷", "荷重",
         "하중"},
-       {"normal force",  "normalkraft",       "normal load",       "prüfkraft",
-        "ball load",     "axial load",        "vertical force",    "clamping force",
-        "sled weight",   "dead weight",       "schlittengewicht",  "auflagekraft",
-        "axial force",   "axialkraft",        "vertikalkraft",     "anpresskraft",
-        "normallast",    "niederhalterkraft", "blankholder force", "effort normal",
-        "force normale", "forza normale",     "fuerza normal",     "siła normalna",
-        "síla",          "normaalkracht",     "normal kuvvet"},
+       {"normal force",      "normalkraft",      "normal load",
+        "prüfkraft",         "ball load",        "axial load",
+        "vertical force",    "clamping force",   "sled weight",
+        "dead weight",       "schlittengewicht", "auflagekraft",
+        "axial force",       "axialkraft",       "vertikalkraft",
+        "anpresskraft",      "normallast",       "niederhalterkraft",
+        "blankholder force", "effort normal",    "force normale",
+        "forza normale",     "fuerza normal",    "siła normalna",
+        "vorspannkraft",     "clamp force",      "síla",
+        "normaalkracht",     "normal kuvvet"},
        {}},
       {"F_R_N",
        false,
@@ -251,11 +254,12 @@ int likeness(const Names& names, const Column& column) {
   if (column.name == names.canonical && !names.coefficient) return 4;
   const data::Quantity* quantity = data::find_quantity(names.canonical);
   const std::string wanted = names.coefficient || !quantity ? "1" : quantity->unit;
-  if (quantity && !column.unit.empty() && !convert(column.unit, wanted)) return 0;
+  const bool is_weight = std::string_view(names.canonical) == "F_N_N" && is_in_mass(column);
+  if (quantity && !column.unit.empty() && !convert(column.unit, wanted) && !is_weight) return 0;
   const bool is_clock = column.clock && std::string(names.canonical) == "time_s";
   if (quantity && column.text && !is_clock) return 0;
   const std::string bare = without_channel(io::read_header_name(column.name).name),
-                    unit = quantity ? data::unit_in_name(bare, wanted) : "",
+                    unit = quantity ? data::unit_in_name(bare, is_weight ? "kg" : wanted) : "",
                     name = data::words_of_name(bare),
                     without_unit = data::words_of_name(bare.substr(0, bare.size() - unit.size()));
   const std::string_view canonical = names.canonical;
@@ -327,13 +331,20 @@ void name_columns(std::vector<Column>& columns) {
 }
 
 std::string turn_factor(const Column& column) {
-  if (!column.canonical.empty() || column.text || column.above) return "";
+  if (!column.canonical.empty() || column.text) return "";
   const std::string name = data::words_of_name(column.name);
   if (has_any(name, {"strok", "hub", "cycl", "zykl", "freq"})) return "";
   const TurnUnit* const unit =
       turn_unit_in(column.unit.empty() ? name : data::words_of_name(column.unit));
   if (unit) return *unit->factor == 0 ? "1" : unit->factor;
   return column.unit.empty() && names_rotation(name) ? turn_units->factor : "";
+}
+
+bool is_in_mass(const Column& column) {
+  const std::string unit =
+      column.unit.empty() ? data::unit_in_name(column.name, "kg") : column.unit;
+  const auto kilograms = convert(unit, "kg");
+  return kilograms && kilograms->factor == 1;
 }
 
 bool names_wanted(const Column& column) {

@@ -15,6 +15,9 @@ void name_columns(std::vector<Column>& columns);
 // rpm; empty for other columns.
 std::string turn_factor(const Column& column);
 
+// True for kg: a load in it is the weight of a mass.
+bool is_in_mass(const Column& column);
+
 // True for a wanted value, as opposed to a measured one: "Speed setpoint".
 bool names_wanted(const Column& column);
 

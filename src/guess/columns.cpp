@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -105,6 +106,13 @@ bool as_small_as_coefficients(const io::CsvColumn& raw) {
          *high <= most;
 }
 
+double least_of(const std::vector<double>& numbers) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double number : numbers)
+    least = std::min(least, std::isnan(number) ? least : number);
+  return std::isfinite(least) ? least : 0;
+}
+
 // Takes a friction column for a coefficient where it has no unit, no normal force goes with it, and
 // it is as small as coefficients are.
 void name_coefficient(std::vector<Column>& columns, const io::CsvTable& table) {
@@ -185,6 +193,7 @@ std::vector<Column> guess_columns(const io::CsvTable& table) {
     const io::CsvColumn& raw = table.columns[i];
     Column column;
     column.as_small = as_small_as_coefficients(raw);
+    column.least = least_of(raw.numbers);
     if (raw.name.empty() && raw.unit.empty() && !column.as_small) continue;
     column.name = raw.name;
     if (alike[raw.name] > 1 || raw.name.empty()) column.number = i + 1;

@@ -168,6 +168,11 @@ Dialect find_dialect(std::string_view text, const std::string& named, bool workb
   without_header.header = false;
   attempts.attempt_all(plain, workbook);
   attempts.attempt_all(with_units, workbook);
+  if (!attempts.found()) { // a short table above a legend
+    plain.list = with_units.list = true;
+    attempts.attempt_all(plain, workbook);
+    attempts.attempt_all(with_units, workbook);
+  }
   if (!attempts.found()) attempts.attempt_all(without_header, workbook);
   attempts.attempt_two_lines();
   attempts.attempt_thousands();

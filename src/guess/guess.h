@@ -22,11 +22,18 @@ struct Column {
   bool above = false;          // a condition above the rows (data/above.h)
   bool counts_rows = false;    // above the rows: the number of rows of its file
   bool beside_contact = false; // a temperature that its name gives to another body or time
+  double least = 0;            // of its numbers
   bool as_small = false;       // numbers between 0.01 and 1, as coefficients of friction are
   std::string first_values;    // "812.3, 813.1, 815"
   // The cells of a column that may name tests, as texts, if all of them differ.
   std::vector<std::string> names;
   std::vector<std::string> tests; // in rows with several tests: their names, the first ones
+};
+
+// A formula that columns give, or an answer.
+struct Formula {
+  std::string text, comment;
+  bool empty() const { return text.empty(); }
 };
 
 // A file, or one sheet of a workbook.
@@ -61,7 +68,8 @@ struct File {
   // Radius of a body in contact, by a length above the rows; 0: none.
   double radius_mm = 0, inner_radius_mm = 0;
   std::string pressure; // formula of the normal stress, from a force and the area of contact
-  std::string friction; // formula of the friction force, from a torque and its radius
+  Formula friction;     // force, from a torque or a voltage
+  Formula speed;        // of sliding, from a speed of rotation
   std::set<std::size_t>
       rows_seen; // a number for the data::quantities of each row, equal for equal rows
 

@@ -450,13 +450,21 @@ private:
   std::size_t outside_ = 0;
 };
 
+// Takes the remarks out of the ragged lines of a list of tests: lines of one text, and all lines
+// below the last row. Returns their number.
+std::size_t pass_over_remarks(std::vector<RaggedLine>& ragged, std::vector<RaggedLine>& below) {
+  const std::size_t lines = below.size();
+  below.clear();
+  return lines + std::erase_if(ragged, [](const RaggedLine& one) { return one.is_one_text; });
+}
+
 // `preamble`: the lines before the header.
 void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
                std::string_view header_text, std::string_view preamble, const CsvFormat& format,
                FaultList& faults) {
   const std::size_t width = table.columns.size(), named = named_columns(table);
   const std::vector<char> is_text = text_columns(table, format);
-  std::size_t again = 0, in_front = 0, delimiters_alone = 0, remarks = 0;
+  std::size_t again = 0, in_front = 0, delimiters_alone = 0, remarks = 0, of_lists = 0;
   // ragged lines just before a repeated header are not faults
   std::vector<RaggedLine> ragged, since_row;
   Segments segments(format);
@@ -496,6 +504,7 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
   }
   if (format.sheet && !table.line.empty())
     remarks = std::erase_if(since_row, [](const RaggedLine& one) { return one.is_one_text; });
+  if (format.list && !table.line.empty()) of_lists = pass_over_remarks(ragged, since_row);
   tell();
   report_ragged_lines(ragged, table, header_text.empty() ? "first row" : "header", faults);
   settle_nameless(table, named);
@@ -506,7 +515,8 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
                        table.passed_over.below_units,
                        segments.count(),
                        segments.outside(),
-                       remarks};
+                       remarks,
+                       of_lists};
   if (scanner.unclosed_line() > 0)
     faults.add({table.file, scanner.unclosed_line(), 0},
                "a quotation mark opens here and is never closed");
@@ -533,6 +543,10 @@ std::vector<std::string> notes_of(const CsvPassedOver& lines) {
         fmt::format("{} below the last row {} not read: one text alone",
                     lines.remarks == 1 ? "a line" : fmt::format("{} lines", lines.remarks),
                     lines.remarks == 1 ? "is" : "are"));
+  if (lines.of_lists > 0)
+    notes.push_back(fmt::format("remarks between or below its rows: {} not read",
+                                lines.of_lists == 1 ? "a line is"
+                                                    : fmt::format("{} lines are", lines.of_lists)));
   if (lines.segments > 0)
     notes.push_back(
         fmt::format("a file with {} segments of rows: {} lines outside them are not read",

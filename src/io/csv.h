@@ -37,6 +37,7 @@ struct CsvFormat {
   std::size_t header_rows = 1;  // lines of names; those of a column are joined by blanks
   bool sheet =
       false; // the text of a sheet, in which rows lack the cells that are empty at their end
+  bool list = false; // a row per test: texts between and below its rows are remarks
   std::shared_ptr<const CsvSegments> segments; // none: all lines below the header may be rows
   // Columns whose cells stay text even if they are numbers ("007"): by name, or by number from 1.
   std::vector<std::string> text_columns;
@@ -110,6 +111,7 @@ struct CsvPassedOver {
   std::size_t below_units = 0; // lines of words between the units and the first row
   std::size_t segments = 0, outside_segments = 0; // runs, and lines outside them
   std::size_t remarks = 0;                        // lines of one text below the last row of a sheet
+  std::size_t of_lists = 0;                       // lines of a list that are not rows
 };
 
 // A line above the header that gives a condition: "Normal load: 5 N", "Probe;C45".

@@ -17,7 +17,6 @@ namespace frictab::job {
 
 namespace {
 
-
 constexpr const char* coefficient_name = "mu"; // as users call the coefficient of friction
 
 // A number above 0, with either decimal sign.
@@ -42,12 +41,14 @@ public:
 
   guess::Campaign hold() {
     if (!campaign_.files[most_].header) ask_for_names();
+    take_known_formulas(campaign_);
     if (points().lacks_tests()) ask_for_tests();
     if (points().lacks_friction()) ask_for_friction();
     if (points().lacks_normal_force()) ask_for_normal_force();
     if (points().lacks_pressure()) ask_for_pressure();
     ask_for_units();
     if (!points().has("sigma_f_MPa")) ask_for_flow_stress();
+    if (!points().has("v_rel_mm_s")) ask_for_speed();
     return std::move(campaign_);
   }
 
@@ -152,9 +153,13 @@ private:
         if (!radius_mm) return no_number(answer);
         const std::string formula = force_of_torque(*torque, shortest(*radius_mm / 1000));
         for (const std::size_t f : alike_)
-          campaign_.files[f].friction = formula;
+          campaign_.files[f].friction = {formula, "the torque over the radius, in m, as answered"};
         return std::string();
       });
+      return;
+    }
+    if (const guess::Column* const voltage = now.aid(guess::Aid::voltage)) {
+      ask_for_calibration(*voltage);
       return;
     }
     const auto open = open_columns(true);
@@ -166,6 +171,56 @@ private:
           return column ? "" : not_a_column(answer, open);
         });
     if (column) ask_for_form(*column);
+  }
+
+  // The friction force from the voltage of its cell: with the factor that the files give, or one
+  // that is answered.
+  void ask_for_calibration(const guess::Column& voltage) {
+    const guess::Column* const calibration = points().aid(guess::Aid::calibration);
+    const auto take = [&](const std::string& factor, const char* comment) {
+      const guess::Formula formula = {force_of_voltage(voltage, calibration, factor), comment};
+      for (const std::size_t f : alike_)
+        campaign_.files[f].friction = formula;
+    };
+    if (calibration) {
+      take("", "a voltage times the factor of calibration");
+      return;
+    }
+    ask(fmt::format("How many newtons is one unit of {}? It is a voltage.\n",
+                    printable(shown_name(voltage))),
+        "a number", [&](const std::string& answer) {
+          const auto newtons = positive(answer);
+          if (!newtons) return no_number(answer);
+          take(shortest(*newtons), "a voltage times its newtons, as answered");
+          return std::string();
+        });
+  }
+
+  // The radius of a rotation, or whether strokes give the speed.
+  void ask_for_speed() {
+    const OpenPoints now = points();
+    const auto take = [&](const std::string& formula, const char* comment) {
+      for (const std::size_t f : alike_)
+        campaign_.files[f].speed = {formula, comment};
+    };
+    if (const guess::Column* const turns = now.rotation())
+      ask(fmt::format("At which radius is the contact? {} is a speed of rotation.\n",
+                      printable(shown_name(*turns))),
+          "a number in mm", [&](const std::string& answer) {
+            const auto radius_mm = positive(answer);
+            if (!radius_mm) return no_number(answer);
+            take(speed_of_turns(*turns, shortest(*radius_mm)),
+                 "a rotation at this radius, in mm, as answered");
+            return std::string();
+          });
+    else if (const std::string formula = speed_of_strokes(now); !formula.empty())
+      ask(fmt::format("Is {} the speed, in mm/s? No column is one.\n", formula), "yes",
+          [&](const std::string& answer) {
+            if (lower_case(answer) != "yes")
+              return fmt::format("'{}' is not yes", printable(answer));
+            take(formula, "mean speed of a stroke to and fro, as answered");
+            return std::string();
+          });
   }
 
   // The form in which a column has friction.

@@ -12,6 +12,7 @@
 #include "data/name_words.h"
 #include "data/quantity.h"
 #include "data/scale.h"
+#include "data/test_table.h"
 #include "guess/column_names.h"
 #include "io/csv.h"
 #include "job/open_points.h"
@@ -77,7 +78,30 @@ std::string source_of(const guess::Column& column, const guess::File& file) {
   return toml_quoted(alike > 1 ? column.name : bare);
 }
 
+// A surface enlargement given as an increase: psi is A1/A0.
+std::string increase_line(const guess::Column& column, const char* before) {
+  const bool percent = column.unit == "%";
+  return line(fmt::format("{}psi = {{ formula = {} }}", before,
+                          toml_quoted(fmt::format("1 + {}{}", data::name_in_formulas(column.name),
+                                                  percent ? "/100" : ""))),
+              "first values: " + shown(column.first_values) +
+                  "; an increase of the area, so that psi is A1/A0");
+}
+
+// The comment on the unit of a quantity.
+std::string comment_on_unit(const guess::Column& column, const std::string& other_unit,
+                            const std::string& canonical_unit) {
+  if (column.clock) return "; seconds since the first";
+  if (!column.answered_unit.empty()) return fmt::format("; in {}, as answered", other_unit);
+  if (other_unit == "kgf" && guess::is_in_mass(column))
+    return "; the weight of a mass in kg, as the file says";
+  if (!other_unit.empty()) return fmt::format("; in {}, by the end of its name", other_unit);
+  return column.unit.empty() ? fmt::format("; no unit is given: {} is assumed", canonical_unit)
+                             : fmt::format("; in {}, as the file says", shown(column.unit));
+}
+
 std::string column_line(const guess::Column& column, const guess::File& file) {
+  if (is_increase(column)) return increase_line(column, "");
   const data::Quantity* quantity = data::find_quantity(column.canonical);
   const std::string source = source_of(column, file);
   std::string value = column.number > 0 ? fmt::format("{{ column = {} }}", source) : source;
@@ -88,12 +112,7 @@ std::string column_line(const guess::Column& column, const guess::File& file) {
   std::string comment =
       (column.above ? "above the rows: " : "first values: ") + shown(column.first_values);
   if (quantity && !column.coefficient)
-    comment += column.clock                    ? "; seconds since the first"
-               : !column.answered_unit.empty() ? fmt::format("; in {}, as answered", other_unit)
-               : !other_unit.empty() ? fmt::format("; in {}, by the end of its name", other_unit)
-               : column.unit.empty()
-                   ? fmt::format("; no unit is given: {} is assumed", quantity->unit)
-                   : fmt::format("; in {}, as the file says", shown(column.unit));
+    comment += comment_on_unit(column, other_unit, quantity->unit);
   if (column.coefficient) comment += "; a coefficient of friction";
   return line(fmt::format("{} = {}", column.canonical, value), comment);
 }
@@ -102,6 +121,21 @@ std::string column_line(const guess::Column& column, const guess::File& file) {
 // unit.
 bool says_itself(const guess::Column& column) {
   return column.name == column.canonical && column.number == 0;
+}
+
+// Quantities that are computed.
+std::string formula_lines(const guess::File& file) {
+  std::string out;
+  if (!file.pressure.empty())
+    out += line(fmt::format("sigma_n_MPa = {{ formula = {} }}", toml_quoted(file.pressure)),
+                "the force over the area of contact, where the model is in N and mm");
+  for (const auto& [canonical_name, formula] :
+       {std::pair("F_R_N", &file.friction), std::pair("v_rel_mm_s", &file.speed)})
+    if (!formula->empty())
+      out +=
+          line(fmt::format("{} = {{ formula = {} }}", canonical_name, toml_quoted(formula->text)),
+               shown(formula->comment));
+  return out;
 }
 
 // `taken`: names of lines above the rows; `tests`: the table of tests, whose column of their names
@@ -132,12 +166,7 @@ std::string columns_lines(const guess::File& file, const std::set<std::string>& 
       canonical.push_back(column.name);
     else
       out += column_line(column, file);
-  if (!file.pressure.empty())
-    out += line(fmt::format("sigma_n_MPa = {{ formula = {} }}", toml_quoted(file.pressure)),
-                "the force over the area of contact, where the model is in N and mm");
-  if (!file.friction.empty())
-    out += line(fmt::format("F_R_N = {{ formula = {} }}", toml_quoted(file.friction)),
-                "the torque over the radius, in m, as answered");
+  out += formula_lines(file);
   if (!canonical.empty()) out += "# known by their names: " + join(canonical, ", ") + "\n";
   if (!others.empty())
     out +=
@@ -178,12 +207,49 @@ std::set<std::string> above_that_differ(const guess::Campaign& campaign) {
   return out;
 }
 
+// Takes a group out of the pattern of names.
+void forget_group(guess::NamePattern& names, const std::string& group) {
+  names.pattern = replace_all(names.pattern, "(?<" + group + ">", "(?:");
+  std::erase_if(names.parts, [&](const guess::NamePart& part) { return part.group == group; });
+  if (names.parts.empty()) names = {};
+}
+
+// True if the table of tests has the names of most files.
+bool lists_files(const guess::Campaign& campaign) {
+  const guess::Column* const listed = campaign.tests ? campaign.tests->find("experiment") : nullptr;
+  if (!listed) return false;
+  std::set<std::string> keys;
+  for (const std::string& name : listed->names)
+    keys.insert(data::test_key(name));
+  const auto found =
+      std::count_if(campaign.files.begin(), campaign.files.end(), [&](const guess::File& file) {
+        return keys.count(data::test_key(file.label())) > 0;
+      });
+  return found > 0 && 2 * static_cast<std::size_t>(found) >= campaign.files.size();
+}
+
+// The pattern of names without groups that would hide or repeat what the files have: the name of
+// the test where a table lists the files, and names of columns.
+guess::NamePattern without_known(guess::NamePattern names, const guess::Campaign& campaign) {
+  if (lists_files(campaign)) forget_group(names, "experiment");
+  std::vector<guess::File> all = campaign.files;
+  if (campaign.tests) all.push_back(*campaign.tests);
+  for (const guess::File& file : all)
+    for (const guess::Column& column : file.columns)
+      if (!column.above && column.name != "experiment" &&
+          std::any_of(names.parts.begin(), names.parts.end(),
+                      [&](const guess::NamePart& part) { return part.group == column.name; }))
+        forget_group(names, column.name);
+  return names;
+}
+
 class Writer {
 public:
   Writer(const guess::Campaign& campaign, const guess::NamePattern& names,
          const std::vector<std::string>& training)
       : campaign_(campaign), files_(campaign.files), points_(campaign), most_(points_.file()),
-        names_(names), training_(training), above_(above_that_differ(campaign)),
+        names_(without_known(names, campaign)), training_(training),
+        above_(above_that_differ(campaign)),
         decimal_(campaign.tests && needs_decimal(*campaign.tests) ? campaign.tests->decimal
                                                                   : most_.decimal) {}
 
@@ -195,7 +261,8 @@ public:
     add_columns_of_tests();
     add_pressure_by_area();
     ask_for_units();
-    ask_for_radius_of_rotation();
+    ask_for_enlargement();
+    ask_for_speed();
     ask_for_temperature();
     if (has_names()) ask_for_pressure();
     if (has_names()) ask_for_friction();
@@ -353,20 +420,48 @@ private:
         lines);
   }
 
-  void ask_for_radius_of_rotation() {
-    const guess::Column* const turns = points_.rotation();
-    if (!turns) return;
+  // Percent above 100 may be A1/A0 or an increase.
+  void ask_for_enlargement() {
+    const guess::Column* const psi = most_.find("psi");
+    if (psi && psi->unit == "%" && psi->number == 0 && psi->name != "psi" && !is_increase(*psi))
+      ask(fmt::format("Is {} the new area over the old one, A1/A0, as is taken? This line takes it "
+                      "for the increase.",
+                      shown(shown_name(*psi))),
+          increase_line(*psi, "# "));
+  }
+
+  void ask_for_speed() {
+    if (points_.has("v_rel_mm_s")) return;
+    if (const guess::Column* const turns = points_.rotation())
+      ask_for_radius_of(*turns);
+    else
+      ask_for_speed_of_strokes();
+  }
+
+  void ask_for_radius_of(const guess::Column& turns) {
     const double radius_mm = points_.example_radius_mm();
-    const std::string factor = guess::turn_factor(*turns);
+    const std::string radius = radius_mm > 0 ? fmt::format("{:.4g}", radius_mm) : "RADIUS_MM";
     ask(fmt::format("At which radius is the contact? {} is a speed of rotation.",
-                    shown(shown_name(*turns))),
+                    shown(shown_name(turns))),
         line(fmt::format("# v_rel_mm_s = {{ formula = {} }}",
-                         toml_quoted(fmt::format("{}*{}{}", data::name_in_formulas(turns->name),
-                                                 factor == "1" ? "" : factor + "*",
-                                                 radius_mm > 0 ? fmt::format("{:.4g}", radius_mm)
-                                                               : "RADIUS_MM"))),
+                         toml_quoted(speed_of_turns(turns, radius))),
              radius_mm > 0 ? "the radius in mm, by the lines above the rows"
                            : "RADIUS_MM: a number, in mm"));
+  }
+
+  void ask_for_speed_of_strokes() {
+    const std::string formula = speed_of_strokes(points_);
+    const guess::Column* const position = points_.aid(guess::Aid::position);
+    std::string lines;
+    if (!formula.empty())
+      lines += line(fmt::format("# v_rel_mm_s = {{ formula = {} }}", toml_quoted(formula)),
+                    "mean speed of a stroke to and fro");
+    if (position && most_.find("time_s"))
+      lines += line(fmt::format("# v_rel_mm_s = {{ column = {}, slope_rows = 5 }}",
+                                source_of(*position, most_)),
+                    "slope of the path over the time");
+    if (!lines.empty())
+      ask("How fast does it slide? No column is a speed, but others give one.", lines);
   }
 
   void ask_for_temperature() {
@@ -410,33 +505,106 @@ private:
         !most_.find("F_N_N") && campaign_.tests ? *campaign_.tests : most_;
     const guess::Column* force = with_force.find("F_N_N");
     const double area = points_.example_area_mm2();
+    const std::string unit = force ? unit_besides(*force) : "";
     ask("Where does the contact normal stress come from? None was found.",
         fmt::format(
-            "# sigma_n_MPa = \"COLUMN\"\n{}# or one value for all rows, in [data.constants] "
-            "below\n",
-            line(fmt::format("# sigma_n_MPa = {{ column = {}, area_mm2 = {} }}",
+            "{}# sigma_n_MPa = \"COLUMN\"\n{}"
+            "# or one value for all rows, in [data.constants] below\n",
+            pressure_lines(),
+            line(fmt::format("# sigma_n_MPa = {{ column = {}, area_mm2 = {}{} }}",
                              force ? source_of(*force, with_force) : "\"FORCE\"",
-                             area > 0 ? fmt::format("{:.4g}", area) : "78.5"),
-                 area > 0
-                     ? "a force over the nominal contact area: this one by the lines above the rows"
-                     : "a force over the nominal contact area")));
+                             area > 0 ? fmt::format("{:.4g}", area) : "78.5",
+                             unit.empty() || unit == "N" ? "" : ", unit = " + toml_quoted(unit)),
+                 area > 0 ? "a force over the nominal contact area: this one by the lines "
+                            "above the rows"
+                          : "a force over the nominal contact area")));
+  }
+
+  // Stresses from the load and a body whose size is known.
+  std::string pressure_lines() const {
+    std::string lines;
+    if (const std::string formula = pressure_of_pin(points_); !formula.empty())
+      lines += line(fmt::format("# sigma_n_MPa = {{ formula = {} }}", toml_quoted(formula)),
+                    points_.has("psi") ? "the load over the area, which grows with psi"
+                                       : "the load over the area by the diameter");
+    if (const std::string formula = pressure_of_ball(points_); !formula.empty())
+      lines += line(fmt::format("# sigma_n_MPa = {{ formula = {} }}", toml_quoted(formula)),
+                    "a ball has no constant area: mean stress by Hertz before wear, of steel on "
+                    "steel (E* 115385 MPa)");
+    return lines;
   }
 
   void ask_for_friction() {
     if (!points_.lacks_friction()) {
+      ask_for_other_friction();
       if (points_.lacks_normal_force())
         ask("Which normal force belongs to the friction force? None was found.",
             "# F_N_N = \"COLUMN\"\n# or one value for all rows, in [data.constants] below\n");
-    } else if (const guess::Column* torque = points_.torque()) {
-      const double radius_mm = points_.example_radius_mm();
-      const std::string radius =
-          radius_mm > 0 ? fmt::format("{:.4g}", radius_mm / 1000) : "RADIUS_M";
-      ask(torque_question(*torque),
-          line(fmt::format("# F_R_N = {{ formula = {} }}",
-                           toml_quoted(force_of_torque(*torque, radius))),
-               radius_mm > 0 ? "the radius in m, by the lines above the rows"
-                             : "RADIUS_M: a number, in m"));
-    } else if (most_.wide_known) {
+    } else if (points_.torque()) {
+      ask_for_radius_of_torques();
+    } else if (const guess::Column* voltage = points_.aid(guess::Aid::voltage)) {
+      ask_for_calibration(*voltage);
+    } else {
+      ask_where_friction_is();
+    }
+  }
+
+  // Readings of friction in one file may differ: one drifts, or is the sum of several.
+  void ask_for_other_friction() {
+    std::vector<const guess::Column*> torques = points_.torques();
+    if (points_.has("tau_R_MPa") || torques.empty()) return;
+    const guess::Column* const force = most_.find("F_R_N");
+    if (!force) torques.erase(torques.begin());
+    if (torques.empty()) return;
+    const std::string radius = points_.radius_in("m").term;
+    std::string lines;
+    for (const guess::Column* const torque : torques)
+      lines += line(
+          fmt::format("# F_R_N = {{ formula = {} }}",
+                      toml_quoted(force_of_torque(*torque, radius.empty() ? "RADIUS_M" : radius))),
+          radius.empty() ? "RADIUS_M: a number, in m" : "instead of the line above");
+    ask(fmt::format("Is {} the better reading of friction? {} is taken.", names_of(torques),
+                    shown(shown_name(force ? *force : *points_.torque()))),
+        lines);
+  }
+
+  static std::string names_of(const std::vector<const guess::Column*>& columns) {
+    std::vector<std::string> names;
+    for (const guess::Column* const column : columns)
+      names.push_back(shown(shown_name(*column)));
+    return join(names, " or ");
+  }
+
+  void ask_for_radius_of_torques() {
+    const double radius_mm = points_.example_radius_mm();
+    const std::string radius = radius_mm > 0 ? fmt::format("{:.4g}", radius_mm / 1000) : "RADIUS_M";
+    const std::vector<const guess::Column*> torques = points_.torques();
+    std::string lines, others;
+    for (const guess::Column* const torque : torques)
+      lines += line(fmt::format("# F_R_N = {{ formula = {} }}",
+                                toml_quoted(force_of_torque(*torque, radius))),
+                    torque != torques.front() ? "instead, if this one is the friction"
+                    : radius_mm > 0           ? "the radius in m, by the lines above the rows"
+                                              : "RADIUS_M: a number, in m");
+    if (torques.size() > 1)
+      others = " Others are " + names_of({torques.begin() + 1, torques.end()}) + ".";
+    ask(torque_question(*torques.front()) + others, lines);
+  }
+
+  void ask_for_calibration(const guess::Column& voltage) {
+    const guess::Column* const calibration = points_.aid(guess::Aid::calibration);
+    const std::string formula = force_of_voltage(voltage, calibration, "N_PER_UNIT");
+    ask(calibration ? fmt::format("Is friction {} times {}? It is a voltage.",
+                                  shown(shown_name(voltage)), shown(shown_name(*calibration)))
+                    : fmt::format("How many newtons is one unit of {}? It is a voltage.",
+                                  shown(shown_name(voltage))),
+        line(fmt::format("# F_R_N = {{ formula = {} }}", toml_quoted(formula)),
+             calibration ? "the factor of calibration, as the files give it"
+                         : "N_PER_UNIT: a number"));
+  }
+
+  void ask_where_friction_is() {
+    if (most_.wide_known) {
       ask("Which form of friction do the columns of the tests have? Their values are the column "
           "`value`.",
           "# tau_R_MPa = { column = \"value\", times = \"sigma_n_MPa\" } # a coefficient\n"
@@ -507,8 +675,25 @@ private:
     out_.text += "# Give the groups names that say what they are; one without a meaning may go.\n";
   }
 
+  // The dialect of the table of tests where [data] has another one.
+  void add_rule_of_tests() {
+    if (!campaign_.tests || !campaign_.tests->sheet.empty() || campaign_.tests->own_decimal) return;
+    const guess::File& tests = *campaign_.tests;
+    std::string dialect;
+    if (tests.thousands != 0 && tests.thousands != most_.thousands)
+      dialect += line(fmt::format("thousands = {}", toml_quoted(std::string(1, tests.thousands))),
+                      "digits stand in groups of three");
+    if (tests.skip_rows > 0) dialect += fmt::format("skip_rows = {}\n", tests.skip_rows);
+    if (tests.header_rows > 1 && tests.header_rows != most_.header_rows)
+      dialect += fmt::format("header_rows = {}\n", tests.header_rows);
+    if (!dialect.empty())
+      out_.text +=
+          fmt::format("\n[[data.files]]\nmatch = {}\n{}", toml_quoted(tests.file), dialect);
+  }
+
   // Adds rules for files that are read differently from most_, and for values in file names.
   void add_rules() {
+    add_rule_of_tests();
     for (const guess::File& file : files_) {
       if (file.is_read_as(most_)) continue;
       out_.text += fmt::format("\n[[data.files]]\nmatch = {}\n", toml_quoted(file.file));
@@ -548,7 +733,7 @@ private:
   const std::vector<guess::File>& files_;
   const OpenPoints points_;
   const guess::File& most_;
-  const guess::NamePattern& names_;
+  const guess::NamePattern names_;
   const std::vector<std::string>& training_;
   const std::set<std::string> above_; // lines above the rows that are proposed as columns
   const char decimal_;                // of [data], by which the table of tests is read
@@ -559,7 +744,9 @@ private:
 
 GuessedJob guessed_job(const guess::Campaign& campaign, const guess::NamePattern& names,
                        const std::vector<std::string>& training) {
-  return Writer(campaign, names, training).write();
+  guess::Campaign completed = campaign;
+  take_known_formulas(completed);
+  return Writer(completed, names, training).write();
 }
 
 } // namespace frictab::job

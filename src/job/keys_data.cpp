@@ -128,7 +128,7 @@ std::vector<KeyRule> file_keys() {
            "the sheets with the column of friction", "\"Messung\""),
       data("tests", &DataOptions::tests,
            "a file with one row per experiment (humidity, batch, tool) and a column experiment: "
-           "its columns are joined by name",
+           "its columns are joined by name, also that of a file",
            "none", "\"tests.csv\""),
       data("tests_sheet", &DataOptions::tests_sheet,
            "the sheet of data.tests, if that is a workbook", "the one with the column experiment",

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "guess/aids.h"
 #include "guess/guess.h"
 
 namespace frictab::job {
@@ -39,8 +40,19 @@ public:
   bool lacks_pressure() const;     // nor is it a force over an area that is given
   bool lacks_friction() const;     // in any form
   bool lacks_normal_force() const; // for the friction force that there is
-  // Torque that friction may come from; nullptr: none.
-  const guess::Column* torque() const;
+  // Torques that friction may come from, those of friction before total ones.
+  std::vector<const guess::Column*> torques() const;
+  const guess::Column* torque() const; // the first of these; nullptr: none
+  // The column of the rows or of the table of tests, or the condition that all files give; nullptr:
+  // none.
+  const guess::Column* aid(guess::Aid aid) const;
+  // Radius of the track in a formula, in this unit, and the column that gives it; empty and
+  // nullptr: no column does.
+  struct Radius {
+    std::string term;
+    const guess::Column* column = nullptr;
+  };
+  Radius radius_in(const std::string& unit) const;
   // The only column without a meaning that is as small as coefficients of friction; nullptr: none,
   // or several.
   const guess::Column* likely_coefficient() const;
@@ -52,11 +64,33 @@ public:
   const guess::Column* only_force() const;
 
 private:
-  std::vector<const guess::Column*> columns() const; // of the rows, then of the tests
+  // Columns of the rows with the conditions that all files give, then those of the tests.
+  std::vector<const guess::Column*> columns() const;
 
   const guess::Campaign& campaign_;
   const guess::File& file_;
 };
+
+// Fills in speeds and friction forces whose formulas columns give without an answer: rotation and
+// torque at a radius that is known.
+void take_known_formulas(guess::Campaign& campaign);
+
+// Formula of the sliding speed from a speed of rotation at `radius_mm`, a number or its name.
+std::string speed_of_turns(const guess::Column& turns, const std::string& radius_mm);
+// Formula of the friction force from the voltage of its cell at `factor`, a number or its name.
+std::string force_of_voltage(const guess::Column& voltage, const guess::Column* calibration,
+                             const std::string& factor);
+
+// Twice the stroke times the frequency; empty where one of them is not known.
+std::string speed_of_strokes(const OpenPoints& points);
+// Stress of the load on a flat pin, punch or specimen, and that of Hertz under a ball; empty where
+// no column gives the size.
+std::string pressure_of_pin(const OpenPoints& points);
+std::string pressure_of_ball(const OpenPoints& points);
+
+// True if the surface enlargement is an increase and not A1/A0: it falls clearly below 1, which no
+// A1/A0 does.
+bool is_increase(const guess::Column& column);
 
 // Asks for the radius of a torque.
 std::string torque_question(const guess::Column& torque);

@@ -454,7 +454,7 @@ TEST_F(InitFrom, ReadsAColumnPerTestBelowATitle) {
   EXPECT_EQ(read().tests, "S01 30, S02 30, S03 30, S04 30");
 }
 
-TEST_F(InitFrom, AsksForTheRadiusOfARotationThatTheRowsHave) {
+TEST_F(InitFrom, TakesARotationAtTheRadiusOfARing) {
   std::string summary = "Test,Speed rpm\n";
   for (int test = 1; test <= 3; ++test) {
     std::string text = "Ring dia (mm),35\nTime (s),Ring speed (rpm),COF,Pressure (MPa)\n";
@@ -465,12 +465,9 @@ TEST_F(InitFrom, AsksForTheRadiusOfARotationThatTheRowsHave) {
   }
   directory.write("summary.csv", summary);
   const std::string job = job_from({"*.csv"});
-  EXPECT_THAT(job,
-              testing::AllOf(Not(HasSubstr("\nv_rel_mm_s")),
-                             HasSubstr("\n# ? At which radius is the contact? Ring speed (rpm) "
-                                       "is a speed of rotation.\n# v_rel_mm_s = { formula = "
-                                       "\"Ring_speed*2*pi/60*17.5\" }")));
-  directory.write("job/job.toml", replace_all(job, "# v_rel_mm_s", "v_rel_mm_s"));
+  EXPECT_THAT(job, testing::AllOf(HasSubstr("\nv_rel_mm_s = { formula = "
+                                            "\"Ring_speed*2*pi/60*Ring_dia/2\" }"),
+                                  Not(HasSubstr("At which radius"))));
   EXPECT_THAT(read().text, HasSubstr("110")) << "mm/s";
 }
 

@@ -98,6 +98,21 @@ TEST_F(InteractiveInit, TakesATorqueAtARadiusAndAForceOverAnArea) {
   expect_reads("2", "coulomb");
 }
 
+TEST_F(InteractiveInit, AsksForTheFactorOfAVoltageAndTheRadiusOfARotation) {
+  write_tests(2, "Time [s];Load [N];Friction [mV];Speed [rpm]\n", 2, true);
+  const CommandResult asked = init("0.5\n/20\n\n15\n");
+  EXPECT_EQ(asked.exit_code, 0) << asked.err;
+  EXPECT_THAT(asked.err,
+              AllOf(HasSubstr("How many newtons is one unit of Friction [mV]? It is a "
+                              "voltage.\n"),
+                    HasSubstr("At which radius is the contact? Speed [rpm] is a speed of "
+                              "rotation.\n")));
+  EXPECT_THAT(directory.read("job/job.toml"),
+              AllOf(HasSubstr("\nF_R_N = { formula = \"Friction*0.5\" }"),
+                    HasSubstr("\nv_rel_mm_s = { formula = \"Speed*2*pi/60*15\" }")));
+  expect_reads("2", "coulomb");
+}
+
 TEST_F(InteractiveInit, TakesAForceWithoutANameOverAnArea) {
   write_tests(2, "Zeit [s];Kraft;Kanal 3;T1\n", 1, false);
   EXPECT_EQ(init("2\ncoefficient\n1/20\nN\n\n").exit_code, 0);

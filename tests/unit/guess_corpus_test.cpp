@@ -124,7 +124,7 @@ const LookAlike look_alikes[] = {
     {"brake dynamometer", "", ",.",
      "Time [s]|Speed [mm/s]|Pressure [bar]|Torque [N m]|Mu|Disc temp [degC]", "", "t v - - mu Tc"},
     {"lubricant bench", "", ",.", "elapsed time (s)|CoF|load (kg)|oil temp (C)|wear scar (mm)", "",
-     "t mu - - -"},
+     "t mu FN - -"},
     {"temperatures of other bodies and times", "", ",.",
      "Time (s)|Pressure (MPa)|COF|Sump temp (C)|lab_temperature_C|pin_end_temperature_C|"
      "Temp setpoint (C)|Max temperature (C)",

@@ -380,6 +380,23 @@ TEST(Roles, WhatNumbersNamesOrDatesTheTestsIsNoCause) {
   }
 }
 
+TEST(Roles, NumbersOfSpecimensAreNoSettings) {
+  Rig rig(9, 24, 5);
+  for (const char* name : {"Schraube Nr.", "Pin no", "repeat"})
+    rig.add(name, [](auto e, auto) { return double(e * e % 5); });
+  const Dataset data = with_roles(rig.data);
+  EXPECT_EQ(role_of(data, "Schraube Nr."), Role::ignore);
+  EXPECT_EQ(role_of(data, "Pin no"), Role::ignore);
+  EXPECT_EQ(role_of(data, "repeat"), Role::ignore);
+}
+
+TEST(Roles, DateInTheNamesOfFilesOrdersTests) {
+  Rig rig(9, 24, 5);
+  rig.add("date", [](auto e, auto) { return double(e / 8); });
+  rig.data.columns.back().levels = {"20260302_0900", "20260303_0900", "20260304_1130"};
+  EXPECT_EQ(role_of(with_roles(rig.data), "date"), Role::order);
+}
+
 TEST(Roles, AColumnThatRepeatsAnotherIsNoCauseOfItsOwn) {
   Rig rig(9, 24, 5);
   for (const char* name : {"name2", "Coating", "coating again", "other"}) {

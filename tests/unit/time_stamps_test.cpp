@@ -42,6 +42,15 @@ TEST(TestDates, MayHaveMonthsByTheirNames) {
       ElementsAre(0, 0.75));
 }
 
+TEST(TestDates, InNamesOfFilesSortAsTime) {
+  EXPECT_THAT(sort_dates({"20260303_0900", "20260302_1130", "20260302_0900"}).place,
+              ElementsAre(2, 1, 0));
+  EXPECT_THAT(sort_dates({"01.04.2026_0900", "31.03.2026_1130", "31.03.2026_0900"}).place,
+              ElementsAre(2, 1, 0));
+  EXPECT_THAT(sort_dates({"01_04_2026", "31_03_2026"}).place, ElementsAre(1, 0));
+  EXPECT_THAT(sort_dates({"2026-03-10_14-30-05", "2026-03-10_14-30-04"}).place, ElementsAre(1, 0));
+}
+
 TEST(TestDates, ThatAgreeOnTheOrderWhicheverIsTheDayAreTaken) {
   EXPECT_THAT(sort_dates({"01/01/2024", "02/02/2024"}).place, ElementsAre(0, 1));
 }
