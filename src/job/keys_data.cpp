@@ -294,7 +294,8 @@ std::vector<KeyRule> match_key() {
   return {KeysOf("data.files.*", file_rule)(
       "match", &FileRule::match,
       "which files, with * for any letters: by the file's name, or by the whole name where this "
-      "one holds a /; the first rule that matches a file counts",
+      "one holds a /; the first rule that matches a file counts; the own name of "
+      "data.tests: its dialect",
       "an error", "\"pin_*.csv\"")};
 }
 
