@@ -48,10 +48,12 @@ std::vector<std::size_t> dropouts_in(std::span<const double> temperature_C) {
     return std::abs(runs[a].value - runs[b].value) >= jump;
   };
   std::multiset<double> dropped; // a value for each row between two jumps
-  for (std::size_t r = 1; r + 1 < runs.size(); ++r)
-    if (jumps(r - 1, r) && jumps(r, r + 1))
-      for (std::size_t i = runs[r].begin; i < runs[r].end; ++i)
-        dropped.insert(runs[r].value);
+  for (std::size_t r = 1; r + 1 < runs.size(); ++r) {
+    const double value = runs[r].value;
+    const bool comes_back = (value < runs[r - 1].value) == (value < runs[r + 1].value);
+    for (std::size_t i = runs[r].begin; i < runs[r].end; ++i)
+      if (comes_back && jumps(r - 1, r) && jumps(r, r + 1)) dropped.insert(value);
+  }
   const auto is_dropout = [&](std::size_t r) {
     const bool first = r == 0, last = r + 1 == runs.size();
     const std::size_t rows = dropped.count(runs[r].value);

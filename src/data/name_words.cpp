@@ -50,6 +50,11 @@ bool has_word(const std::string& name, std::initializer_list<std::string_view> w
   });
 }
 
+bool has_part(const std::string& name, std::initializer_list<std::string_view> parts) {
+  return std::ranges::any_of(parts,
+                             [&](std::string_view part) { return name.find(part) != name.npos; });
+}
+
 std::string plain_name(const std::string& name) {
   return replace_all(words_of_name(name), " ", "_");
 }

@@ -12,6 +12,8 @@ namespace frictab::data {
 std::string words_of_name(const std::string& name);
 // Expects the words of a name.
 bool has_word(const std::string& name, std::initializer_list<std::string_view> words);
+// True for a name that contains one of these, also within a word.
+bool has_part(const std::string& name, std::initializer_list<std::string_view> parts);
 
 // The words of a name with _ between them: "Mass loss [mg]" is mass_loss_mg.
 std::string plain_name(const std::string& name);

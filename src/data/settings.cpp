@@ -58,9 +58,8 @@ void fill_missing_setting(std::span<Dataset* const> parts, const std::string& na
     if (std::isnan(values.front())) std::ranges::fill(values, middle);
   });
   parts.front()->cautions.push_back(fmt::format(
-      "{} has no value in {} of {} tests ('{}'{}): taken as {}, the middle of the others", name,
-      lacking.size(), tests, lacking.front(), and_more(lacking.size() - 1, "test"),
-      shortest(middle)));
+      "{} has no value in {} of {} tests, first in '{}': taken as {}, the middle of the others",
+      name, lacking.size(), tests, lacking.front(), shortest(middle)));
 }
 
 void ask_if_reading(std::span<Dataset* const> parts, const std::string& name) {

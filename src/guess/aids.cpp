@@ -19,11 +19,6 @@ namespace {
 
 using data::has_word;
 
-bool has_any(const std::string& name, std::initializer_list<std::string_view> parts) {
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](std::string_view part) { return name.find(part) != name.npos; });
-}
-
 // Unit in the file, or at the end of the name; empty: none.
 std::string unit_given(const Column& column, const std::string& wanted) {
   return column.unit.empty() ? data::unit_in_name(column.name, wanted) : column.unit;
@@ -40,7 +35,8 @@ bool is_in(const Column& column, const std::string& wanted) {
 }
 
 bool is_diameter(const std::string& name) {
-  return has_any(name, {"diameter", "durchmesser"}) || has_word(name, {"dia", "diam", "ø", "Ø"});
+  return data::has_part(name, {"diameter", "durchmesser"}) ||
+         has_word(name, {"dia", "diam", "ø", "Ø"});
 }
 
 bool is_radius(const std::string& name) {
@@ -48,53 +44,57 @@ bool is_radius(const std::string& name) {
 }
 
 bool is_of_ball(const std::string& name) {
-  return has_any(name, {"kugel"}) || has_word(name, {"ball", "sphere"});
+  return data::has_part(name, {"kugel"}) || has_word(name, {"ball", "sphere"});
 }
 
 bool is_of_track(const std::string& name) {
-  return has_any(name, {"track", "spur", "laufbahn", "laufkreis", "reibdurch", "reibradius",
-                        "ringdurch", "mittlere"}) ||
+  return data::has_part(name, {"track", "spur", "laufbahn", "laufkreis", "reibdurch", "reibradius",
+                               "ringdurch", "mittlere"}) ||
          has_word(name, {"ring", "mean"});
 }
 
 bool is_of_pin(const std::string& name) {
-  return has_any(name, {"stift", "stempel", "proben", "zylinder", "pindurch"}) ||
+  return data::has_part(name, {"stift", "stempel", "proben", "zylinder", "pindurch"}) ||
          has_word(name, {"pin", "punch", "specimen", "sample", "probe", "cylinder"});
 }
 
 // Edges, roundings and rims, at which no contact slides.
 bool is_of_edge(const std::string& name) {
-  return has_any(name, {"innen", "aussen", "außen", "kante", "matrize", "rundung"}) ||
+  return data::has_part(name, {"innen", "aussen", "außen", "kante", "matrize", "rundung"}) ||
          has_word(name, {"inner", "outer", "edge", "corner", "nose", "tip", "fillet", "die", "bore",
                          "shaft", "welle"});
 }
 
 bool names_stroke(const std::string& name) {
-  return (has_any(name, {"schwingweite", "hublänge", "hublaenge", "stroke length"}) ||
+  return (data::has_part(name, {"schwingweite", "hublänge", "hublaenge", "stroke length"}) ||
           has_word(name, {"stroke", "hub"})) &&
-         !has_any(name, {"freq", "anzahl"}) && !has_word(name, {"rate", "no", "count", "number"});
+         !data::has_part(name, {"freq", "anzahl"}) &&
+         !has_word(name, {"rate", "no", "count", "number"});
 }
 
 bool names_frequency(const std::string& name) {
-  return has_any(name, {"freq"}) && !has_any(name, {"sampl", "abtast", "mess", "acquis", "record",
-                                                    "eigen", "filter", "cut", "natural"});
+  return data::has_part(name, {"freq"}) &&
+         !data::has_part(name, {"sampl", "abtast", "mess", "acquis", "record", "eigen", "filter",
+                                "cut", "natural"});
 }
 
 bool names_position(const std::string& name) {
-  const bool is_path = has_any(name, {"position", "displacement", "verschiebung"}) ||
-                       name.ends_with("weg") || has_any(name, {"weg "}) || name == "travel";
-  return is_path && !has_any(name, {"wear", "verschlei", "depth", "tiefe", "penetr", "eindring",
-                                    "normal", "vertical", "vertikal", "bewegung"});
+  const bool is_path = data::has_part(name, {"position", "displacement", "verschiebung"}) ||
+                       name.ends_with("weg") || data::has_part(name, {"weg "}) || name == "travel";
+  return is_path &&
+         !data::has_part(name, {"wear", "verschlei", "depth", "tiefe", "penetr", "eindring",
+                                "normal", "vertical", "vertikal", "bewegung"});
 }
 
 bool names_friction(const std::string& name) {
-  return has_any(name, {"friction", "reib", "tangential", "lateral", "attrito", "frottement"}) ||
+  return data::has_part(name,
+                        {"friction", "reib", "tangential", "lateral", "attrito", "frottement"}) ||
          has_word(name, {"fr", "ft", "ff", "fx", "f r", "f t", "f x"});
 }
 
 // Marks of wear, which change.
 bool is_of_wear(const std::string& name) {
-  return has_any(name, {"scar", "kalotte", "verschlei"}) ||
+  return data::has_part(name, {"scar", "kalotte", "verschlei"}) ||
          (name.find("wear") != name.npos && name.find("track") == name.npos);
 }
 

@@ -169,11 +169,6 @@ std::string without_channel(const std::string& name) {
   return is_channel ? name.substr(end + 1) : name;
 }
 
-bool has_any(const std::string& name, std::initializer_list<std::string_view> parts) {
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](std::string_view part) { return name.find(part) != name.npos; });
-}
-
 // Wanted values.
 bool is_set(const std::string& name) {
   return data::has_word(name, {"soll", "sollwert", "set", "setpoint", "target", "nominal", "nom",
@@ -184,16 +179,16 @@ bool is_set(const std::string& name) {
 bool is_beside_contact(const std::string& name) {
   const bool at_end =
       data::has_word(name, {"end", "final", "ende", "after", "nach", "start", "initial"}) ||
-      has_any(name, {"endtemp", "starttemp"});
+      data::has_part(name, {"endtemp", "starttemp"});
   const bool of_another =
       data::has_word(name,
                      {"oil",     "öl",     "Öl",        "oel",   "sump",    "sumpf",    "bath",
                       "bad",     "pot",    "lubricant", "fluid", "coolant", "emulsion", "water",
                       "wasser",  "inlet",  "outlet",    "tank",  "furnace", "ofen",     "oven",
                       "chamber", "kammer", "heater",    "motor", "bearing"}) ||
-      has_any(name, {"öltemp", "Öltemp", "oeltemp", "sumpftemp", "badtemp", "ofentemp",
-                     "kammertemp", "lagertemp", "wassertemp", "schmierstofftemp"});
-  return at_end || (of_another && !has_any(name, {"contact", "kontakt"}));
+      data::has_part(name, {"öltemp", "Öltemp", "oeltemp", "sumpftemp", "badtemp", "ofentemp",
+                            "kammertemp", "lagertemp", "wassertemp", "schmierstofftemp"});
+  return at_end || (of_another && !data::has_part(name, {"contact", "kontakt"}));
 }
 
 // Units of a speed of rotation, as the words of names, and their factors in a formula for a speed
@@ -219,7 +214,7 @@ const TurnUnit* turn_unit_in(const std::string& words) {
 bool names_rotation(const std::string& name) {
   return data::has_word(name,
                         {"rotation", "rotational", "rotary", "spindle", "angular", "spindel"}) ||
-         has_any(name, {"drehzahl", "drehgeschw", "winkelgeschw", "rotationsgeschw"});
+         data::has_part(name, {"drehzahl", "drehgeschw", "winkelgeschw", "rotationsgeschw"});
 }
 
 // Times of a part of a test, which no clock shows.
@@ -297,7 +292,8 @@ void doubt_temperatures(std::vector<Column>& columns) {
     return data::words_of_name(io::read_header_name(column.name).name);
   };
   const bool has_humidity = std::any_of(columns.begin(), columns.end(), [&](const Column& column) {
-    return has_any(words(column), {"humid", "feucht"}) || data::has_word(words(column), {"rh"});
+    return data::has_part(words(column), {"humid", "feucht"}) ||
+           data::has_word(words(column), {"rh"});
   });
   for (Column& column : columns) {
     int most = 0;
@@ -333,7 +329,7 @@ void name_columns(std::vector<Column>& columns) {
 std::string turn_factor(const Column& column) {
   if (!column.canonical.empty() || column.text) return "";
   const std::string name = data::words_of_name(column.name);
-  if (has_any(name, {"strok", "hub", "cycl", "zykl", "freq"})) return "";
+  if (data::has_part(name, {"strok", "hub", "cycl", "zykl", "freq"})) return "";
   const TurnUnit* const unit =
       turn_unit_in(column.unit.empty() ? name : data::words_of_name(column.unit));
   if (unit) return *unit->factor == 0 ? "1" : unit->factor;

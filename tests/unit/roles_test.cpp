@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "data/disguise.h"
 #include "data/roles.h"
+#include "data/settings.h"
 #include "twin/twin.h"
 
 namespace frictab::roles_test {
@@ -531,6 +532,61 @@ TEST(Roles, AReadingThatHardlyMovesWithinTestsIsASetting) {
   EXPECT_THAT(data.find("Humidity [%]")->why, HasSubstr(" in a test, "));
   EXPECT_EQ(role_of(data, "Draught"), Role::channel);
   EXPECT_NE(role_of(data, "sound"), Role::setting) << "it moves as friction does";
+}
+
+TEST(Roles, TheSurroundingsAreSettingsOfWhichTheMeanOfATestCounts) {
+  Rig rig(16, 40, 60);
+  const auto air = rig.of_tests([&] { return 30 + 30 * rig.uniform(); });
+  rig.add("RH [%]", [&](auto e, auto) { return air[e] + 1.2 * rig.normal(); });
+  rig.add("Signal", [&](auto e, auto) { return air[e] + 1.2 * rig.normal(); });
+  const Dataset data = with_roles(rig.data);
+  EXPECT_EQ(role_of(data, "RH [%]"), Role::setting);
+  EXPECT_EQ(role_of(data, "Signal"), Role::channel) << "nothing says that it is of the room";
+  const auto humidity = data.values("RH [%]");
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
+      EXPECT_EQ(humidity[i], humidity[data.first_row[e]]);
+  EXPECT_THAT(data.notes, Contains(HasSubstr("the mean of each test is taken")));
+}
+
+TEST(Roles, ASettingThatFewTestsLackIsTakenInTheMiddleOfTheOthers) {
+  Rig rig(17, 12, 5);
+  const auto of_test = [](std::size_t lacking) {
+    return [=](std::size_t e, std::size_t) { return e < lacking ? std::nan("") : double(e % 5); };
+  };
+  rig.add("Ra", of_test(3));
+  rig.add("Rz", of_test(5));
+  const Dataset data = with_roles(rig.data);
+  EXPECT_EQ(data.values("Ra")[0], 3) << "of 3, 4, 0, 1, 2, 3, 4, 0, 1";
+  EXPECT_TRUE(std::isnan(data.values("Rz")[0])) << "more than a third";
+  EXPECT_THAT(data.cautions, testing::ElementsAre("Ra has no value in 3 of 12 tests, first in "
+                                                  "'t0': taken as 3, the middle of the others"));
+}
+
+TEST(Roles, ASettingThatFrictionFollowsTooCloselyIsAskedAbout) {
+  Rig rig(18, 12, 1);
+  rig.add("shape", [&](auto, auto i) {
+    return std::pow(rig.at("tau_R_MPa", i) / rig.at("sigma_n_MPa", i), 3) * (1 + 1e-4 * double(i));
+  });
+  rig.add("dose", [&](auto, auto i) { return double(i * 7 % 12); });
+  Dataset data = rig.data;
+  Dataset* const parts[] = {&data};
+  data::ask_if_reading(parts, "dose");
+  EXPECT_THAT(data.cautions, testing::IsEmpty());
+  data::ask_if_reading(parts, "shape");
+  EXPECT_THAT(data.cautions, Contains(HasSubstr("is shape known before its test?")));
+}
+
+TEST(Roles, ShapesOfRingsAndCupsAreOutcomes) {
+  Rig rig(19, 8, 1);
+  for (const char* name : {"Cup height ratio Hu/Hl", "ID1 (mm)", "ID change (%)",
+                           "OD barrel max (mm)", "Fmax (kN)", "H0 (mm)", "Height reduction (%)"})
+    rig.add(name, [&](auto e, auto) { return 10 + double(e * e % 7); });
+  const Dataset data = with_roles(rig.data);
+  for (const char* name : {"Cup height ratio Hu/Hl", "Fmax (kN)"})
+    EXPECT_EQ(role_of(data, name), Role::outcome) << name;
+  EXPECT_NE(role_of(data, "H0 (mm)"), Role::outcome);
+  EXPECT_NE(role_of(data, "Height reduction (%)"), Role::outcome);
 }
 
 TEST(Roles, ANameThatTheDataDoNotHaveIsAFault) {

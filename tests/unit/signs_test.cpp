@@ -449,6 +449,28 @@ TEST_F(Signs, OneRowThatNoRigCanMeasureIsNamedAndLeftOut) {
   EXPECT_EQ(read(with_row(0)).rows(), 100u);   // upwards only
 }
 
+TEST_F(Signs, RowsInWhichATemperatureSensorDropsOutAreLeftOut) {
+  const auto with_temperature = [](const auto& at) {
+    std::string text = "F_N,F_T,v,T_contact_C\n";
+    for (int i = 0; i < 100; ++i)
+      text += fmt::format("{},{},20,{}\n", 5000 + i % 3, 600 + 3 * (i % 7), at(i));
+    return text;
+  };
+  const auto pyrometer = [](int i) {
+    return i > 19 && i < 23 ? 0 : i == 50 || i > 97 ? 600 : i == 60 ? 760 : 700 + 0.5 * (i % 5);
+  };
+  const Dataset data = read(with_temperature(pyrometer));
+  ASSERT_EQ(data.apart.size(), 1u);
+  EXPECT_EQ(data.apart[0].check, "dropout");
+  EXPECT_EQ(data.apart[0].rows, 6u) << "760 is there once: a peak may be one";
+  EXPECT_THAT(data.interventions, Contains(HasSubstr("a.csv:22 in test 'a' (0 degC)")));
+  options.allow_implausible = {"dropout"};
+  EXPECT_EQ(read(with_temperature(pyrometer)).rows(), 100u);
+  options.allow_implausible.clear();
+  const auto heated = [](int i) { return i < 10 ? 23 : std::min(23 + 40 * (i - 9), 700); };
+  EXPECT_EQ(read(with_temperature(heated)).rows(), 100u) << "cold until the contact closes";
+}
+
 TEST_F(Signs, MoreThanATwentiethOfImpossibleStressesIsAnErrorAndOfSpikesTheyStay) {
   const auto with_eight_rows = [](double force) {
     std::string text = "F_N,F_T,v\n";
