@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "data/middle.h"
@@ -47,18 +48,21 @@ std::vector<std::size_t> dropouts_in(std::span<const double> temperature_C) {
   const auto jumps = [&](std::size_t a, std::size_t b) {
     return std::abs(runs[a].value - runs[b].value) >= jump;
   };
-  std::multiset<double> dropped; // a value for each row between two jumps
-  for (std::size_t r = 1; r + 1 < runs.size(); ++r) {
+  const auto stands_out = [&](std::size_t r) {
+    return (r == 0 || jumps(r - 1, r)) && (r + 1 == runs.size() || jumps(r, r + 1));
+  };
+  std::map<double, std::size_t> rows; // by value, in runs that stand out
+  std::set<double> dropped;           // values from which the reading came back
+  for (std::size_t r = 0; r < runs.size(); ++r) {
     const double value = runs[r].value;
-    const bool comes_back = (value < runs[r - 1].value) == (value < runs[r + 1].value);
-    for (std::size_t i = runs[r].begin; i < runs[r].end; ++i)
-      if (comes_back && jumps(r - 1, r) && jumps(r, r + 1)) dropped.insert(value);
+    if (!stands_out(r)) continue;
+    rows[value] += runs[r].end - runs[r].begin;
+    if (r > 0 && r + 1 < runs.size() && (value < runs[r - 1].value) == (value < runs[r + 1].value))
+      dropped.insert(value);
   }
   const auto is_dropout = [&](std::size_t r) {
-    const bool first = r == 0, last = r + 1 == runs.size();
-    const std::size_t rows = dropped.count(runs[r].value);
-    return (first || jumps(r - 1, r)) && (last || jumps(r, r + 1)) &&
-           (rows > 1 || (rows == 1 && runs[r].value == 0));
+    const double value = runs[r].value;
+    return stands_out(r) && dropped.count(value) > 0 && (value == 0 || rows[value] > 1);
   };
   std::vector<std::size_t> found;
   for (std::size_t r = 0; r < runs.size(); ++r)

@@ -125,7 +125,7 @@ public:
   }
 
 private:
-  // What the text is worth in this format, and its table; -1: it cannot be read in it.
+  // Worth of the text in this format, and its table; -1: it cannot be read in it.
   std::pair<double, io::CsvTable> read(const io::CsvFormat& format) const {
     try {
       FaultList faults;

@@ -73,16 +73,16 @@ std::vector<const ModelFit*> fits_to_trace(const calibrate::Calibration& calibra
 
 std::vector<const ModelFit*> simpler_laws(const calibrate::Calibration& calibration) {
   const ModelFit& best = calibrate::best_fit(calibration);
-  const auto may_be_traced = [&](const ModelFit& fit) {
-    return !fit.reference && &fit != &best && !is_constant(*fit.model.law);
+  const auto is_simpler = [&](const ModelFit& fit) {
+    return !fit.reference && &fit != &best && !is_constant(*fit.model.law) && !fit.network &&
+           !fit.polynomial;
   };
   Fits laws;
-  if (const ModelFit& fit = calibrate::recommended_fit(calibration); may_be_traced(fit))
+  if (const ModelFit& fit = calibrate::recommended_fit(calibration); is_simpler(fit))
     add_once(laws, fit);
-  const auto closed_form = std::ranges::find_if(calibration.fits, [&](const ModelFit& fit) {
-    return may_be_traced(fit) && !fit.network && !fit.polynomial;
-  });
-  if (closed_form != calibration.fits.end()) add_once(laws, *closed_form);
+  if (const auto first = std::ranges::find_if(calibration.fits, is_simpler);
+      first != calibration.fits.end())
+    add_once(laws, *first);
   return laws;
 }
 

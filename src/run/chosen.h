@@ -16,8 +16,9 @@ namespace frictab::run {
 std::vector<const calibrate::ModelFit*> fits_to_trace(const calibrate::Calibration& calibration,
                                                       const trace::TraceOptions& options);
 
-// Returns laws besides the best one in which effects may show more clearly: the recommended law, and
-// the best one of a closed form. A law found from data takes up much of what differs between tests.
+// Returns laws of a closed form besides the best law, in which effects may show more clearly: the
+// recommended one, and the first in the ranking. A law found from data takes up much of what
+// differs between tests.
 std::vector<const calibrate::ModelFit*> simpler_laws(const calibrate::Calibration& calibration);
 
 // Returns the fit of this name ("best": the first candidate of the ranking; "recommended": see

@@ -1,7 +1,7 @@
 // Tuning constants of the search for missing effects, grouped by the steps of the method.
 //
 // A comment gives the meaning of a constant, its unit or what it multiplies, and the measurement or
-// the reason behind its value. "Rounding": the value separates rounding errors from numbers. A
+// the reason for its value. "Rounding": the value separates rounding errors from numbers. A
 // value without such a reason was chosen and not measured. Measured errors and rates are of
 // synthetic campaigns (docs/measurements.md, research/results); those "of the step" do not show
 // that another value would be worse.

@@ -218,6 +218,9 @@ TEST(TraceText, WhatIsNotConfirmedComesFirstWithWhatItWouldGain) {
   EXPECT_EQ(words::not_confirmed(trace), "not confirmed: v_rel_mm_s (p = 0.001)");
   trace.leads[0].significant = false;
   EXPECT_THAT(words::trace_in_short(trace),
+              testing::StartsWith("coulomb: suspected, not proven: v_rel_mm_s (p = 0.0010)"));
+  trace.leads[0].p_value = 0.2; // and no tests to settle it
+  EXPECT_THAT(words::trace_in_short(trace),
               testing::StartsWith("coulomb: no missing effect found"));
 }
 
