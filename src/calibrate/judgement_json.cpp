@@ -130,7 +130,7 @@ void describe(Fields& f, Recommended& r) {
   f("std_error_MPa", r.std_error_MPa);
   f.unless_default("tests_left_out_in_turn", r.tests);
   if (f.has("as_good", true)) f("as_good", r.as_good); // not in files of 0.2.0
-  if (!f.has("expected_mae_MPa", true)) return; // not in files of 0.1 and 0.2.0
+  if (!f.has("expected_mae_MPa", true)) return;        // not in files of 0.1 and 0.2.0
   f("expected_mae_MPa", r.expected.mae_MPa);
   f("expected_mae_95", r.expected.interval);
 }

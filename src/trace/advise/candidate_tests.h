@@ -34,9 +34,9 @@ struct CandidateTests {
 };
 
 // Builds all combinations of the settings' values, except those that would take a state outside the
-// range of the campaign's rows (extended as above), or put a batch to another supplier than its own:
-// of two texts of which one belongs to the other, no new pair can be run. All other settings come from the test nearest
-// to the middle of the campaign.
+// range of the campaign's rows (extended as above), or put a batch to another supplier than its
+// own: of two texts of which one belongs to the other, no new pair can be run. All other settings
+// come from the test nearest to the middle of the campaign.
 CandidateTests candidate_tests(const data::Dataset& data, std::vector<Setting> settings);
 
 } // namespace frictab::trace
