@@ -51,11 +51,9 @@ void RowsBeyond::add_remark(std::vector<std::string>& remarks, const models::Law
     if (counted == sides.end()) continue;
     const auto& [below, above] = counted->second;
     if (below > 0)
-      parts.push_back(
-          fmt::format("{} below {} ({})", name, shortest(ends.first), thousands(below)));
+      parts.push_back(fmt::format("{} below {:.5g} ({})", name, ends.first, thousands(below)));
     if (above > 0)
-      parts.push_back(
-          fmt::format("{} above {} ({})", name, shortest(ends.second), thousands(above)));
+      parts.push_back(fmt::format("{} above {:.5g} ({})", name, ends.second, thousands(above)));
   }
   if (!parts.empty())
     remarks.push_back(

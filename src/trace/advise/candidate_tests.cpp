@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text.h"
 #include "data/name_words.h"
 #include "data/quantity.h"
 #include "data/recordings.h"
@@ -31,9 +32,8 @@ bool is_temperature(const std::string& name) {
 
 // Adds the value rounded to three digits, because nobody sets a rig more finely.
 void add_value(Setting& setting, double value) {
-  const std::string text = fmt::format("{:.3g}", value);
-  setting.values.push_back(std::stod(text));
-  setting.text.push_back(text);
+  setting.values.push_back(std::stod(fmt::format("{:.3g}", value)));
+  setting.text.push_back(shortest(setting.values.back()));
 }
 
 // Settings by which a column can be changed; "" if there are none.
