@@ -59,14 +59,15 @@ std::string plain_name(const std::string& name) {
   return replace_all(words_of_name(name), " ", "_");
 }
 
-bool fits(const char* pattern, const std::string& text) {
+bool has_match(const char* pattern, const std::string& text) {
   return Pattern(pattern, {}).search(text).has_value();
 }
 
 bool names_surroundings(const std::string& name) {
   return has_word(name, {"room", "ambient", "air", "raum", "umgebung", "lab", "labor", "laboratory",
                          "hall", "halle", "climate", "klima", "environment", "rh", "dewpoint"}) ||
-         fits("humid|feucht|raumtemp|umgebungstemp|labortemp|hallentemp|lufttemp|dew point", name);
+         has_match("humid|feucht|raumtemp|umgebungstemp|labortemp|hallentemp|lufttemp|dew point",
+                   name);
 }
 
 bool names_sums(const std::string& name) {

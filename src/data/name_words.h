@@ -18,7 +18,7 @@ bool has_part(const std::string& name, std::initializer_list<std::string_view> p
 // The words of a name with _ between them: "Mass loss [mg]" is mass_loss_mg.
 std::string plain_name(const std::string& name);
 // True if a regular expression is found in a text.
-bool fits(const char* pattern, const std::string& text);
+bool has_match(const char* pattern, const std::string& text);
 
 // True for a quantity of the surroundings, which does not depend on the contact: the air's
 // humidity, the temperature of the room. Expects the words of a name.

@@ -887,6 +887,11 @@ std::string impossible_text(const std::string& check) {
 
 namespace {
 
+// Whether what a check finds in some rows changes what is fitted, so that it is named first.
+bool changes_results(const std::string& check) {
+  return check == "test_apart" || check == "no_motion";
+}
+
 std::size_t rows_with_apart(const Dataset& data) {
   std::size_t rows = data.source_rows();
   for (const RowsApart& one : data.apart)
@@ -903,7 +908,7 @@ void tell(const Implausible& one, Dataset& data, const std::vector<std::string>&
     faults.add(
         place, text,
         fmt::format("{}; if it is right: data.allow_implausible = [\"{}\"]", one.hint, one.check));
-  else if (one.check == "test_apart" && !is_allowed)
+  else if (changes_results(one.check) && !is_allowed)
     data.cautions.push_back(one.what + "; " + one.hint);
   else // a finding that is only a note includes its hint
     data.implausible.push_back(one.certain && !is_allowed ? text + ": " + one.hint : text);

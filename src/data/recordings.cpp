@@ -217,8 +217,9 @@ bool names_tests(const Column& column) {
         return std::any_of(text.begin(), text.end(),
                            [](unsigned char c) { return std::isalpha(c); });
       });
-  return has_letters && fits("^(test|versuch|experiment|specimen)_(id|no|nr|number|nummer|name)$",
-                             plain_name(column.name));
+  return has_letters &&
+         has_match("^(test|versuch|experiment|specimen)_(id|no|nr|number|nummer|name)$",
+                   plain_name(column.name));
 }
 
 class RecordingFinder {

@@ -52,7 +52,7 @@ void ignore(std::span<Dataset* const> parts, const std::string& name, const std:
 
 // Parts of file names are called name1, x2_MPa, ...
 bool is_part_of_name(const std::string& name) {
-  return fits("^(name|x)[0-9]+($|_)", name);
+  return has_match("^(name|x)[0-9]+($|_)", name);
 }
 
 // Ignores columns that repeat another one in every test.
@@ -196,7 +196,7 @@ std::vector<std::string> named_combination(const Factor& column, bool is_text,
     refined.push_back(&factor);
     if (is_text && is_named_in(column, factor)) in_texts.push_back(&factor);
   }
-  const bool by_name = fits(combination_names, plain_name(column.name));
+  const bool by_name = has_match(combination_names, plain_name(column.name));
   for (const auto& some : {in_texts, by_name ? refined : in_texts}) {
     if (some.size() < 2 || count_combinations(some) != column.count) continue;
     std::vector<std::string> names;

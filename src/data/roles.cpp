@@ -101,7 +101,7 @@ Given role_by_name(const std::string& name, bool within) {
   const std::string plain = plain_name(name);
   for (const NameRule& rule : name_rules)
     if ((rule.when == When::any || (rule.when == When::within) == within) &&
-        fits(rule.pattern, plain))
+        has_match(rule.pattern, plain))
       return {rule.role, "by its name"};
   return {};
 }
@@ -201,7 +201,7 @@ public:
       return given;
     if (disguise != disguises_.end())
       given.why += question(name, disguise->second.how);
-    else if (fits(friction_names, plain_name(name)))
+    else if (has_match(friction_names, plain_name(name)))
       given.why += question(name, "by its name");
     return given;
   }
@@ -308,7 +308,7 @@ private:
             !unit.empty() && unit != "mg") // a dose, no weight that presses
           return &kind;
     for (const SetKind& kind : set_kinds)
-      if (unit_of(name).empty() && fits(kind.names, plain_name(name))) return &kind;
+      if (unit_of(name).empty() && has_match(kind.names, plain_name(name))) return &kind;
     return nullptr;
   }
 
@@ -355,7 +355,7 @@ private:
     const Given named = role_by_name(name, look.within);
     if (named.role == Role::ignore || named.role == Role::order || named.role == Role::outcome ||
         (named.role == Role::test &&
-         fits("^(test|versuch|experiment|specimen)_", plain_name(name))))
+         has_match("^(test|versuch|experiment|specimen)_", plain_name(name))))
       return named;
     const std::size_t words = look.words.size() - look.words.count("");
     if (look.is_constant()) return {Role::label, "one value in all tests"};

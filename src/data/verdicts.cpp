@@ -53,8 +53,9 @@ std::optional<std::set<std::string>> bad_of_verdict(const std::string& name,
   constexpr std::size_t most = 3; // with an empty cell
   const std::string plain = plain_name(name);
   if (texts.size() < 2 || texts.size() > most) return {};
-  const bool named = fits(verdict_names, plain), of_the_bad = fits(names_of_the_bad, plain),
-             judged = named || fits(judged_names, plain);
+  const bool named = has_match(verdict_names, plain),
+             of_the_bad = has_match(names_of_the_bad, plain),
+             judged = named || has_match(judged_names, plain);
   std::set<std::string> bad;
   std::size_t answers = 0;
   for (const std::string& text : texts) {
@@ -76,7 +77,7 @@ std::optional<std::set<std::string>> bad_of_verdict(const std::string& name,
 // Texts of a column while they are few; its numbers only if it is named like a verdict.
 std::set<std::string> texts_of(const Column& column) {
   constexpr std::size_t few = 4;
-  if (column.levels.empty() && !fits(verdict_names, plain_name(column.name))) return {};
+  if (column.levels.empty() && !has_match(verdict_names, plain_name(column.name))) return {};
   std::set<double> values;
   for (std::size_t i = 0; i < column.values.size() && values.size() < few; ++i)
     if (!std::isnan(column.values[i])) values.insert(column.values[i]);

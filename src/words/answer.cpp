@@ -100,7 +100,8 @@ Text take_text(const Answers& answers) {
     text += ", the law with the lowest error";
   else
     text += fmt::format(", the simplest law that is not clearly worse than {}, the best", best_law);
-  return text + others_text(calibration) + many_numbers(fit, calibration);
+  text += others_text(calibration) + many_numbers(fit, calibration);
+  return answers.cautions.empty() ? text : text + "; check (1) under next first";
 }
 
 // "7.3 % of the mean stress"; empty: not known.
@@ -141,12 +142,16 @@ Text expect_text(const Calibration& calibration) {
   if (!calibration.noise_floors.empty()) {
     const calibrate::NoiseFloor& floor = calibration.noise_floors.front();
     const double scatter = std::min(floor.mae_MPa, expected.mae_MPa); // expected may be lower
-    text += fmt::format("; {}{} of it is scatter that no better law removes",
-                        floor.lower_bound        ? "at least "
-                        : floor.measured_MPa > 0 ? "at most "
-                                                 : "",
-                        share_first ? share_text(calibration, scatter)
-                                    : fixed(scatter, decimals) + " MPa");
+    const std::string part =
+        share_first ? share_text(calibration, scatter) : fixed(scatter, decimals) + " MPa";
+    if (!floor.lower_bound && floor.measured_MPa > 0 && scatter == expected.mae_MPa)
+      text += "; all of it may be scatter of the tests";
+    else
+      text += fmt::format("; {}{} of this is scatter, which no law removes",
+                          floor.lower_bound        ? "at least "
+                          : floor.measured_MPa > 0 ? "at most "
+                                                   : "",
+                          part);
   }
   return text;
 }
@@ -165,9 +170,10 @@ std::vector<std::pair<std::string, Range>> valid_ranges(const Calibration& calib
 
 // Share of a table that is near the tests: of the law to take, if it was tabulated.
 std::string near_text(const Answers& answers) {
+  constexpr double hardly_any = 0.05;
   for (const table::Table& table : answers.tables)
     if (table.model == calibrate::recommended_fit(*answers.calibration).model.law->name &&
-        table.record.share_far.value_or(0) >= 0.005) {
+        table.record.share_far.value_or(0) >= hardly_any) {
       const double near = 100 * (1 - *table.record.share_far);
       return fmt::format("; {} of the tabulated range is near a test, elsewhere the law is a guess",
                          near < 0.5 ? "hardly any" : fmt::format("only {:.0f} %", near));
@@ -188,7 +194,8 @@ Text valid_text(const Answers& answers) {
     const data::Quantity* const quantity = data::find_quantity(name);
     if (!text.empty()) text += ", ";
     text += quantity ? symbol(quantity->symbol) : Text(column_name(name, answers.traces));
-    text += fmt::format(" {} to {}", short_figures(range.first, 3), short_figures(range.second, 3));
+    const std::string low = short_figures(range.first, 3), high = short_figures(range.second, 3);
+    text += low == high ? " only " + low : fmt::format(" {} to {}", low, high);
     if (quantity && quantity->unit != "1") text += " " + quantity->unit;
   }
   const ModelFit& fit = calibrate::recommended_fit(*answers.calibration).delivered();

@@ -337,6 +337,10 @@ void add_errors(Section& section, const Trace& t) {
     section.say("compared with the calibrated law: " + gain_text(*t.over_calibrated));
   section.say(unseen_text(t));
   section.say(shown_by_validation(t));
+  if (!t.chosen_over.empty())
+    section.say(fmt::format("{} ranked first without effects; with effects it errs by {} MPa on "
+                            "the same tests",
+                            t.chosen_over, digits(t.chosen_over_MPa)));
 }
 
 } // namespace
@@ -470,8 +474,11 @@ std::string trace_in_short(const Trace& t) {
                                 ? ""
                                 : fmt::format(" ({} with effects of its own: {})", t.chosen_over,
                                               digits(t.chosen_over_MPa));
-  return fmt::format("{} added to {}: {}{}; {}{}", named, t.model, gained_in_short(t), first,
-                     t.order.found           ? trace::order_text(t.order)
+  const auto as_time = std::ranges::find_if(t.effects, &TracedEffect::order_confounded);
+  return fmt::format("{} added to {}: {}; {}{}", named, t.model, gained_in_short(t),
+                     t.order.found ? trace::order_text(t.order)
+                     : as_time != t.effects.end()
+                         ? cause_text(*as_time) + " may stand for a drift in time instead"
                      : t.remaining.structure ? "structure is left"
                      : open.empty()          ? "no other effect found"
                                              : open,
