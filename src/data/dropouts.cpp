@@ -13,7 +13,7 @@ namespace frictab::data {
 namespace {
 
 constexpr double least_jump_K = 30, usual_steps = 10;
-constexpr std::size_t shortest_test_rows = 10; // of a test
+constexpr std::size_t shortest_test_rows = 10;
 
 struct EqualRun {
   std::size_t begin, end;
