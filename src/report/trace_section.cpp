@@ -152,15 +152,24 @@ std::string effect_plots(const ReportInput& input, const trace::Trace& trace,
   const calibrate::InputColumns columns =
       calibrate::input_columns(law, law.inputs, input.validation);
   const effects::EffectInput& input_of_effect = effect.placed.inputs[0];
-  const auto column = static_cast<std::size_t>(
-      std::ranges::find(law.inputs, effects::symbol_of(input_of_effect.column)) -
-      law.inputs.begin());
-  const Values x = columns[column];
+  const auto values_of = [&](const effects::EffectInput& one) -> Values {
+    return columns[static_cast<std::size_t>(
+        std::ranges::find(law.inputs, effects::symbol_of(one.column)) - law.inputs.begin())];
+  };
+  std::vector<double> pairs; // numbers of pairs of levels of two texts
+  Values x = values_of(input_of_effect);
+  if (effect.placed.form->texts == 2) {
+    const effects::EffectInput& second = effect.placed.inputs[1];
+    for (std::size_t i = 0; i < x.size(); ++i)
+      pairs.push_back(static_cast<double>(second.levels.size()) * x[i] + values_of(second)[i]);
+    x = pairs;
+  }
   const std::vector<double> r0 = residuals_of(input, *own), r1 = residuals_of(input, *extended);
   const auto [low, high] = std::ranges::minmax_element(x);
-  const std::string label = axis_name(input_of_effect.column);
-  const svg::Axis x_axis = effect.placed.form->categorical
-                               ? svg::named_axis(input_of_effect.levels, label)
+  const std::string label = effect.placed.form->texts == 2 ? effects::columns_text(effect.placed)
+                                                           : axis_name(input_of_effect.column);
+  const svg::Axis x_axis = effect.placed.form->texts > 0
+                               ? svg::named_axis(effects::level_names(effect.placed), label)
                                : svg::nice_axis(std::min(*low, input_of_effect.low),
                                                 std::max(*high, input_of_effect.high), 5, label);
   const std::string on = ", " + words::judged_words(input.calibration.judged_by).trace;

@@ -430,8 +430,7 @@ bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
 
 // Whether the columns act together as something other than one of them alone.
 bool may_act_together(const CandidateColumn& a, const CandidateColumn& b) {
-  return may_act_with_others(a) && may_act_with_others(b) &&
-         (a.levels.empty() || b.levels.empty()) && !run_alike(a, b);
+  return may_act_with_others(a) && may_act_with_others(b) && !run_alike(a, b);
 }
 
 int steps_from_what_is_recorded(const CandidateColumn& derived) {
@@ -447,6 +446,11 @@ std::vector<const CandidateColumn*> Candidates::of(const Cause& cause) const {
   for (const std::size_t c : cause.columns)
     all.push_back(&columns[c]);
   return all;
+}
+
+std::size_t Candidates::texts_of(const Cause& cause) const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      cause.columns, [&](std::size_t column) { return !columns[column].levels.empty(); }));
 }
 
 std::vector<std::string> Candidates::recorded_of(const Cause& cause) const {
@@ -533,7 +537,9 @@ std::vector<Cause> all_causes(const Candidates& candidates) {
     for (std::size_t b = a + 1; b < columns.size(); ++b)
       if ((every_pair || columns[a].in_law || columns[b].in_law) &&
           may_act_together(columns[a], columns[b]))
-        all.push_back({columns[b].levels.empty() ? std::vector{a, b} : std::vector{b, a}});
+        all.push_back({!columns[b].levels.empty() && columns[a].levels.empty()
+                           ? std::vector{b, a}
+                           : std::vector{a, b}});
   return all;
 }
 
@@ -578,6 +584,18 @@ std::optional<Cause> cause_in(const Candidates& to, const Cause& cause, const Ca
     column = at - to.columns.begin();
   }
   return found;
+}
+
+bool are_crossed(const Candidates& candidates, const Cause& texts,
+                 std::span<const std::size_t> first) {
+  const std::vector<const CandidateColumn*> of = candidates.of(texts);
+  if (!of[0]->between || !of[1]->between) return false;
+  std::map<std::pair<double, double>, std::size_t> tests; // by levels
+  for (const std::size_t block : first.first(first.size() - 1))
+    ++tests[{of[0]->values(static_cast<Index>(block)), of[1]->values(static_cast<Index>(block))}];
+  return tests.size() == of[0]->levels.size() * of[1]->levels.size() &&
+         std::ranges::all_of(
+             tests, [](const auto& pair) { return pair.second >= tuning::fewest_tests_of_pair; });
 }
 
 std::string cause_name(const Cause& cause, const Candidates& candidates) {
