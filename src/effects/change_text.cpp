@@ -133,21 +133,22 @@ private:
   // Describes the changes between the levels of the first text at each level of the second.
   std::string of_pairs() const {
     const EffectInput &x = e_.inputs[0], &y = e_.inputs[1];
+    const bool two = x.levels.size() == 2; // then the other level is named once
     std::vector<std::string> changes;
     for (const double level : level_numbers(y)) {
       Curve factor = factors({level_numbers(x), Curve(x.levels.size(), level)});
       add_own_effects(0, factor, level_numbers(x));
       std::vector<std::string> here;
       for (std::size_t i = 1; i < x.levels.size(); ++i)
-        here.push_back(x.levels[i] + " " + change(factor[0], factor[i]));
-      changes.push_back("with " + y.levels[static_cast<std::size_t>(level)] + " " +
-                        join(here, " and "));
+        here.push_back((two ? "" : x.levels[i] + " ") + change(factor[0], factor[i]));
+      changes.push_back(join(here, " and ") + " with " + y.levels[static_cast<std::size_t>(level)]);
     }
     if (changes.size() > levels_shown) {
       changes.resize(levels_shown);
       changes.push_back(fmt::format("{} more", y.levels.size() - levels_shown));
     }
-    return what() + " against " + x.levels[0] + ": " + join(changes, ", ");
+    return what() + (two ? " with " + x.levels[1] : "") + " against " + x.levels[0] + ": " +
+           join(changes, ", ");
   }
 
   // Adds what the same law's effects of this input alone do at the same site: a product changes

@@ -55,9 +55,12 @@ TEST(ChangeText, OfTwoTextsIsTheChangeByTheFirstAtEachLevelOfTheSecond) {
   const std::vector<effects::EffectInput> texts = {{"oil", {"A", "B"}}, {"coat", {"no", "TiN"}}};
   // 1 + a for A on no and for B on TiN, 1 - a for the others.
   const PlacedEffect pair = effect_of("category_pair", texts, {0.2});
-  EXPECT_EQ(change_text(pair), "friction against A: with no B -33 %, with TiN B +50 %");
+  EXPECT_EQ(change_text(pair), "friction with B against A: -33 % with no, +50 % with TiN");
   const std::vector<PlacedEffect> law = {effect_of("category", {texts[0]}, {0.5}), pair};
-  EXPECT_EQ(change_text(pair, law), "friction against A: with no B +0 %, with TiN B +125 %");
+  EXPECT_EQ(change_text(pair, law), "friction with B against A: +0 % with no, +125 % with TiN");
+  // Of three levels: 1 + a1 and 1 + a2 for A and B on no, 1 - a1 - a2 for C.
+  EXPECT_EQ(change_text(effect_of("category_pair", {{"oil", {"A", "B", "C"}}, texts[1]}, {0, 0.5})),
+            "friction against A: B +50 % and C -50 % with no, B -50 % and C +50 % with TiN");
 }
 
 TEST(ChangeText, OfTwoQuantitiesIsTheChangeByTheFirstAtTheEndsOfTheSecond) {
