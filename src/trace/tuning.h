@@ -326,6 +326,8 @@ inline constexpr double wanted_share_of_tau = 0.02;
 // standard error of the column's effect is then more than (1 - 0.9)^-1/2 = 3 times that of a design
 // that crosses the two.
 inline constexpr double aliased_share_of_variance = 0.9;
+// The same for a state that the law does not follow: one that the column sets.
+inline constexpr double same_share_of_variance = 0.999;
 // Largest variation of a setting within a test, as a share of its range.
 inline constexpr double held_share_of_range = 1e-3;
 // Range of a level's tests, as a share of their mean, that the text gives as one value.
