@@ -11,6 +11,7 @@
 #include "data/quantity.h"
 #include "effects/change_text.h"
 #include "trace/columns/candidates.h"
+#include "trace/judge/verdict.h"
 #include "trace/tuning.h"
 #include "words/numbers.h"
 
@@ -287,6 +288,10 @@ std::string structure_text(const Trace& t) {
     return fmt::format("single tests lie typically {:.2g} % off the law, repeats {:.2g} %: cause "
                        "unknown",
                        100 * t.scatter_between, 100 * *t.repeatability);
+  if (trace::repeats_differ(t))
+    return fmt::format("repeated tests scatter by {:.2g} %, more than any rig: something that no "
+                       "column records differs between them",
+                       100 * *t.repeatability);
   return "unexplained structure";
 }
 

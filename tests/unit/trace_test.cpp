@@ -182,13 +182,35 @@ TEST(Trace, ScatterIsJudgedByTheRepeatability) {
   EXPECT_THAT(t.remaining.note, HasSubstr("something that no column recorded differs"));
 }
 
-TEST(Trace, RepeatedTestsSayWhatTheRigRepeats) {
+TwinOptions with_repeats() {
   TwinOptions options = campaign("log_coulomb", 4);
   options.profile = "constant";
   options.bystanders = options.more_bystanders = false; // tests with other tools are not repeats
   options.design =
       parse_design("p=500,2750;psi=1,20;v=5,500;T=20,200;replicates=2;points=40", *options.design);
-  const Trace t = traced(options);
+  return options;
+}
+
+// Two oils of which no column tells.
+TEST(Trace, TestsThatScatterMoreThanAnyRigAreNoRepeats) {
+  Data data = data_of(with_repeats());
+  for (Dataset* part : {&data.training, &data.validation}) {
+    Random random(3, 1);
+    auto& tau = column(*part, "tau_R_MPa").values;
+    for (std::size_t e = 0; e < part->experiments.size(); ++e) {
+      const double oil = random.below(2) == 0 ? 0.7 : 1.3;
+      for (std::size_t i = part->first_row[e]; i < part->first_row[e + 1]; ++i)
+        tau[i] *= oil;
+    }
+  }
+  const Trace t = traced(data, "log_coulomb");
+  EXPECT_GT(t.repeatability.value_or(0), 0.2);
+  EXPECT_EQ(t.verdict, Verdict::unexplained_structure) << trace_text(t);
+  EXPECT_THAT(trace_text(t), HasSubstr("more than any rig: something that no column records"));
+}
+
+TEST(Trace, RepeatedTestsSayWhatTheRigRepeats) {
+  const Trace t = traced(with_repeats());
   EXPECT_EQ(t.repeatability_from, "repeats");
   ASSERT_TRUE(t.repeatability.has_value());
   // Of 16 pairs: three standard errors are 53 %.

@@ -86,17 +86,28 @@ std::string order_text(const OrderStructure& order) {
                      order.column);
 }
 
+bool repeats_differ(const Trace& t) {
+  return t.repeatability && t.repeatability_from != "given" &&
+         *t.repeatability > tuning::largest_repeatability;
+}
+
 void add_verdict(Trace& t, const Found& found, bool contradicted) {
   const bool excess = scatters_more(t);
   contradicted = contradicted && t.effects.empty();
   t.remaining.p_value = found.leftover.p_value;
-  t.remaining.structure = t.order.found || excess || t.validation_shift.found || contradicted;
+  t.remaining.structure =
+      t.order.found || excess || t.validation_shift.found || contradicted || repeats_differ(t);
   std::vector<std::string> notes;
   if (t.validation_shift.found) notes.push_back(worlds_sentence(t.validation_shift));
   if (t.order.found) notes.push_back(order_sentence(t.order));
   if (excess) notes.push_back(excess_sentence(t));
   if (contradicted)
     notes.push_back("what the training tests show, the validation tests contradict");
+  if (repeats_differ(t))
+    notes.push_back(
+        fmt::format("repeated tests scatter by {}, more than any rig: something that no "
+                    "column recorded differs between them",
+                    percent(*t.repeatability)));
   if (!excess) notes.push_back(scatter_sentence(t));
   t.remaining.note = join(notes, "; ");
   t.verdict = verdict_of(t);

@@ -9,4 +9,8 @@ namespace frictab::trace {
 // validation tests a finding is worse than none.
 void add_verdict(Trace& trace, const Found& found, bool contradicted);
 
+// Whether tests that count as repeats scatter by more than any rig: they differ in something that
+// no column records. The user's own repeatability is taken as it is.
+bool repeats_differ(const Trace& trace);
+
 } // namespace frictab::trace
