@@ -99,10 +99,10 @@ Explanation about(const models::Law& law) {
 }
 
 std::string what_it_takes(const effects::EffectForm& effect) {
+  if (effect.columns == 1)
+    return effect.texts == 0 ? "one column" : "a text column: one factor per level";
   const std::string count = effect.columns == 2 ? "two columns" : "three columns";
-  if (!effect.categorical) return effect.columns == 1 ? "one column" : count;
-  return effect.columns == 1 ? "a text column: one factor per level"
-                             : count + ", the first of text";
+  return count + (effect.texts == 0 ? "" : effect.texts == 1 ? ", the first of text" : " of text");
 }
 
 Explanation about(const effects::EffectForm& effect) {

@@ -42,7 +42,7 @@ constexpr std::size_t stuck_rows = 20, clipped_rows = 10;
 // Shares of a test's load below which nothing, or little, is pressed; smallest relevant offset as a
 // share of its friction.
 constexpr double no_load = 0.05, half_load = 0.5, offset_share = 0.1;
-constexpr std::size_t rows_without_contact = 10;
+constexpr std::size_t rows_without_contact = 5;
 // Share of a test's friction, and coefficient, that count as none, in at least so many rows.
 constexpr double still_share = 0.1, still_mu = 0.02;
 constexpr std::size_t rows_at_rest = 5;
@@ -535,7 +535,7 @@ Implausible force_offset(const Dataset& data) {
   if (tests == 0) return {};
   return {"", rows, data.rows(), fmt::format("{}, not 0{}", first, and_more(tests - 1, "test")),
           "a zero point that was not set? Take it off where the force is mapped: "
-          "{ formula = \"COLUMN - 3.2\" }"};
+          "{ formula = \"COLUMN - 3.2\" }, in the unit of the file"};
 }
 
 // Counts the rows with next to no friction at both ends of the part of a test under load.

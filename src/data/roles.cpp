@@ -351,6 +351,13 @@ private:
     return x.empty() ? std::nullopt : std::optional(xy / xx);
   }
 
+  // Whether a text names what differs between recordings by intent, even if each has its own.
+  static bool names_what_rubs(const std::string& plain) {
+    return has_match("lubri|(^|_)oil|grease|fluid|schmier|(^|_)fett|coating|beschicht|material|"
+                     "werkstoff|additiv|alloy|legierung",
+                     plain);
+  }
+
   Given of_text(const std::string& name, const Look& look) {
     const Given named = role_by_name(name, look.within);
     if (named.role == Role::ignore || named.role == Role::order || named.role == Role::outcome ||
@@ -360,11 +367,12 @@ private:
     const std::size_t words = look.words.size() - look.words.count("");
     if (look.is_constant()) return {Role::label, "one value in all tests"};
     const std::size_t usable = std::max<std::size_t>(2, units_ / 2);
-    if (look.words.size() > usable)
+    const bool by_recording = units_ < look.tests && look.words.size() <= units_;
+    if (look.words.size() > usable && !(by_recording && names_what_rubs(plain_name(name))))
       return {Role::ignore,
-              fmt::format("{}{} values in {} tests",
+              fmt::format("{}{} values in {} {}",
                           look.filled_tests == look.tests ? many_texts : "free text: ",
-                          look.words.size(), units_)};
+                          look.words.size(), units_, units_ < look.tests ? "recordings" : "tests")};
     if (4 * look.filled_tests < look.tests && 2 * words > look.filled_tests)
       return {Role::ignore,
               fmt::format("free text: a remark in {} of {} tests", look.filled_tests, look.tests)};

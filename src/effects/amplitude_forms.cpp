@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text.h"
 #include "effects/effect.h"
 #include "effects/natural_spline.h"
 
@@ -65,6 +66,64 @@ std::string factors_text(const PlacedEffect& effect) {
   for (std::size_t level = 1; level < x.levels.size(); ++level)
     text += fmt::format(", {} {:.4g}", x.levels[level], 1 + effect.parameters[level - 1]);
   return text;
+}
+
+// ---- one factor per pair of levels: a lubricant fails on one coating only ----
+
+// Number of free changes of a text column: those of its levels add up to 0.
+std::size_t free_changes(const EffectInput& text) {
+  return text.levels.size() - 1;
+}
+
+std::vector<Parameter> changes_of_pairs(const PlacedEffect& effect) {
+  const EffectInput &x = effect.inputs[0], &y = effect.inputs[1];
+  std::vector<Parameter> all;
+  for (std::size_t i = 0; i < free_changes(x); ++i)
+    for (std::size_t j = 0; j < free_changes(y); ++j)
+      all.push_back(amplitude(fmt::format("a{}", all.size() + 1),
+                              fmt::format("relative change of {} with {}, on top of what each does "
+                                          "by itself",
+                                          x.levels[i], y.levels[j])));
+  return all;
+}
+
+Expr sum_of(std::span<const Expr> terms) {
+  Expr sum = terms.front();
+  for (const Expr& term : terms.subspan(1))
+    sum = sum + term;
+  return sum;
+}
+
+// Appends the last level's value: together the levels change nothing.
+void balance(std::vector<Expr>& values) {
+  values.push_back(-sum_of(values));
+}
+
+// Returns the factor; the changes add up to 0 over the levels of either text, so that neither text
+// has an effect by itself.
+Expr factor_of_pair(const PlacedEffect& effect) {
+  const std::vector<Expr> changes = symbols_of(changes_of_pairs(effect));
+  const std::size_t across = free_changes(effect.inputs[1]);
+  std::vector<Expr> by_level;
+  for (std::size_t i = 0; i < changes.size(); i += across) {
+    std::vector<Expr> values(changes.begin() + static_cast<long>(i),
+                             changes.begin() + static_cast<long>(i + across));
+    balance(values);
+    by_level.push_back(value_by_level(Expr::symbol("x2"), values));
+  }
+  balance(by_level);
+  return 1.0 + value_by_level(Expr::symbol("x"), by_level);
+}
+
+std::string pairs_text(const PlacedEffect& effect) {
+  const EffectInput &x = effect.inputs[0], &y = effect.inputs[1];
+  const std::vector<Parameter> changes = changes_of_pairs(effect);
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < changes.size(); ++k)
+    parts.push_back(fmt::format("{} with {} {:.4g}", x.levels[k / free_changes(y)],
+                                y.levels[k % free_changes(y)], 1 + effect.parameters[k]));
+  return fmt::format("factors of {} with {}, balanced over either: {}", x.column, y.column,
+                     join(parts, ", "));
 }
 
 // ---- one slope per level: one coating suffers from heat, another does not ----
@@ -241,18 +300,29 @@ std::vector<EffectForm> amplitude_forms() {
            .title = "one factor per level",
            .formula = "1 + a_level",
            .parameters = {amplitude("a", "relative change between the first and the last level")},
-           .categorical = true,
+           .texts = 1,
            .parameters_of = changes_of_levels,
            .build = factor_of_level,
            .pattern = growing_pattern,
            .text = factors_text},
+          {.name = "category_pair",
+           .order = 29,
+           .title = "one factor per pair of levels",
+           .formula = "1 + a_level_level2",
+           .parameters = {amplitude("a", "relative change of the first pair of levels")},
+           .columns = 2,
+           .texts = 2,
+           .parameters_of = changes_of_pairs,
+           .build = factor_of_pair,
+           .pattern = growing_pattern,
+           .text = pairs_text},
           {.name = "category_slope",
            .order = 16,
            .title = "one slope per level",
            .formula = "1 + a_level (x2 - middle)/range",
            .parameters = {amplitude("a", "relative change of the last level over the range of x2")},
            .columns = 2,
-           .categorical = true,
+           .texts = 1,
            .parameters_of = slopes_of_levels,
            .build = factor_of_slope,
            .pattern = growing_pattern,
@@ -286,7 +356,7 @@ std::vector<EffectForm> amplitude_forms() {
            .formula = "1 + spline_level(x2)",
            .parameters = {amplitude("a", "relative change at a knot, of the last level")},
            .columns = 2,
-           .categorical = true,
+           .texts = 1,
            .parameters_of = values_of_levels,
            .build = factor_of_curves,
            .pattern = growing_half_waves,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -32,6 +33,7 @@ public:
       const Curve curve = along(0, {middle(0)});
       return what() + " " + change(curve.front(), curve.back()) + range(0) + extreme(curve);
     }
+    if (e_.form->texts == 2) return of_pairs();
     return of_two(is_text(0) ? 1 : 0, is_text(0) ? 0 : 1);
   }
 
@@ -104,12 +106,15 @@ private:
     return text;
   }
 
+  static std::vector<double> level_numbers(const EffectInput& text) {
+    std::vector<double> numbers(text.levels.size());
+    std::iota(numbers.begin(), numbers.end(), 0.0);
+    return numbers;
+  }
+
   std::string levels() const {
     const auto& names = e_.inputs[0].levels;
-    std::vector<double> number;
-    for (std::size_t level = 0; level < names.size(); ++level)
-      number.push_back(static_cast<double>(level));
-    const Curve factor = factors({number});
+    const Curve factor = factors({level_numbers(e_.inputs[0])});
     std::vector<std::string> changes;
     for (std::size_t level = 1; level < names.size(); ++level)
       changes.push_back(names[level] + " " + change(factor[0], factor[level]));
@@ -125,14 +130,35 @@ private:
     return what() + " against " + names[0] + ": " + join(changes, ", ") + more;
   }
 
+  // Describes the changes between the levels of the first text at each level of the second.
+  std::string of_pairs() const {
+    const EffectInput &x = e_.inputs[0], &y = e_.inputs[1];
+    const bool two = x.levels.size() == 2; // then the other level is named once
+    std::vector<std::string> changes;
+    for (const double level : level_numbers(y)) {
+      Curve factor = factors({level_numbers(x), Curve(x.levels.size(), level)});
+      add_own_effects(0, factor, level_numbers(x));
+      std::vector<std::string> here;
+      for (std::size_t i = 1; i < x.levels.size(); ++i)
+        here.push_back((two ? "" : x.levels[i] + " ") + change(factor[0], factor[i]));
+      changes.push_back(join(here, " and ") + " with " + y.levels[static_cast<std::size_t>(level)]);
+    }
+    if (changes.size() > levels_shown) {
+      changes.resize(levels_shown);
+      changes.push_back(fmt::format("{} more", y.levels.size() - levels_shown));
+    }
+    return what() + (two ? " with " + x.levels[1] : "") + " against " + x.levels[0] + ": " +
+           join(changes, ", ");
+  }
+
   // Adds what the same law's effects of this input alone do at the same site: a product changes
   // them.
-  void add_own_effects(std::size_t input, Curve& curve) const {
+  void add_own_effects(std::size_t input, Curve& curve, const std::vector<double>& places) const {
     for (const PlacedEffect& other : law_) {
       if (other.inputs.size() != 1 || other.acts_on != e_.acts_on ||
           other.inputs[0].column != e_.inputs[input].column)
         continue;
-      const Curve own = ChangeText(other, {}).factors({places_along(e_.inputs[input])});
+      const Curve own = ChangeText(other, {}).factors({places});
       for (std::size_t i = 0; i < curve.size(); ++i)
         curve[i] = e_.acts_on == ActsOn::tau ? curve[i] + own[i] : curve[i] * own[i];
     }
@@ -145,7 +171,7 @@ private:
       for (std::size_t i = 0; i < e_.inputs.size(); ++i)
         at.push_back(i == other ? value : middle(i));
       Curve curve = along(input, at);
-      add_own_effects(input, curve);
+      add_own_effects(input, curve, places_along(e_.inputs[input]));
       return change(curve.front(), curve.back());
     };
     std::vector<std::string> changes;

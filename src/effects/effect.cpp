@@ -108,6 +108,16 @@ Expr formula_of(const PlacedEffect& effect) {
   return effect.form->build ? effect.form->build(effect) : *effect.form->factor;
 }
 
+std::vector<std::string> level_names(const PlacedEffect& effect) {
+  std::vector<std::string> names = effect.inputs[0].levels;
+  if (effect.form->texts < 2) return names;
+  names.clear();
+  for (const std::string& first : effect.inputs[0].levels)
+    for (const std::string& second : effect.inputs[1].levels)
+      names.push_back(first + ", " + second);
+  return names;
+}
+
 std::vector<std::string> input_symbols(const EffectForm& form) {
   std::vector<std::string> names = {"x", "x2", "x3"};
   names.resize(form.columns);

@@ -95,7 +95,7 @@ struct EffectForm {
       parameters;                 // the amplitude first; the others have units of x, x2 or x3
   std::vector<Shape> shapes = {}; // one per parameter after the amplitude
   std::size_t columns = 1;
-  bool categorical = false;              // the first input is a text column, given by level numbers
+  std::size_t texts = 0; // the first so many inputs are text columns, given by level numbers
   std::optional<expr::Expr> factor = {}; // absent if `build` is set
   // For forms whose parameters depend on levels or knots: all are amplitudes, and `parameters`
   // above has one entry that represents them.
@@ -128,6 +128,9 @@ const EffectInput* input_of(const models::Parameter& parameter, const PlacedEffe
 std::string unit_of(const models::Parameter& parameter, const PlacedEffect& effect);
 // Returns the factor, 1 + ..., as a formula of x, x2, x3 and the names of the parameters.
 expr::Expr formula_of(const PlacedEffect& effect);
+// Returns the levels of a text input or, of two, the pairs of levels: "oil A, coated"; those of the
+// first level of the first come first.
+std::vector<std::string> level_names(const PlacedEffect& effect);
 // Returns x, x2, x3, as many as the form takes.
 std::vector<std::string> input_symbols(const EffectForm& form);
 

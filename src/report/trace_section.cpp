@@ -114,6 +114,21 @@ std::string tests_plot(const TestPoints& points, const svg::Axis& x_axis, const 
       title, "one dot per test, named under the pointer, with the standard error of its mean");
 }
 
+// Draws one dot per level, because nothing lies between levels.
+void draw_levels_of(const trace::TracedEffect& effect, svg::Plot& plot) {
+  const trace::EffectCurve& c = effect.curve;
+  const std::vector<std::string> names = effects::level_names(effect.placed);
+  std::vector<double> errors;
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < c.factor.size(); ++i) {
+    errors.push_back(c.high[i] - c.factor[i]);
+    texts.push_back(fmt::format("{}: {} +- {}", names[i], words::figures(c.factor[i]),
+                                words::figures(errors.back(), 2)));
+  }
+  plot.error_bars(c.x, c.factor, errors, "#1d4ed8");
+  plot.dots(c.x, c.factor, texts, 5, "#1d4ed8");
+}
+
 std::string curve_plot(const trace::TracedEffect& effect, const svg::Axis& x_axis) {
   const trace::EffectCurve& c = effect.curve;
   svg::Range range{1, 1};
@@ -127,9 +142,13 @@ std::string curve_plot(const trace::TracedEffect& effect, const svg::Axis& x_axi
   const svg::Axis y_axis = svg::nice_axis(range.low - margin, range.high + margin, 5, what);
   svg::Plot plot(plot_width, plot_height, x_axis, y_axis);
   if (!c.point_x.empty()) draw_cloud(plot, c.point_x, c.point_factor, x_axis, y_axis);
-  plot.line(c.x, c.low, {"#1d4ed8", 1, "4 3", true});
-  plot.line(c.x, c.high, {"#1d4ed8", 1, "4 3", true});
-  plot.line(c.x, c.factor, {"#1d4ed8", 2.5, "", true});
+  if (placed.form->texts > 0) {
+    draw_levels_of(effect, plot);
+  } else {
+    plot.line(c.x, c.low, {"#1d4ed8", 1, "4 3", true});
+    plot.line(c.x, c.high, {"#1d4ed8", 1, "4 3", true});
+    plot.line(c.x, c.factor, {"#1d4ed8", 2.5, "", true});
+  }
   return plot.text(
       "the effect",
       "its factor with a 95 % band, over partial residuals of the training experiments");
@@ -152,15 +171,24 @@ std::string effect_plots(const ReportInput& input, const trace::Trace& trace,
   const calibrate::InputColumns columns =
       calibrate::input_columns(law, law.inputs, input.validation);
   const effects::EffectInput& input_of_effect = effect.placed.inputs[0];
-  const auto column = static_cast<std::size_t>(
-      std::ranges::find(law.inputs, effects::symbol_of(input_of_effect.column)) -
-      law.inputs.begin());
-  const Values x = columns[column];
+  const auto values_of = [&](const effects::EffectInput& one) -> Values {
+    return columns[static_cast<std::size_t>(
+        std::ranges::find(law.inputs, effects::symbol_of(one.column)) - law.inputs.begin())];
+  };
+  std::vector<double> pairs; // numbers of pairs of levels of two texts
+  Values x = values_of(input_of_effect);
+  if (effect.placed.form->texts == 2) {
+    const effects::EffectInput& second = effect.placed.inputs[1];
+    for (std::size_t i = 0; i < x.size(); ++i)
+      pairs.push_back(static_cast<double>(second.levels.size()) * x[i] + values_of(second)[i]);
+    x = pairs;
+  }
   const std::vector<double> r0 = residuals_of(input, *own), r1 = residuals_of(input, *extended);
   const auto [low, high] = std::ranges::minmax_element(x);
-  const std::string label = axis_name(input_of_effect.column);
-  const svg::Axis x_axis = effect.placed.form->categorical
-                               ? svg::named_axis(input_of_effect.levels, label)
+  const std::string label = effect.placed.form->texts == 2 ? effects::columns_text(effect.placed)
+                                                           : axis_name(input_of_effect.column);
+  const svg::Axis x_axis = effect.placed.form->texts > 0
+                               ? svg::named_axis(effects::level_names(effect.placed), label)
                                : svg::nice_axis(std::min(*low, input_of_effect.low),
                                                 std::max(*high, input_of_effect.high), 5, label);
   const std::string on = ", " + words::judged_words(input.calibration.judged_by).trace;

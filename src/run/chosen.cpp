@@ -77,12 +77,21 @@ std::vector<const ModelFit*> simpler_laws(const calibrate::Calibration& calibrat
     return !fit.reference && &fit != &best && !is_constant(*fit.model.law) && !fit.network &&
            !fit.polynomial;
   };
+  Fits simpler;
+  for (const ModelFit& fit : calibration.fits)
+    if (is_simpler(fit)) simpler.push_back(&fit);
+  if (simpler.empty()) return simpler;
   Fits laws;
-  if (const ModelFit& fit = calibrate::recommended_fit(calibration); is_simpler(fit))
-    add_once(laws, fit);
-  if (const auto first = std::ranges::find_if(calibration.fits, is_simpler);
-      first != calibration.fits.end())
-    add_once(laws, *first);
+  const auto is_as_good = [&](const ModelFit* fit) {
+    const calibrate::Recommended& r = calibration.recommended;
+    const std::string& name = fit->model.law->name;
+    return name == r.law || std::ranges::find(r.as_good, name) != r.as_good.end();
+  };
+  const auto numbers = [](const ModelFit* fit) { return fit->model.law->parameters.size(); };
+  Fits as_good;
+  std::ranges::copy_if(simpler, std::back_inserter(as_good), is_as_good);
+  if (!as_good.empty()) add_once(laws, **std::ranges::min_element(as_good, {}, numbers));
+  add_once(laws, *simpler.front());
   return laws;
 }
 

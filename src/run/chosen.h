@@ -17,8 +17,8 @@ std::vector<const calibrate::ModelFit*> fits_to_trace(const calibrate::Calibrati
                                                       const trace::TraceOptions& options);
 
 // Returns laws of a closed form besides the best law, in which effects may show more clearly: the
-// recommended one, and the first in the ranking. A law found from data takes up much of what
-// differs between tests.
+// one with the fewest numbers among those as good as the recommended law, and the first in the
+// ranking. A law found from data takes up much of what differs between tests.
 std::vector<const calibrate::ModelFit*> simpler_laws(const calibrate::Calibration& calibration);
 
 // Returns the fit of this name ("best": the first candidate of the ranking; "recommended": see

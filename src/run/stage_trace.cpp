@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/comparison.h"
+#include "calibrate/experiment_errors.h"
 #include "calibrate/recommended.h"
 #include "calibrate/row_errors.h"
 #include "core/error.h"
@@ -52,22 +53,33 @@ bool put_before(const std::string& law, double error_MPa, std::vector<ModelFit>&
   return true;
 }
 
-// Takes the law with effects that predicts unseen tests best: a law that ranks first without
-// effects may be the wrong place for them.
+// Takes the simplest of the laws with effects that predict unseen tests best, to one standard
+// error: a law that ranks first without effects may be the wrong place for them, and one that bends
+// more than the others takes up a part of them.
 template <class TraceLaw>
-void try_simpler_laws(trace::Trace& best, const Calibration& calibration,
-                      const TraceLaw& trace_law) {
-  const std::string first = best.model;
-  const double error_MPa = best.after.validation.mae_MPa;
-  for (const ModelFit* fit : simpler_laws(calibration)) {
-    trace::Trace other = trace_law(*fit);
-    if (other.effects.empty() || other.unseen != best.unseen ||
-        !(other.after.validation.mae_MPa < best.after.validation.mae_MPa))
-      continue;
-    best = std::move(other);
-    best.chosen_over = first;
-    best.chosen_over_MPa = error_MPa;
+trace::Trace or_a_simpler_law(trace::Trace first, const Calibration& calibration,
+                              const data::Dataset& validation, const TraceLaw& trace_law) {
+  std::vector<trace::Trace> traces{std::move(first)};
+  for (const ModelFit* fit : simpler_laws(calibration))
+    if (trace::Trace other = trace_law(*fit);
+        !other.effects.empty() && other.unseen == traces.front().unseen)
+      traces.push_back(std::move(other));
+  std::vector<calibrate::LawErrors> errors;
+  std::vector<std::size_t> numbers;
+  for (const trace::Trace& one : traces) {
+    const ModelFit& law = one.extended;
+    errors.push_back({one.model, law.over_all.empty() ? calibrate::unseen_sums(law, validation)
+                                                      : calibrate::sums_of(law.over_all)});
+    numbers.push_back(calibrate::numbers_of(law, calibration.fits));
   }
+  trace::Trace& chosen =
+      *std::ranges::find(traces, calibrate::recommend(errors, numbers).law, &trace::Trace::model);
+  if (&chosen != &traces.front()) {
+    chosen.chosen_over = traces.front().model;
+    chosen.chosen_over_MPa = traces.front().after.validation.mae_MPa;
+    chosen.chosen_over_before_MPa = traces.front().before.validation.mae_MPa;
+  }
+  return std::move(chosen);
 }
 
 std::vector<trace::Trace> traces_of(const Calibration& calibration, const JobData& data,
@@ -84,9 +96,10 @@ std::vector<trace::Trace> traces_of(const Calibration& calibration, const JobDat
   };
   for (const ModelFit* fit : fits) {
     with_rows_in_memory(data, [&] {
-      traces.push_back(trace_law(*fit));
-      if (job.trace.models == trace::TraceOptions{}.models && !traces.back().effects.empty())
-        try_simpler_laws(traces.back(), calibration, trace_law);
+      trace::Trace found = trace_law(*fit);
+      if (job.trace.models == trace::TraceOptions{}.models && !found.effects.empty())
+        found = or_a_simpler_law(std::move(found), calibration, data.validation, trace_law);
+      traces.push_back(std::move(found));
     });
     progress.tick();
   }
@@ -119,7 +132,7 @@ void add_traced_laws(Calibration& calibration, std::vector<trace::Trace>& traces
         (!trace.effects.empty() && trace.improvement.interval.low > 0))
       overruled.push_back(trace.model);
     if (!trace.chosen_over.empty())
-      put_before(trace.chosen_over, trace.chosen_over_MPa, calibration.fits, trace);
+      put_before(trace.chosen_over, trace.chosen_over_before_MPa, calibration.fits, trace);
   }
   calibrate::add_recommended(calibration, input, overruled);
 }

@@ -25,6 +25,13 @@ void append_columns(MatrixXd& to, const MatrixXd& more) {
   to.rightCols(more.cols()) = more;
 }
 
+MatrixXd products(const MatrixXd& a, const MatrixXd& b) {
+  MatrixXd all(a.rows(), a.cols() * b.cols());
+  for (Index i = 0; i < a.cols(); ++i)
+    all.middleCols(i * b.cols(), b.cols()) = b.array().colwise() * a.col(i).array();
+  return all;
+}
+
 bool standardise(Eigen::VectorXd& values) {
   values.array() -= values.mean();
   const double size = root_mean_square(values);

@@ -32,6 +32,20 @@ namespace frictab::trace {
 namespace {
 
 constexpr std::size_t alternatives_shown = 8;
+constexpr std::size_t pairs_named = 3; // pairs of texts that were not searched
+
+// Notes pairs of texts of which too few tests have some pairs of levels.
+void note_pairs_not_searched(const Search& search, std::vector<std::string>& notes) {
+  const Candidates& candidates = search.candidates();
+  std::vector<std::string> pairs;
+  for (const Cause& cause : all_causes(candidates))
+    if (candidates.texts_of(cause) == 2 && !are_crossed(candidates, cause, search.first()))
+      pairs.push_back(cause_name(cause, candidates));
+  if (pairs.size() > pairs_named) pairs = {pairs.begin(), pairs.begin() + pairs_named};
+  if (!pairs.empty())
+    notes.push_back(fmt::format("{}, as not every pair of levels has {} tests{}", join(pairs, ", "),
+                                tuning::fewest_tests_of_pair, not_searched));
+}
 
 // Lists what was tried, and what would have been seen.
 Trace what_was_tried(const Found& found) {
@@ -48,12 +62,7 @@ Trace what_was_tried(const Found& found) {
   if (!search.candidates().constant.empty())
     trace.notes.push_back("never varied, so its influence is unknown: " +
                           join(search.candidates().constant, ", "));
-  std::vector<std::string> texts;
-  for (const CandidateColumn& column : search.candidates().columns)
-    if (!column.levels.empty() && column.between) texts.push_back(column.name);
-  if (texts.size() > 1)
-    trace.notes.push_back(
-        fmt::format("products of the texts {}{}", join(texts, ", "), not_searched));
+  note_pairs_not_searched(search, trace.notes);
   if (search.one_factor())
     trace.notes.push_back("the tests change one state at a time: what several do together no test "
                           "shows, nor what a law with effects is worth there");
@@ -176,7 +185,7 @@ std::vector<TracedEffect> effects_of(const Found& found, const Delivery& deliver
     effect.design = design_for(search, finding);
     effect.order_confounded = may_stand_for_time(found, cause);
     if (effect.order_confounded && effect.design.tests.empty())
-      effect.design = design_in_turn(search, cause);
+      effect.design = design_in_turn(search, cause, order_name(search));
     effect.gain_MPa = delivery.gain_MPa[i];
     effect.curve =
         effect_curve(search.campaign(), rival, search.sensitivities(), i, uncertainty.covariance);

@@ -186,10 +186,11 @@ struct BeforeAndAfter {
 struct Trace : BeforeAndAfter {
   std::string model;          // the law that was traced
   std::string extended_model; // name of the law with effects; empty: none was added
-  // The law that ranked first and was traced as well, and its error with effects of its own on the
-  // same unseen tests, which this law predicts better; empty: this one ranked first.
+  // The law that ranked first and was traced as well, and its errors on the same unseen tests, with
+  // effects of its own and before: this law predicts them better, or is simpler and no worse by more
+  // than one standard error. Empty: this one ranked first.
   std::string chosen_over;
-  double chosen_over_MPa = 0;
+  double chosen_over_MPa = 0, chosen_over_before_MPa = 0;
   Verdict verdict = Verdict::nothing_found;
   std::vector<TracedEffect> effects;
   TraceErrors as_calibrated; // by the calibration stage; `validation` is always on those tests

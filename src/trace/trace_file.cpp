@@ -66,7 +66,8 @@ void check_placed(const effects::PlacedEffect& p, const std::string& file) {
   bool fits = p.inputs.size() == p.form->columns;
   for (std::size_t i = 0; fits && i < p.form->knots.size() && i < p.inputs.size(); ++i)
     fits = p.form->knots[i] == 0 || ascend(p.inputs[i].knots);
-  fits = fits && (!p.form->categorical || !p.inputs[0].levels.empty());
+  for (std::size_t i = 0; fits && i < p.form->texts; ++i)
+    fits = !p.inputs[i].levels.empty();
   if (!fits || p.parameters.size() != effects::parameters_of(p).size())
     throw InputError({file, 0, 0}, "an effect has not the parts of its form", "trace again");
 }
@@ -250,6 +251,7 @@ static void describe(Fields& f, Trace& t) {
   f.null_if_empty("extended_model", t.extended_model);
   f.unless_default("chosen_over", t.chosen_over);
   f.unless_default("chosen_over_MPa", t.chosen_over_MPa);
+  f.unless_default("chosen_over_before_MPa", t.chosen_over_before_MPa);
   describe_verdict(f, t.verdict);
   f.known("alpha", t.alpha);
   f("effects", t.effects);

@@ -53,6 +53,9 @@ inline constexpr std::size_t quantile_intervals = 30;
 // have more than one state further from its median than this share of its range.
 inline constexpr double share_of_tests_changing_several = 0.05, changed_share_of_range = 0.2;
 inline constexpr Index fewest_tests_for_one_factor = 5;
+// Tests of each pair of levels from which on two texts may act together: of one test, its own
+// scatter would be that of the pair.
+inline constexpr std::size_t fewest_tests_of_pair = 2;
 // Central range of a number, as a share of its median, from which on it may act with others.
 inline constexpr double pair_spread_share_of_median = 0.2;
 
@@ -323,6 +326,8 @@ inline constexpr double wanted_share_of_tau = 0.02;
 // standard error of the column's effect is then more than (1 - 0.9)^-1/2 = 3 times that of a design
 // that crosses the two.
 inline constexpr double aliased_share_of_variance = 0.9;
+// The same for a state that the law does not follow: one that the column sets.
+inline constexpr double same_share_of_variance = 0.999;
 // Largest variation of a setting within a test, as a share of its range.
 inline constexpr double held_share_of_range = 1e-3;
 // Range of a level's tests, as a share of their mean, that the text gives as one value.

@@ -38,7 +38,7 @@ Inputs resolve(const TwinOptions& options, std::size_t effect, std::size_t tests
 // Whether the form needs level numbers. A form of one text column may also follow a hidden cause,
 // whose values are not levels.
 bool by_level_number(const effects::EffectForm& form) {
-  return form.categorical && form.columns == 1;
+  return form.texts == 1 && form.columns == 1;
 }
 
 std::vector<double> factors(const PlantedEffect& effect, const Inputs& rows,

@@ -78,7 +78,9 @@ void check_column(const EffectSpec& spec, const std::string& name, const TwinDra
   }
   const data::Column* column = draft.data.find(name);
   const bool text = column != nullptr && !column->levels.empty();
-  const bool categorical = effects::find_effect(spec.form)->categorical && name == spec.column;
+  const std::size_t texts = effects::find_effect(spec.form)->texts;
+  const bool categorical =
+      texts > 1 || (texts == 1 && name == spec.column); // the column that it takes is of text
   if (text && !categorical)
     faults.add({"--effect"},
                fmt::format("column '{}' holds text, form '{}' needs numbers", name, spec.form),

@@ -143,10 +143,17 @@ bool is_in_product(const TracedEffect& e, const Trace& t) {
          });
 }
 
-// Whether the effect corrects how the law follows a state.
-bool follows_state(const TracedEffect& e) {
+// Remark on an effect that corrects how the law follows a state.
+const char* on_top_of_law(const TracedEffect& e) {
   const data::Quantity* state = data::find_quantity(e.placed.inputs[0].column);
-  return e.placed.inputs.size() == 1 && state && state->state;
+  return e.placed.inputs.size() == 1 && state && state->state ? ", on top of the law's own" : "";
+}
+
+std::vector<effects::PlacedEffect> law_of(const Trace& t) {
+  std::vector<effects::PlacedEffect> law;
+  for (const TracedEffect& effect : t.effects)
+    law.push_back(effect.placed);
+  return law;
 }
 
 Section effect_section(const TracedEffect& e, const Trace& t, Detail detail) {
@@ -157,13 +164,8 @@ Section effect_section(const TracedEffect& e, const Trace& t, Detail detail) {
   Section section{"", "",
                   fmt::format("+ {}: {}, {}, {}, {}", cause_text(e), e.placed.form->name,
                               site_text(e.placed.acts_on), p_clause(e.p_value), gain)};
-  std::vector<effects::PlacedEffect> law;
-  for (const TracedEffect& other : t.effects)
-    law.push_back(other.placed);
-  section.say(effects::change_text(e.placed, law) + (differs ? ", but see its product"
-                                                     : follows_state(e)
-                                                         ? ", on top of the law's own"
-                                                         : ""));
+  section.say(effects::change_text(e.placed, law_of(t)) +
+              (differs ? ", but see its product" : on_top_of_law(e)));
   const Text formula = emphasis(effects::formula_text(e.placed)) + ": " + parameters_of(e);
   section.say(formula, "", detail == Detail::verbose ? Shown::everywhere : Shown::on_pages);
   std::vector<std::string> same, less;
@@ -339,8 +341,11 @@ void add_errors(Section& section, const Trace& t) {
   section.say(shown_by_validation(t));
   if (!t.chosen_over.empty())
     section.say(fmt::format("{} ranked first without effects; with effects it errs by {} MPa on "
-                            "the same tests",
-                            t.chosen_over, digits(t.chosen_over_MPa)));
+                            "the same tests{}",
+                            t.chosen_over, digits(t.chosen_over_MPa),
+                            t.chosen_over_MPa < t.after.validation.mae_MPa
+                                ? ", less by at most one standard error, with more numbers"
+                                : ""));
 }
 
 } // namespace
@@ -444,18 +449,31 @@ std::string design_in_short(const trace::Design& d) {
                      question_of(d), chance);
 }
 
+bool gain_is_certain(const Trace& t) {
+  return t.improvement.interval.low > 0;
+}
+
 // "error 150.0 -> 16.9 MPa on unseen tests, which saves 133.1 (95 %: 80.9 to 185.1)".
 std::string gained_in_short(const Trace& t) {
   const double after = t.after.validation.mae_MPa;
   const int decimals =
       after > 0 ? std::max(0, 2 - static_cast<int>(std::floor(std::log10(after)))) : 2;
   const std::string interval = interval_text(t.improvement.interval, decimals);
-  return fmt::format(
-      "error {} -> {} MPa on unseen tests, which {}", fixed(t.before.validation.mae_MPa, decimals),
-      fixed(after, decimals),
-      t.improvement.interval.low > 0
-          ? fmt::format("saves {} (95 %: {})", fixed(t.improvement.value_MPa, decimals), interval)
-          : fmt::format("may be chance (95 % of the gain: {})", interval));
+  return fmt::format("error {} -> {} MPa on unseen tests{}",
+                     fixed(t.before.validation.mae_MPa, decimals), fixed(after, decimals),
+                     gain_is_certain(t)
+                         ? fmt::format(", which saves {} (95 %: {})",
+                                       fixed(t.improvement.value_MPa, decimals), interval)
+                         : fmt::format(" (95 % of the gain: {})", interval));
+}
+
+// "oil (against A: B +12 %)"; the product of an effect says what both do.
+std::string effect_in_short(const TracedEffect& e, const Trace& t) {
+  if (is_in_product(e, t)) return cause_text(e);
+  std::string change = effects::change_text(e.placed, law_of(t));
+  if (constexpr std::string_view usual = "friction "; change.starts_with(usual))
+    change.erase(0, usual.size());
+  return fmt::format("{} ({}{})", cause_text(e), change, on_top_of_law(e));
 }
 
 std::string trace_in_short(const Trace& t) {
@@ -466,16 +484,14 @@ std::string trace_in_short(const Trace& t) {
   if (t.effects.empty()) return fmt::format("{}: {}{}", t.model, headline(t), aliases);
   std::vector<std::string> causes;
   for (const TracedEffect& effect : t.effects)
-    causes.push_back(cause_text(effect));
+    causes.push_back(effect_in_short(effect, t));
   const std::string named =
       causes.size() > shown ? count_of(causes.size(), "effect") : join(causes, ", ");
   const std::string open = suspect(t);
-  const std::string first = t.chosen_over.empty()
-                                ? ""
-                                : fmt::format(" ({} with effects of its own: {})", t.chosen_over,
-                                              digits(t.chosen_over_MPa));
   const auto as_time = std::ranges::find_if(t.effects, &TracedEffect::order_confounded);
-  return fmt::format("{} added to {}: {}; {}{}", named, t.model, gained_in_short(t),
+  return fmt::format("{}{} added to {}: {}; {}{}",
+                     gain_is_certain(t) ? "" : "proven, but not certain to help new tests: ", named,
+                     t.model, gained_in_short(t),
                      t.order.found ? trace::order_text(t.order)
                      : as_time != t.effects.end()
                          ? cause_text(*as_time) + " may stand for a drift in time instead"

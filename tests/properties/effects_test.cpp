@@ -35,7 +35,8 @@ PlacedEffect placed(const EffectForm& form, const std::vector<Spread>& of, doubl
     effect.inputs.push_back({effects::input_symbols(form)[i], {}, of[i].minimum, of[i].maximum});
     values.push_back({of[i].minimum, of[i].low, of[i].median, of[i].high, of[i].maximum});
   }
-  if (form.categorical) effect.inputs[0].levels = {"A", "B", "C"};
+  for (std::size_t i = 0; i < form.texts; ++i)
+    effect.inputs[i].levels = {"A", "B", "C"};
   effects::set_knots(effect, {values.begin(), values.end()});
   if (form.pattern) {
     effect.parameters = form.pattern(effect);
@@ -192,7 +193,7 @@ TEST(Effects, HoldEveryFormOnce) {
   EXPECT_EQ(join(effects::effect_names(), " "),
             "power exponential linear logarithmic arrhenius saturation hinge step bump stribeck "
             "periodic category product parabola hysteresis category_slope threshold2 recovery "
-            "product3 cosine ramp spline surface spline_by_level");
+            "product3 cosine ramp category_pair spline surface spline_by_level");
 }
 
 TEST(Effects, SpreadIgnoresWhatIsNotFinite) {

@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "calibrate/fit_law.h"
+#include "core/text.h"
+#include "data/recordings.h"
+#include "stats/blocks.h"
 #include "support/gain_campaign.h"
 #include "support/trace_text.h"
 #include "trace/columns/aliases.h"
+#include "trace/columns/candidates.h"
 #include "trace/trace_file.h"
 
 namespace frictab::aliases_test {
@@ -60,6 +64,92 @@ TEST(Aliases, ALabelAtOnePressureEachCannotBeToldFromIt) {
   EXPECT_THAT(aliases(data, ignored), IsEmpty());
   data.columns.back().role = data::Role::channel;
   EXPECT_THAT(aliases(data), IsEmpty()) << "no setting";
+}
+
+GainCampaign two_speeds() {
+  GainCampaign c = GainCampaign::spread(16, 4);
+  for (std::size_t e = 0; e < 16; ++e)
+    c.speed[e] = e % 2 ? 80 : 10;
+  return c;
+}
+
+TEST(Aliases, OfAStateThatTheLawDoesNotFollowAreColumnsThatSetIt) {
+  Dataset data = two_speeds().data();
+  add_setting(data, "operator", per_test([](std::size_t e) { return double(e % 2); }),
+              {"Kim", "Lee"});
+  add_setting(data, "nearly", per_test([](std::size_t e) { return double(e % 2 || e == 2); }),
+              {"A", "B"});
+  const auto found = trace::find_aliases(data, law(data, "coulomb"), {});
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(found[0].text, "operator cannot be distinguished from v_rel_mm_s: Kim only at 10, Lee "
+                           "only at 80; one test of Kim at 80 would");
+}
+
+trace::Candidates candidates(const Dataset& data) {
+  const std::vector<double> predicted(data.rows(), 50);
+  return trace::find_candidates(data, data, stats::make_blocks(data), predicted, {"sigma_n_MPa"},
+                                {});
+}
+
+TEST(Candidates, AreTheStateAndNotTheTextThatIsTheSame) {
+  Dataset data = two_speeds().data();
+  add_setting(data, "operator", per_test([](std::size_t e) { return double(e % 2); }),
+              {"Kim", "Lee"});
+  std::ranges::rotate(data.columns, data.columns.end() - 1); // before the states
+  const trace::Candidates found = candidates(data);
+  EXPECT_TRUE(contains(found.columns, "v_rel_mm_s", &trace::CandidateColumn::name));
+  EXPECT_FALSE(contains(found.columns, "operator", &trace::CandidateColumn::name));
+  EXPECT_THAT(found.notes, testing::Contains("operator is the same as v_rel_mm_s in these data"));
+}
+
+TEST(Candidates, AreNoTimesOfTheDay) {
+  for (const double start : {0.0, 33300.0}) {
+    Dataset data = two_speeds().data();
+    data::Column time{"time_s", "s", {}, {}};
+    for (std::size_t i = 0; i < data.rows(); ++i)
+      time.values.push_back(start + double(i));
+    data.columns.push_back(time);
+    const trace::Candidates found = candidates(data);
+    EXPECT_EQ(contains(found.columns, "time_s", &trace::CandidateColumn::name), start == 0);
+    EXPECT_TRUE(contains(found.columns, "time_since_start", &trace::CandidateColumn::name));
+  }
+}
+
+// Load steps: 50, 100 and 200 N by their number in each recording.
+TEST(Candidates, AreNoNumbersOfIntervalsThatAStateGoesWith) {
+  GainCampaign steps = GainCampaign::spread(15, 5), random = steps;
+  for (std::size_t e = 0; e < 15; ++e)
+    steps.pressure[e] = (500 + 30 * double(e / 3)) * std::pow(2, double(e % 3));
+  for (const bool stepped : {true, false}) {
+    Dataset data = (stepped ? steps : random).data();
+    std::vector<double> interval;
+    data.recording.clear();
+    for (std::size_t e = 0; e < 15; ++e) {
+      data.recording.push_back(e / 3);
+      interval.push_back(double(e % 3) + 1);
+    }
+    add_setting(data, data::interval_column, interval);
+    const trace::Candidates found = candidates(data);
+    EXPECT_NE(contains(found.columns, "interval", &trace::CandidateColumn::name), stepped);
+    if (stepped) {
+      EXPECT_THAT(found.notes,
+                  testing::Contains("interval, which goes with sigma_n_MPa: not searched"));
+    }
+  }
+}
+
+TEST(Aliases, OfTheRecordingAreTextsOfWhichEachLevelHasOne) {
+  Dataset data = GainCampaign::spread(16, 6).data();
+  data.recording.clear();
+  for (std::size_t e = 0; e < 16; ++e)
+    data.recording.push_back(e / 4);
+  add_setting(data, "oil", per_test([](std::size_t e) { return double(e / 4); }),
+              {"A", "B", "C", "D"});
+  add_setting(data, "shift", per_test([](std::size_t e) { return double(e / 2 % 2); }),
+              {"early", "late"}); // both in each
+  const auto found = aliases(data);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_THAT(found[0].text, HasSubstr("oil cannot be distinguished from the recording"));
 }
 
 TEST(Aliases, NumbersAreToldAsLevelsOrAsALine) {

@@ -136,17 +136,20 @@ TEST(FirstBox, NamesAnEffectWhoseGainIsNotCertain) {
   t.verdict = trace::Verdict::effect_added;
   trace::TracedEffect& effect = t.effects.emplace_back();
   effect.placed.form = effects::find_effect("linear");
-  effect.placed.inputs.emplace_back().column = "oil";
+  effect.placed.inputs = {{"Ra_um", {}, 0, 1}};
+  effect.placed.parameters = {0.25, 0, 1};
   t.before.validation.mae_MPa = 150;
   t.after.validation.mae_MPa = 16.9;
   t.improvement.value_MPa = 133.1;
   t.improvement.interval = {80.9, 185.1};
   EXPECT_THAT(box.text(),
-              HasSubstr("effects: oil added to coulomb: error 150.0 -> 16.9 MPa on unseen "
-                        "tests, which saves 133.1 (95 %: 80.9 to 185.1)"));
+              HasSubstr("effects: Ra_um (+25 % from 0 to 1) added to coulomb: error 150.0 -> 16.9 "
+                        "MPa on unseen tests, which saves 133.1 (95 %: 80.9 to 185.1)"));
   t.improvement.interval.low = -1;
-  EXPECT_THAT(box.text(), HasSubstr("16.9 MPa on unseen tests, which may be chance (95 % of the "
-                                    "gain: "));
+  EXPECT_THAT(box.text(),
+              HasSubstr("effects: proven, but not certain to help new tests: Ra_um (+25 % "
+                        "from 0 to 1) added to coulomb: error 150.0 -> 16.9 MPa on "
+                        "unseen tests (95 % of the gain: -1.0 to 185.1)"));
 }
 
 } // namespace frictab::answer_test

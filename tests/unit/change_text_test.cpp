@@ -51,6 +51,18 @@ TEST(ChangeText, OfALevelAndAQuantityIsOneChangePerLevel) {
             "friction with T_tool_C from 20 to 120: A +0 %, B +50 %");
 }
 
+TEST(ChangeText, OfTwoTextsIsTheChangeByTheFirstAtEachLevelOfTheSecond) {
+  const std::vector<effects::EffectInput> texts = {{"oil", {"A", "B"}}, {"coat", {"no", "TiN"}}};
+  // 1 + a for A on no and for B on TiN, 1 - a for the others.
+  const PlacedEffect pair = effect_of("category_pair", texts, {0.2});
+  EXPECT_EQ(change_text(pair), "friction with B against A: -33 % with no, +50 % with TiN");
+  const std::vector<PlacedEffect> law = {effect_of("category", {texts[0]}, {0.5}), pair};
+  EXPECT_EQ(change_text(pair, law), "friction with B against A: +0 % with no, +125 % with TiN");
+  // Of three levels: 1 + a1 and 1 + a2 for A and B on no, 1 - a1 - a2 for C.
+  EXPECT_EQ(change_text(effect_of("category_pair", {{"oil", {"A", "B", "C"}}, texts[1]}, {0, 0.5})),
+            "friction against A: B +50 % and C -50 % with no, B -50 % and C +50 % with TiN");
+}
+
 TEST(ChangeText, OfTwoQuantitiesIsTheChangeByTheFirstAtTheEndsOfTheSecond) {
   // 1 + a (x - x0)/w (x2 - y0)/w2: 1 at s = 0; from 1 to 1.5 at s = 20.
   EXPECT_EQ(change_text(
@@ -91,7 +103,8 @@ TEST(ChangeText, OfEveryFormHasNumbersAndTheNamesOfItsQuantities) {
     std::vector<std::vector<double>> values(form.columns, {1, 2, 4, 6, 9});
     for (std::size_t i = 0; i < form.columns; ++i)
       effect.inputs.push_back({"q" + std::to_string(i), {}, 1, 9});
-    if (form.categorical) effect.inputs[0].levels = {"A", "B"};
+    for (std::size_t i = 0; i < form.texts; ++i)
+      effect.inputs[i].levels = {"A", "B"};
     effects::set_knots(effect, {values.begin(), values.end()});
     const std::vector<effects::Spread> spreads(form.columns, {1, 2, 4, 6, 9});
     effect.parameters = form.pattern ? form.pattern(effect) : effects::start_values(form, spreads);

@@ -31,7 +31,8 @@ PlacedEffect effect(const char* form, ActsOn acts_on, double amplitude) {
       {"humidity_pct", {}, 30, 60}, {"Ra_um", {}, 0.1, 0.5}, {"film_um", {}, 1, 9}};
   const std::vector<effects::Spread> spreads = {
       {30, 35, 45, 55, 60}, {0.1, 0.2, 0.3, 0.4, 0.5}, {1, 2, 5, 8, 9}};
-  if (effect.form->categorical) effect.inputs = {{"tool", {"A", "B", "C"}}};
+  const std::vector<effects::EffectInput> texts = {{"tool", {"A", "B", "C"}}, {"oil", {"X", "Y"}}};
+  effect.inputs.assign(texts.begin(), texts.begin() + static_cast<long>(effect.form->texts));
   for (std::size_t i = 0; effect.inputs.size() < effect.form->columns; ++i)
     effect.inputs.push_back(numbers[i]);
   std::vector<std::vector<double>> values;
@@ -142,7 +143,7 @@ TEST(ExtendedLaw, AnAddedEffectFadesWithThePressure) {
 TEST(ExtendedLaw, HoldsAnEffectAtTheEndsOfWhereItWasLearned) {
   const Law& coulomb = *find_law("coulomb");
   for (const effects::EffectForm& form : effects::all_effects()) {
-    if (form.categorical) continue;
+    if (form.texts > 0) continue;
     const PlacedEffect some[] = {effect(form.name.c_str(), ActsOn::mu, 0.3)};
     const Law extended =
         extended_law(coulomb, {}, start_values(coulomb.parameters), some, "extended");

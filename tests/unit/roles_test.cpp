@@ -605,4 +605,19 @@ TEST(Roles, ANameThatTheDataDoNotHaveIsAFault) {
   }
 }
 
+// Three oils, a file each, measured at six speeds: not a remark, but what the files differ by.
+TEST(Roles, OfATextOfEachRecordingIsALabelWhereItNamesWhatRubs) {
+  Rig rig(1, 18, 20);
+  for (std::size_t e = 0; e < 18; ++e)
+    rig.data.recording.push_back(e / 6);
+  for (const char* name : {"Lubricant", "Title"}) {
+    rig.add(name, [](std::size_t test, std::size_t) { return double(test / 6); });
+    rig.data.columns.back().levels = {"a", "b", "c"};
+  }
+  const Dataset data = with_roles(rig.data);
+  EXPECT_EQ(role_of(data, "Lubricant"), Role::label);
+  EXPECT_EQ(role_of(data, "Title"), Role::ignore);
+  EXPECT_THAT(data.find("Title")->why, HasSubstr("3 values in 3 recordings"));
+}
+
 } // namespace frictab::roles_test

@@ -240,6 +240,52 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"form=logarithmic,column=dwell_s,strength=0.6", "dwell_s", ActsOn::mu}),
     name_of);
 
+// Adds two texts, drawn for each test, and changes friction by the pair of their levels alone: up
+// where both are the first or both the second.
+void add_pair(Dataset& data, double change, std::uint64_t seed) {
+  Random random(seed, 1);
+  Column oil{"oil", "", {}, {"A", "B"}}, coat{"coat", "", {}, {"none", "TiN"}};
+  auto& tau = column(data, "tau_R_MPa").values;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const bool b = random.below(2) == 1, tin = random.below(2) == 1;
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+      oil.values.push_back(b);
+      coat.values.push_back(tin);
+      tau[i] *= b == tin ? 1 + change : 1 - change;
+    }
+  }
+  data.columns.push_back(oil);
+  data.columns.push_back(coat);
+}
+
+TEST(LongTrace, TwoTextsThatActOnlyTogetherAreFound) {
+  Data data = data_of(few_columns(campaign("coulomb", 5)));
+  add_pair(data.training, 0.12, 1);
+  add_pair(data.validation, 0.12, 2);
+  const Trace t = traced(data, "coulomb");
+  ASSERT_EQ(t.effects.size(), 1u) << trace_text(t);
+  EXPECT_EQ(t.effects[0].placed.form->name, "category_pair");
+  EXPECT_EQ(effects::level_names(t.effects[0].placed),
+            (std::vector<std::string>{"none, A", "none, B", "TiN, A", "TiN, B"}));
+  EXPECT_NEAR(t.effects[0].placed.parameters[0], 0.12, 0.03);
+  EXPECT_EQ(t.effects[0].curve.factor.size(), 4u);
+  EXPECT_THAT(t.notes, Not(Contains(HasSubstr("oil"))));
+}
+
+// Of a batch with another supplier no test shows anything.
+TEST(LongTrace, TwoTextsOfWhichPairsWereNotTestedAreNotSearched) {
+  Data data = data_of(few_columns(campaign("coulomb", 5)));
+  for (Dataset* part : {&data.training, &data.validation}) {
+    add_pair(*part, 0, 1);
+    Column &oil = column(*part, "oil"), &coat = column(*part, "coat");
+    for (std::size_t i = 0; i < oil.values.size(); ++i)
+      if (oil.values[i] == 1) coat.values[i] = 1;
+  }
+  const Trace t = traced(data, "coulomb");
+  EXPECT_THAT(t.notes,
+              Contains("coat x oil, as not every pair of levels has 2 tests: not searched"));
+}
+
 TEST(LongTrace, DriftAlongADeclaredOrderIsReportedNotShipped) {
   const TwinOptions options =
       campaign("log_coulomb", 6, "form=linear,column=latent,latent=drift,strength=0.6");

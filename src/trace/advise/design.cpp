@@ -291,28 +291,37 @@ bool are_of_same_columns(const Candidates& candidates, const Cause& a, const Cau
   return std::ranges::is_permutation(candidates.recorded_of(a), candidates.recorded_of(b));
 }
 
-// The two values of a setting that are furthest apart, and the difference of a test's gain between
-// them: by a line through all tests or, for text, by the means of levels.
+// The two values of a setting that are furthest apart, the difference of a test's gain between them
+// (by a line through all tests or, for text, by the means of levels), and the scatter of the gains
+// that this leaves.
 struct Ends {
   std::size_t low = 0, high = 0; // values of the setting
-  double apart = 0;
+  double apart = 0, scatter = 0;
 };
+
+double scatter_of(const VectorXd& left) {
+  return left.norm() / std::sqrt(static_cast<double>(left.size()));
+}
 
 Ends ends_by_line(const Setting& setting, const VectorXd& x, const VectorXd& gain) {
   const VectorXd spread = x.array() - x.mean();
   const double slope = spread.dot(gain) / std::max(spread.squaredNorm(), tuning::smallest_divisor);
-  return {0, setting.values.size() - 1, std::abs(slope) * (x.maxCoeff() - x.minCoeff())};
+  return {0, setting.values.size() - 1, std::abs(slope) * (x.maxCoeff() - x.minCoeff()),
+          scatter_of((gain.array() - gain.mean()).matrix() - slope * spread)};
 }
 
 // Leaves out levels without a training test (all of theirs are held out), which have no mean.
 Ends ends_by_level(const Setting& setting, const VectorXd& x, const VectorXd& gain) {
   std::vector<std::pair<double, std::size_t>> means; // with the level's index in the setting
+  VectorXd left = gain;
   for (std::size_t level = 0; level < setting.values.size(); ++level) {
     const Eigen::ArrayXd here = (x.array() == setting.values[level]).cast<double>();
-    if (here.sum() > 0) means.emplace_back((here * gain.array()).sum() / here.sum(), level);
+    if (!(here.sum() > 0)) continue;
+    means.emplace_back((here * gain.array()).sum() / here.sum(), level);
+    left.array() -= means.back().first * here;
   }
   const auto [low, high] = std::ranges::minmax_element(means);
-  return {low->second, high->second, high->first - low->first};
+  return {low->second, high->second, high->first - low->first, scatter_of(left)};
 }
 
 } // namespace
@@ -339,7 +348,8 @@ Design design_for_lead(const Search& search, const effects::PlacedEffect& effect
   return worthwhile(std::move(design));
 }
 
-Design design_in_turn(const Search& search, const Cause& cause, std::optional<double> scatter) {
+Design design_in_turn(const Search& search, const Cause& cause, const std::string& other,
+                      std::optional<double> scatter) {
   Design design;
   if (cause.is_joint()) return design;
   const CandidateColumn& column = search.candidates().first_of(cause);
@@ -351,7 +361,7 @@ Design design_in_turn(const Search& search, const Cause& cause, std::optional<do
   const VectorXd gain = test_gains(in.training, calibrate::predict(in.fit.model, in.training)).gain;
   const Ends ends =
       column.levels.empty() ? ends_by_line(setting, x, gain) : ends_by_level(setting, x, gain);
-  if (!scatter) scatter = std::sqrt((gain.array() - gain.mean()).square().mean());
+  if (!scatter) scatter = ends.scatter;
   const auto standardised = [&](double tests) {
     return ends.apart / (2 * std::max(*scatter, tuning::smallest_divisor) / std::sqrt(tests));
   };
@@ -366,8 +376,8 @@ Design design_in_turn(const Search& search, const Cause& cause, std::optional<do
     design.tests.push_back({setting.text[i % 2 == 0 ? ends.low : ends.high]});
   design.columns = {setting.column};
   design.like = "each other, run in this order";
-  const std::string& order = search.candidates().order_column;
-  design.settles = {cause_name(cause, search.candidates()), order.empty() ? "time" : order};
+  design.settles = {cause_name(cause, search.candidates())};
+  if (!other.empty()) design.settles.push_back(other);
   design.probability = probability(tests);
   design.tests_needed = std::ceil(
       std::pow((tuning::two_sided_std_errors + gsl_cdf_ugaussian_Pinv(tuning::wanted_power)) /

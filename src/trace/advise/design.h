@@ -26,10 +26,12 @@ Design design_for(const Search& search, const Finding& finding);
 Design design_for_lead(const Search& search, const effects::PlacedEffect& effect,
                        const Cause& cause, double threshold);
 
-// Designs tests for a cause that the order of tests explains as well: two values of its column in
-// alternation, because a drift over the order hardly follows such a pattern; as many as distinguish
-// the two, given `scatter`, the relative scatter of test means (by default that about the
-// calibrated law). Returns no tests for a pair of columns, or for a column that cannot be set.
-Design design_in_turn(const Search& search, const Cause& cause, std::optional<double> scatter = {});
+// Designs tests for a cause by two values of its column in alternation, because a drift over the
+// order of tests hardly follows such a pattern; as many as distinguish the two, given `scatter`,
+// the relative scatter of test means (by default the part that the calibrated law and the cause
+// leave). `other`: what may explain it as well, as the order of tests; empty: chance. Returns no
+// tests for a pair of columns, or for a column that cannot be set.
+Design design_in_turn(const Search& search, const Cause& cause, const std::string& other,
+                      std::optional<double> scatter = {});
 
 } // namespace frictab::trace

@@ -2,6 +2,7 @@
 #include "trace/advise/effect_curve.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/columns.h"
 #include "effects/extended_law.h"
@@ -19,8 +20,8 @@ constexpr std::size_t bins = 5; // partial residuals per experiment
 std::vector<double> plot_positions(const effects::PlacedEffect& effect) {
   std::vector<double> x;
   const effects::EffectInput& input = effect.inputs[0];
-  if (effect.form->categorical) {
-    for (std::size_t level = 0; level < input.levels.size(); ++level)
+  if (effect.form->texts > 0) {
+    for (std::size_t level = 0; level < effects::level_names(effect).size(); ++level)
       x.push_back(static_cast<double>(level));
     return x;
   }
@@ -32,7 +33,15 @@ std::vector<double> plot_positions(const effects::PlacedEffect& effect) {
 // Factor along x; the other inputs are fixed at three quarters of their ranges.
 FactorOnRows factor_along(const effects::PlacedEffect& effect, const std::vector<double>& x) {
   std::vector<std::vector<double>> columns{x};
-  for (std::size_t i = 1; i < effect.inputs.size(); ++i)
+  if (effect.form->texts == 2) {
+    columns.emplace_back(x.size());
+    const auto across = static_cast<double>(effect.inputs[1].levels.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      columns[0][i] = std::floor(x[i] / across);
+      columns[1][i] = x[i] - across * columns[0][i];
+    }
+  }
+  for (std::size_t i = columns.size(); i < effect.inputs.size(); ++i)
     columns.emplace_back(x.size(), (1 - tuning::place_of_other_inputs) * effect.inputs[i].low +
                                        tuning::place_of_other_inputs * effect.inputs[i].high);
   return factor_on_rows(effect, pointers(columns), x.size());

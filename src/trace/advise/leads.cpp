@@ -101,6 +101,8 @@ void add_undelivered(Trace& trace, const Found& found, const Delivery& delivery)
     lead.why = against.why;
     if (against.by_validation) lead.why += not_varied(search.input(), lead.columns);
     if (trace.leads.empty()) lead.design = design_for(search, finding);
+    if (trace.leads.empty() && lead.design.tests.empty() && lead.between)
+      lead.design = design_in_turn(search, finding.cause(), "");
     trace.leads.push_back(std::move(lead));
   }
 }
@@ -148,7 +150,8 @@ void add_confounded(Trace& trace, const Found& found) {
                                  : "a drift over the order of tests explains it as well",
                     found.order.column);
     if (trace.leads.empty())
-      lead.design = design_in_turn(found.search, cause, trace.scatter_between);
+      lead.design =
+          design_in_turn(found.search, cause, order_name(found.search), trace.scatter_between);
     // without the limit on the number of leads
     add_lead(trace, std::move(lead), trace.leads.size() + 1);
   }

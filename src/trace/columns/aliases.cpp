@@ -44,11 +44,12 @@ bool may_act(const Column& column, const TraceOptions& options) {
          column.name != data::interval_column && !contains(options.ignore, column.name);
 }
 
-// Test means of a state of the law.
+// Test means of a state.
 struct State {
   std::string name;
   std::vector<double> means; // per test
   std::vector<double> at;    // the means or their logarithms
+  bool in_law = false;
 };
 
 // Whether the tests were run at different values: not where their means differ little, or by a
@@ -64,11 +65,16 @@ bool differs_between_tests(const Dataset& data, const State& state) {
 std::vector<State> states_of(const Dataset& data, const models::Model& model) {
   models::Conventions unlimited = model.conventions;
   unlimited.shear_limit = false;
+  const std::vector<std::string> inputs = models::inputs(*model.law, unlimited);
   std::vector<State> states;
-  for (const std::string& name : models::inputs(*model.law, unlimited)) {
+  for (const Column& column : data.columns) {
+    const std::string& name = column.name;
     const data::Quantity* quantity = data::find_quantity(name);
-    if (!quantity || !quantity->state || name == "s_mm" || !data.has(name)) continue;
-    State state{name, test_means(data, data.values(name)), {}};
+    const bool in_law = contains(inputs, name);
+    // The flow stress follows from the material.
+    if (!quantity || !quantity->state || name == "s_mm" || (name == "sigma_f_MPa" && !in_law))
+      continue;
+    State state{name, test_means(data, column.values), {}, in_law};
     if (!differs_between_tests(data, state)) continue;
     const bool log = quantity->log_axis && *std::ranges::min_element(state.means) > 0;
     for (const double mean : state.means)
@@ -189,6 +195,16 @@ std::string order_text(const State& state) {
   return fmt::format("they change together; tests at the {} of the first ones would", state.name);
 }
 
+// Whether each level of a text was tested in one recording only.
+bool names_recordings(const Column& column, const std::vector<double>& setting,
+                      const data::Units& units) {
+  if (column.levels.empty() || units.count == setting.size()) return false;
+  std::map<double, std::size_t> recording;
+  for (std::size_t e = 0; e < setting.size(); ++e)
+    if (recording.emplace(setting[e], units.of[e]).first->second != units.of[e]) return false;
+  return recording.size() > 1;
+}
+
 } // namespace
 
 std::vector<Alias> find_aliases(const Dataset& training, const models::Model& model,
@@ -201,13 +217,21 @@ std::vector<Alias> find_aliases(const Dataset& training, const models::Model& mo
     if (!may_act(column, options)) continue;
     const std::vector<double> setting = setting_of(column, training);
     if (setting.empty()) continue;
+    if (names_recordings(column, setting, data::units_of(training)))
+      aliases.push_back(
+          {column.name, "the recording", 1,
+           fmt::format("{} cannot be distinguished from the recording: each of its "
+                       "levels was tested in one; a second recording of one of them would",
+                       column.name)});
     const std::size_t levels = by_level(setting, setting).size();
     const bool few = 2 * levels <= tests;
     if (levels < 2 || (!few && !column.levels.empty())) continue;
     for (const State& state : states) {
       const double by_levels = few ? explained_by_levels(setting, state.at) : 0;
       const double by_line = column.levels.empty() ? explained_by_line(setting, state.at) : 0;
-      if (std::max(by_levels, by_line) <= tuning::aliased_share_of_variance) continue;
+      if (std::max(by_levels, by_line) <=
+          (state.in_law ? tuning::aliased_share_of_variance : tuning::same_share_of_variance))
+        continue;
       const std::string how = data::is_order(column) ? order_text(state)
                               : by_levels > tuning::aliased_share_of_variance
                                   ? levels_text(column, setting, state)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -21,6 +22,7 @@
 #include "data/derived.h"
 #include "data/options.h"
 #include "data/quantity.h"
+#include "data/recordings.h"
 #include "data/roles.h"
 #include "data/time_stamps.h"
 #include "stats/projection.h"
@@ -135,8 +137,10 @@ public:
   Candidates run() {
     check_names();
     find_order();
-    for (const Column& column : training_.columns)
-      if (allowed(column)) add_recorded(column);
+    // States first: of two columns that are the same, the state is the cause.
+    for (const bool states : {true, false})
+      for (const Column& column : training_.columns)
+        if (is_state(column.name) == states && allowed(column)) add_recorded(column);
     for (const data::DerivedQuantity& quantity : data::derived_quantities())
       if (possible(quantity)) add_derived(quantity);
     return std::move(found_);
@@ -269,10 +273,63 @@ private:
       found_.constant.push_back(column.name);
       return false;
     }
+    if (column.name == "time_s" && is_clock(column))
+      return skip(fmt::format("time_s, the time of a clock, for which time_since_start stands{}",
+                              not_searched));
+    if (column.name == data::interval_column)
+      if (const std::string state = state_of_intervals(column); !state.empty())
+        return skip(fmt::format("{}, which goes with {}{}", column.name, state, not_searched));
     const auto in_validation = validation_columns_.find(column.name);
     if (in_validation == validation_columns_.end())
       return skip(column.name + " is not in the validation data: left out");
     return is_filled(column, *in_validation->second);
+  }
+
+  // Whether a time is that of the day or of the rig: every test begins later than the longest
+  // takes.
+  bool is_clock(const Column& time) const {
+    double first = std::numeric_limits<double>::infinity(), longest = 0;
+    for (std::size_t e = 0; e < training_.experiments.size(); ++e) {
+      const Rows rows = of_test(training_, e, time.values);
+      first = std::min(first, rows.front());
+      longest = std::max(longest, rows.back() - rows.front());
+    }
+    return first > longest;
+  }
+
+  // Name of a state that is set by the number of the interval in a recording, as in load steps:
+  // the state is the cause, not its number. Empty: none is.
+  std::string state_of_intervals(const Column& interval) const {
+    const std::vector<std::size_t> recording = data::units_of(training_).of;
+    for (const Column& column : training_.columns) {
+      if (!is_state(column.name) || is_constant(column.values)) continue;
+      std::vector<double> change = test_means(training_, column.values);
+      const bool ratios = *std::ranges::min_element(change) > 0;
+      std::map<std::size_t, double> reference; // of each recording, its first interval
+      for (std::size_t e = 0; e < change.size(); ++e) {
+        const double first = reference.emplace(recording[e], change[e]).first->second;
+        change[e] = ratios ? std::log(change[e] / first) : change[e] - first;
+      }
+      std::map<double, std::pair<double, double>> of_number; // sum and number of tests
+      for (std::size_t e = 0; e < change.size(); ++e) {
+        auto& [sum, tests] = of_number[interval.values[training_.first_row[e]]];
+        sum += change[e];
+        ++tests;
+      }
+      double left = 0, all = 0;
+      for (std::size_t e = 0; e < change.size(); ++e) {
+        const auto& [sum, tests] = of_number.at(interval.values[training_.first_row[e]]);
+        left += std::pow(change[e] - sum / tests, 2);
+        all += std::pow(change[e], 2);
+      }
+      if (all > 0 && left < (1 - tuning::aliased_share_of_variance) * all) return column.name;
+    }
+    return "";
+  }
+
+  static bool is_state(const std::string& name) {
+    const data::Quantity* known = data::find_quantity(name);
+    return known && known->state && name != "s_mm";
   }
 
   // Notes why a column is not searched.
@@ -323,12 +380,7 @@ private:
     column.between = column.is_order ? column.is_wear : !derived && !course;
     column.in_law = contains(inputs_, effects::symbol_of(name));
     found_.by_symbol[effects::symbol_of(name)] = column.values;
-    const double at = standing(column.values, golden_);
-    if (const CandidateColumn* twin = twin_of(column.values, at)) {
-      found_.notes.push_back(name + " is the same as " + twin->name + " in these data");
-      return;
-    }
-    keep(std::move(column), at);
+    keep(std::move(column));
   }
 
   bool is_reading(const std::string& name) const {
@@ -349,7 +401,15 @@ private:
     return first < found_.columns.size() ? &found_.columns[first] : nullptr;
   }
 
-  void keep(CandidateColumn column, double at) {
+  // Keeps a column unless it is the same as an earlier one; texts of more than two levels are not
+  // compared, as their numbers mean nothing.
+  void keep(CandidateColumn column) {
+    const double at = standing(column.values, golden_);
+    if (column.levels.size() <= 2)
+      if (const CandidateColumn* twin = twin_of(column.values, at)) {
+        found_.notes.push_back(column.name + " is the same as " + twin->name + " in these data");
+        return;
+      }
     standings_.emplace(at, found_.columns.size());
     found_.columns.push_back(std::move(column));
   }
@@ -373,8 +433,7 @@ private:
     text.between = !text.within;
     text.is_order = is_order(column.name);
     found_.by_symbol[effects::symbol_of(column.name)] = text.values;
-    const double at = standing(text.values, golden_);
-    keep(std::move(text), at);
+    keep(std::move(text));
   }
 
   bool possible(const data::DerivedQuantity& quantity) const {
@@ -430,8 +489,7 @@ bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
 
 // Whether the columns act together as something other than one of them alone.
 bool may_act_together(const CandidateColumn& a, const CandidateColumn& b) {
-  return may_act_with_others(a) && may_act_with_others(b) &&
-         (a.levels.empty() || b.levels.empty()) && !run_alike(a, b);
+  return may_act_with_others(a) && may_act_with_others(b) && !run_alike(a, b);
 }
 
 int steps_from_what_is_recorded(const CandidateColumn& derived) {
@@ -447,6 +505,11 @@ std::vector<const CandidateColumn*> Candidates::of(const Cause& cause) const {
   for (const std::size_t c : cause.columns)
     all.push_back(&columns[c]);
   return all;
+}
+
+std::size_t Candidates::texts_of(const Cause& cause) const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      cause.columns, [&](std::size_t column) { return !columns[column].levels.empty(); }));
 }
 
 std::vector<std::string> Candidates::recorded_of(const Cause& cause) const {
@@ -533,7 +596,9 @@ std::vector<Cause> all_causes(const Candidates& candidates) {
     for (std::size_t b = a + 1; b < columns.size(); ++b)
       if ((every_pair || columns[a].in_law || columns[b].in_law) &&
           may_act_together(columns[a], columns[b]))
-        all.push_back({columns[b].levels.empty() ? std::vector{a, b} : std::vector{b, a}});
+        all.push_back({!columns[b].levels.empty() && columns[a].levels.empty()
+                           ? std::vector{b, a}
+                           : std::vector{a, b}});
   return all;
 }
 
@@ -580,6 +645,18 @@ std::optional<Cause> cause_in(const Candidates& to, const Cause& cause, const Ca
   return found;
 }
 
+bool are_crossed(const Candidates& candidates, const Cause& texts,
+                 std::span<const std::size_t> first) {
+  const std::vector<const CandidateColumn*> of = candidates.of(texts);
+  if (!of[0]->between || !of[1]->between) return false;
+  std::map<std::pair<double, double>, std::size_t> tests; // by levels
+  for (const std::size_t block : first.first(first.size() - 1))
+    ++tests[{of[0]->values(static_cast<Index>(block)), of[1]->values(static_cast<Index>(block))}];
+  return tests.size() == of[0]->levels.size() * of[1]->levels.size() &&
+         std::ranges::all_of(
+             tests, [](const auto& pair) { return pair.second >= tuning::fewest_tests_of_pair; });
+}
+
 std::string cause_name(const Cause& cause, const Candidates& candidates) {
   std::vector<std::string> names;
   for (const CandidateColumn* column : candidates.of(cause))
@@ -590,7 +667,10 @@ std::string cause_name(const Cause& cause, const Candidates& candidates) {
 int complexity(const Cause& cause, const Candidates& candidates) {
   int steps = 2 * static_cast<int>(cause.columns.size() - 1);
   for (const CandidateColumn* column : candidates.of(cause))
-    if (column->derived) steps += steps_from_what_is_recorded(*column);
+    if (column->derived)
+      steps += steps_from_what_is_recorded(*column);
+    else if (column->name == "time_s") // something else changes with it
+      ++steps;
   return steps;
 }
 

@@ -46,7 +46,7 @@ inline constexpr const char* not_searched = ": not searched";
 
 // The one or two columns that an effect follows; two act together.
 struct Cause {
-  std::vector<std::size_t> columns; // a text column first, then ascending
+  std::vector<std::size_t> columns; // text columns first, each kind ascending
   bool is_joint() const { return columns.size() > 1; }
   bool is_product_with(const Cause& single) const {
     return is_joint() && !single.is_joint() && contains(columns, single.columns[0]);
@@ -65,6 +65,8 @@ struct Candidates {
   std::vector<std::string> constant;
 
   const CandidateColumn& first_of(const Cause& cause) const { return columns[cause.columns[0]]; }
+  // Number of text columns of a cause.
+  std::size_t texts_of(const Cause& cause) const;
   std::vector<const CandidateColumn*> of(const Cause& cause) const;
   // Names the recorded columns from which those of a cause come.
   std::vector<std::string> recorded_of(const Cause& cause) const;
@@ -104,9 +106,14 @@ std::vector<Cause> all_causes(const Candidates& candidates);
 // missing there.
 std::optional<Cause> cause_in(const Candidates& to, const Cause& cause, const Candidates& from);
 
+// Whether several tests have each pair of levels of two texts. Of other pairs, as of a batch with
+// another supplier, nothing is known. `first`: first block of each test, and the end.
+bool are_crossed(const Candidates& candidates, const Cause& texts,
+                 std::span<const std::size_t> first);
+
 std::string cause_name(const Cause& cause, const Candidates& candidates);
-// Complexity of a cause: 0 for a recorded column, 1 for a history that every routine with state
-// variables can follow, 2 for one that it can follow for this law, 3 for a derived quantity that no
+// Complexity of a cause: 0 for a recorded column, 1 for the time or a history that every routine with
+// state variables can follow, 2 for one that it can follow for this law, 3 for a derived quantity that no
 // routine follows; 2 more for every column after the first.
 int complexity(const Cause& cause, const Candidates& candidates);
 bool constant_in_experiments(const Cause& cause, const Candidates& candidates);

@@ -89,23 +89,24 @@ bool too_narrow(const PlacedEffect& effect, double gap) {
   return false;
 }
 
-// One direction per level against the others; for a pair, multiplied by the number after it.
+// One direction per level against the others, multiplied by the number that follows a text; for two
+// texts, one per free pair of levels.
 std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candidates) {
+  const PlacedEffect effect = start_effect(*effects::find_effect(plain_form(cause, candidates)),
+                                           cause, candidates, effects::ActsOn::mu, 1);
   const CandidateColumn& x = candidates.first_of(cause);
-  const effects::EffectForm& form =
-      *effects::find_effect(cause.is_joint() ? "category_slope" : "category");
-  VectorXd times = VectorXd::Ones(x.values.size());
-  if (cause.is_joint()) {
+  MatrixXd directions = level_columns(x);
+  if (directions.cols() == 2) directions.conservativeResize(Eigen::NoChange, 1); // mirror images
+  if (effect.form->texts > 1) {
+    directions = amplitude_basis(effect, candidates.by_symbol);
+  } else if (cause.is_joint()) {
     const CandidateColumn& number = candidates.columns[cause.columns[1]];
-    times = (number.values.array() - number.spread.median) / number.spread.span();
+    directions.array().colwise() *=
+        (number.values.array() - number.spread.median) / number.spread.span();
   }
-  const MatrixXd is = level_columns(x);
   std::vector<GridShape> shapes;
-  for (std::size_t level = 0; level < x.levels.size(); ++level) {
-    if (x.levels.size() == 2 && level == 1) break; // the mirror image of the first
-    shapes.push_back({start_effect(form, cause, candidates, effects::ActsOn::mu, 1),
-                      is.col(level).cwiseProduct(times).cast<float>()});
-  }
+  for (const auto& direction : directions.colwise())
+    shapes.push_back({effect, direction.cast<float>()});
   return shapes;
 }
 
@@ -188,10 +189,7 @@ private:
 // Whether the form makes sense for the cause: logarithms need positive values, ...
 bool form_fits(const effects::EffectForm& form, const Cause& cause, const Candidates& candidates) {
   const auto columns = columns_of(form, cause, candidates);
-  if (form.columns != columns.size() || form.categorical == columns[0]->levels.empty())
-    return false;
-  for (std::size_t i = 1; i < columns.size(); ++i)
-    if (!columns[i]->levels.empty()) return false;
+  if (form.columns != columns.size() || form.texts != candidates.texts_of(cause)) return false;
   return form.name == "recovery" ? is_recovery(*columns[0], *columns[1])
                                  : has_meaning(form, *columns[0]);
 }
@@ -215,18 +213,14 @@ struct FactorRange {
   }
 };
 
-// Index of the first numeric input, along which the factor is evaluated.
-std::size_t running_input(const effects::PlacedEffect& effect) {
-  return effect.inputs[0].levels.empty() ? 0 : 1;
-}
-
-// Rows of inputs in which all other inputs are at one of their ends or levels.
+// Rows of inputs in which each input is at one of its ends or levels; the first number, along which
+// the factor is evaluated, only at its lower end.
 std::vector<std::vector<double>> corners_of(const effects::PlacedEffect& effect) {
   std::vector<std::vector<double>> rows{{}};
   for (std::size_t i = 0; i < effect.inputs.size(); ++i) {
     const effects::EffectInput& input = effect.inputs[i];
     std::vector<double> positions = {input.low, input.high};
-    if (i == running_input(effect)) positions.pop_back();
+    if (i == effect.form->texts) positions.pop_back();
     if (!input.levels.empty()) {
       positions.resize(input.levels.size());
       std::iota(positions.begin(), positions.end(), 0.0);
@@ -244,15 +238,15 @@ std::vector<std::vector<double>> corners_of(const effects::PlacedEffect& effect)
 
 FactorRange factor_range(const effects::PlacedEffect& effect, const CandidateColumn& column) {
   FactorRange range;
-  if (effect.form->categorical && effect.form->columns == 1) {
-    for (const double a : effects::fitted_values(effect))
-      range.largest = std::max(range.largest, std::abs(a));
-    return range;
-  }
   const expr::Program program = effects::factor_program(effect);
   const std::vector<double> at = effects::fitted_values(effect);
   const auto corners = corners_of(effect);
-  const std::size_t running = running_input(effect);
+  const std::size_t running = effect.form->texts;
+  if (running == effect.form->columns) { // levels only: nothing lies between them
+    for (const std::vector<double>& row : corners)
+      range.largest = std::max(range.largest, std::abs(program(row, at) - 1));
+    return range;
+  }
   const effects::EffectInput& x = effect.inputs[running];
   std::vector<double> positions;
   for (int i = 0; i <= tuning::plausibility_intervals; ++i)
@@ -335,6 +329,12 @@ MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns
             basis(block.first + i, a) = block.derivative[a][i];
       });
   return basis;
+}
+
+const char* plain_form(const Cause& cause, const Candidates& candidates) {
+  constexpr const char* names[][3] = {{"linear", "category"},
+                                      {"product", "category_slope", "category_pair"}};
+  return names[cause.is_joint() ? 1 : 0][candidates.texts_of(cause)];
 }
 
 std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidates) {

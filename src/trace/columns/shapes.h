@@ -18,6 +18,9 @@ struct GridShape {
 };
 std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidates);
 
+// Name of the form with the fewest parameters for a cause.
+const char* plain_form(const Cause& cause, const Candidates& candidates);
+
 // Derivatives of the factor by the amplitudes, per block: for forms that are linear in their
 // amplitudes, at any values of these; for others at the effect's own values.
 MatrixXd amplitude_basis(const effects::PlacedEffect& effect, const BlockColumns& columns);

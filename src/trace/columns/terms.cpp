@@ -119,13 +119,6 @@ MatrixXd factor_of(const CandidateColumn& column) {
   return is / std::max(stats::root_mean_square(is), tuning::smallest_divisor);
 }
 
-void append_products(const Eigen::Ref<const MatrixXd>& a, const Eigen::Ref<const MatrixXd>& b,
-                     MatrixXd& all) {
-  for (Index i = 0; i < a.cols(); ++i)
-    for (Index j = 0; j < b.cols(); ++j)
-      stats::append_columns(all, a.col(i).cwiseProduct(b.col(j)));
-}
-
 } // namespace
 
 TermMaker::TermMaker(const Candidates& candidates) {
@@ -152,12 +145,12 @@ TermBasis TermMaker::of(const Cause& cause) const {
     return x.columns.middleCols(
         x.straight, std::min(tuning::bent_columns_of_pair, x.columns.cols() - x.straight));
   };
+  const auto straight = [](const TermBasis& x) { return x.columns.leftCols(x.straight); };
   TermBasis both;
-  both.columns.resize(a.columns.rows(), 0);
-  append_products(a.columns.leftCols(a.straight), b.columns.leftCols(b.straight), both.columns);
+  both.columns = stats::products(straight(a), straight(b));
   both.straight = both.columns.cols();
-  append_products(a.columns.leftCols(a.straight), bends(b), both.columns);
-  append_products(bends(a), b.columns.leftCols(b.straight), both.columns);
+  stats::append_columns(both.columns, stats::products(straight(a), bends(b)));
+  stats::append_columns(both.columns, stats::products(bends(a), straight(b)));
   return both;
 }
 

@@ -85,7 +85,7 @@ Rival rival_of(const Search& search, const Campaign& campaign, const Option& opt
   PlacedEffect effect = option.effect;
   if (effect.form->penalty)
     start_at(option.fit, effect);
-  else if (effects::amplitudes_of(effect) == 1 && !effect.form->categorical)
+  else if (effects::amplitudes_of(effect) == 1 && effect.form->texts == 0)
     effect.parameters[0] = clamped_start(option.fit.coefficients(0));
   return with_effect(campaign, search.last(), std::move(effect), option.cause, noise,
                      NoiseSearch::kept);
@@ -123,20 +123,12 @@ void drop_distinguishable(const Search& search, const stats::NoiseModel& noise, 
   options = std::move(kept);
 }
 
-// Whether the cause has a text column, which comes first.
-bool starts_with_text(const Cause& cause, const Candidates& candidates) {
-  return !candidates.first_of(cause).levels.empty();
-}
-
-const char* plain_form(const Cause& cause, bool text) {
-  if (cause.is_joint()) return text ? "category_slope" : "product";
-  return text ? "category" : "linear";
-}
-
-const char* smooth_form(const Cause& cause, bool text, bool two_values) {
-  if (cause.is_joint()) return text ? "spline_by_level" : "surface";
-  if (two_values) return plain_form(cause, text);
-  return text ? "category" : "spline";
+// Name of the form that follows any curve of the cause; text has no curves.
+const char* smooth_form(const Cause& cause, const Candidates& candidates) {
+  const std::size_t texts = candidates.texts_of(cause);
+  if (texts == cause.columns.size()) return plain_form(cause, candidates);
+  if (cause.is_joint()) return texts > 0 ? "spline_by_level" : "surface";
+  return candidates.first_of(cause).two_values ? plain_form(cause, candidates) : "spline";
 }
 
 // Residual of the law without the effect `index`, everything else as fitted: the signal that any
@@ -204,7 +196,7 @@ private:
       Start start{shapes[i].effect, along * along / size};
       start.effect.acts_on = sites[site];
       start.effect.tau_scale_MPa = s_.tau_scale_MPa();
-      if (!start.effect.form->categorical) start.effect.parameters[0] = clamped_start(along / size);
+      if (start.effect.form->texts == 0) start.effect.parameters[0] = clamped_start(along / size);
       const auto [at, is_new] = best.try_emplace(start.effect.form, start);
       if (!is_new && start.explained > at->second.explained) at->second = start;
     }
@@ -269,17 +261,15 @@ void keep_promising(double share, std::size_t index, std::vector<Start>& starts,
 } // namespace
 
 PlacedEffect plain_effect(const Search& search, const Cause& cause) {
-  const char* form = plain_form(cause, starts_with_text(cause, search.candidates()));
-  return start_effect(*effects::find_effect(form), cause, search.candidates(),
-                      sites[searched_site(search.sensitivities())], search.tau_scale_MPa());
+  return start_effect(*effects::find_effect(plain_form(cause, search.candidates())), cause,
+                      search.candidates(), sites[searched_site(search.sensitivities())],
+                      search.tau_scale_MPa());
 }
 
 PlacedEffect smooth_effect(const Search& search, const Cause& cause, effects::ActsOn acts_on) {
   const Candidates& candidates = search.candidates();
-  const char* form = smooth_form(cause, starts_with_text(cause, candidates),
-                                 candidates.first_of(cause).two_values);
-  return start_effect(*effects::find_effect(form), cause, candidates, acts_on,
-                      search.tau_scale_MPa());
+  return start_effect(*effects::find_effect(smooth_form(cause, candidates)), cause, candidates,
+                      acts_on, search.tau_scale_MPa());
 }
 
 std::vector<Rival> choose_cause(const Search& search, const std::vector<Suspect>& suspects) {

@@ -110,6 +110,8 @@ private:
     if (goes_with_order(cause, AlongOrder::is_order) ||
         (!has_walk() && goes_with_order(cause, AlongOrder::stretches)))
       return false;
+    if (s_.candidates().texts_of(cause) == 2)
+      return are_crossed(s_.candidates(), cause, s_.first());
     return cause.is_joint() || !constant_in_experiments(cause, s_.candidates()) ||
            differs_between_tests(s_.candidates().first_of(cause));
   }
@@ -152,8 +154,9 @@ private:
       const auto& in = s_.last().causes;
       if (!may_be_offered(cause) || contains(in, cause)) continue;
       const auto& all = cause.columns;
-      const bool of_states = cause.is_joint() && is_state(columns[all[1]]) &&
-                             (is_state(columns[all[0]]) || !columns[all[0]].levels.empty());
+      const bool of_states = cause.is_joint() && std::ranges::all_of(all, [&](std::size_t c) {
+                               return is_state(columns[c]) || !columns[c].levels.empty();
+                             });
       for (std::size_t i = 0; i < (cause.is_joint() ? 1 : sites_.size()); ++i) {
         add_term(cause, i, maker_.of(cause), !cause.is_joint() || of_states, nullptr);
         if (!cause.is_joint())

@@ -441,7 +441,7 @@ private:
     });
   }
 
-  static void judge(const MatrixXd& gains, double level, Looked& looked) {
+  void judge(const MatrixXd& gains, double level, Looked& looked) const {
     std::vector<Rarity> rarity; // one per length of a path
     VectorXd largest = VectorXd::Zero(gains.rows());
     for (Index k = 0; k < gains.cols(); ++k) {
@@ -454,8 +454,9 @@ private:
     looked.take = 0;
     for (std::size_t k = 0; k < looked.path.gains.size() && looked.take == 0; ++k) {
       const double own = rarity[k].of(looked.path.gains[k]);
-      strongest = own > threshold ? own : std::max(strongest, own);
-      if (own > threshold) looked.take = k + 1;
+      const bool enters = own > threshold && rank_of(own, largest) <= s_.alpha;
+      strongest = enters ? own : std::max(strongest, own);
+      if (enters) looked.take = k + 1;
     }
     looked.p_value = rank_of(strongest, largest);
   }

@@ -15,8 +15,8 @@
 //
 // Columns that mask each other show only together. So where no term passes, the path of up to three
 // terms, with the noise re-estimated at each step, is compared with the same path on 199 flips (49
-// are enough where its p-value on those exceeds 0.2). Its threshold, at half the level, is the
-// quantile of a Gumbel distribution fitted to the flips.
+// are enough where its p-value on those exceeds 0.2). It has to exceed the quantile, at half the
+// level, of a Gumbel distribution fitted to the flips, and its p-value must not exceed the level.
 //
 // A history whose test means follow from the states could stand in for the states between tests. It
 // enters by what it explains within tests (JointTerm::within) and counts in full afterwards.

@@ -333,4 +333,9 @@ Found without_drift(Found found) {
   return found;
 }
 
+std::string order_name(const Search& search) {
+  const std::string& column = search.candidates().order_column;
+  return column.empty() ? "time" : column;
+}
+
 } // namespace frictab::trace

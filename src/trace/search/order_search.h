@@ -2,6 +2,8 @@
 // left out of the law. It does not name a cause, because drift, wear and batches look alike there.
 #pragma once
 
+#include <string>
+
 #include "trace/search/choose_effect.h"
 #include "trace/search/search.h"
 
@@ -47,5 +49,8 @@ std::vector<Suspect> prefer_declared(const Search& search, std::vector<Suspect> 
 // the order at the site (mu, limit, added) where it is strongest are then removed from the
 // calibration, unless with the effects found the order has no structure any more.
 Found without_drift(Found found);
+
+// Returns the column that orders the tests; "time" if none is declared.
+std::string order_name(const Search& search);
 
 } // namespace frictab::trace

@@ -85,7 +85,8 @@ MatrixXd any_form(const Cause& cause, const Candidates& candidates) {
     if (one->levels.empty())
       product.array() *= one->values.array() - one->values.mean();
     else
-      levels = level_columns(*one);
+      levels = stats::products(levels, level_columns(*one));
+  if (candidates.texts_of(cause) == cause.columns.size()) return levels;
   MatrixXd all;
   for (Index l = 0; l < levels.cols(); ++l)
     stats::append_columns(all, levels.col(l).asDiagonal() * hat_functions(product));
