@@ -37,7 +37,7 @@ C     in the turn from @{low_text} to @{high_text}. NaN gives NaN.
       ftfold = 0.0D0
       if (abs(along) + abs(across) .gt. 0.0D0)
      &  ftfold = degree*atan2(across, along)
-      ftfold = @{low} + modulo(ftfold - @{low}, @{period})
+      ftfold = @{low} + modulo(ftfold - (@{low}), @{period})
       return
       end
 C
