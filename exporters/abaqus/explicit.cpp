@@ -105,7 +105,15 @@ SolverGives force_gives(const ForceNames& names) {
                       .without = "nTemp = 0",
                       .read = both(names, names.temperature, names.temperature_main),
                       .exists = "nTemp .gt. 0",
-                      .part = "point"}},
+                      .part = "point"},
+                     {.state = std::string(direction_name),
+                      .text = "angle of the slip, in degrees, from the direction (@{reference}) of "
+                              "the model, laid on the surface; counter-clockwise for who looks at "
+                              "the secondary surface from outside",
+                      .without = "nDir = 2",
+                      .read = "ftturn(way, axis)",
+                      .canonical = true,
+                      .exists = "nDir .eq. 3"}},
           .property = explicit_property(),
           .field = {.text = "mean of both surfaces' predefined field @{field}",
                     .read = both(names, names.field, names.field_main),
@@ -115,7 +123,8 @@ SolverGives force_gives(const ForceNames& names) {
           .history = state + "(@{number})",
           .before_histories = explicit_states,
           .area = names.area,
-          .smooths_speed = true};
+          .smooths_speed = true,
+          .slips_in_space = true};
 }
 
 Driver explicit_driver(const SolverGives& gives, fortran::Coefficient result) {

@@ -145,6 +145,7 @@ std::string body(const ForceRoutine& routine, const ExportRequest& request,
   add_states(values, inputs);
   add_past(values, request, inputs);
   add_speed_scale(values, request, inputs);
+  fortran::add_direction(values, request, inputs, routine.gives);
   return render_part("abaqus/explicit_force.f", values);
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-using Vector = std::array<double, 3>;
+using Vector = Axis;
 
 double size_of(const Vector& a) {
   return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
@@ -26,7 +26,7 @@ double size_of(const Vector& a) {
 // Numbers that the solver gives for one point, as its precision holds them.
 struct Given {
   double normal = 0, area = 0, stick = 0, temperature = 0, main_temperature = 0;
-  Vector motion = {}, before = {};
+  Vector motion = {}, before = {}, first = {}, normal_axis = {};
   std::vector<double> fields = {}, main_fields = {};
 };
 
@@ -100,6 +100,7 @@ private:
     if (directions_ == 3) g.motion = {0.8 * motion, -0.48 * motion, 0.36 * motion};
     for (double& x : g.motion)
       x = path_.held(x);
+    choose_axes(g, static_cast<double>(k), static_cast<double>(i));
     const double apart = path_.random.uniform(-5, 5);
     g.temperature = path_.held(path_.celsius.from_canonical(wanted.temperature - apart));
     g.main_temperature = path_.held(path_.celsius.from_canonical(wanted.temperature + apart));
@@ -112,6 +113,27 @@ private:
     if (turn == 1) g.normal = -g.normal;
     if (turn == 2) g.area = 0;
     if (turn == 3) g.motion = {};
+  }
+
+  // The first local axis and the normal in global axes, anywhere in space.
+  void choose_axes(Given& g, double k, double i) {
+    const double turn = 0.7 + 2.3 * i + k, tilt = 0.3 + 0.9 * i + 1.7 * k;
+    g.first = {std::cos(turn) * std::cos(tilt), std::sin(turn), std::cos(turn) * std::sin(tilt)};
+    g.normal_axis = {-std::sin(tilt), 0, std::cos(tilt)};
+    for (Vector* axis : {&g.first, &g.normal_axis})
+      for (double& x : *axis)
+        x = path_.held(x);
+  }
+
+  // The slip in global axes; local axes are the first one, the one across it and the normal.
+  static Vector slip_in_space(const Given& g) {
+    const Vector &n = g.normal_axis, &t = g.first;
+    const Vector across = {n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2],
+                           n[0] * t[1] - n[1] * t[0]};
+    Vector slip = {};
+    for (std::size_t d = 0; d < 3; ++d)
+      slip[d] = g.motion[0] * t[d] + g.motion[1] * across[d];
+    return slip;
   }
 
   // Stick forces below and far above what friction holds, along and against the motion; then what
@@ -145,6 +167,8 @@ private:
       call_.v.insert(call_.v.end(), g.motion.begin(), g.motion.end());
       call_.v.insert(call_.v.end(), g.before.begin(), g.before.end());
       call_.v.insert(call_.v.end(), {g.temperature, g.main_temperature, double(points_[k].node)});
+      call_.v.insert(call_.v.end(), g.first.begin(), g.first.end());
+      call_.v.insert(call_.v.end(), g.normal_axis.begin(), g.normal_axis.end());
       call_.st.insert(call_.st.end(), points_[k].state.begin(), points_[k].state.end());
       call_.fields.insert(call_.fields.end(), g.fields.begin(), g.fields.end());
       call_.fields.insert(call_.fields.end(), g.main_fields.begin(), g.main_fields.end());
@@ -181,6 +205,7 @@ private:
     out.speed = time_ > 0 ? move / seconds_of_increment() : 0;
     account_.fill(out, mean(point), point.memory, move, g.area);
     out.properties = call_.properties;
+    if (directions_ == 3) out.direction = path_.direction(slip_in_space(g), g.normal_axis);
     if (has_temperature_)
       out.temperature = path_.celsius.to_canonical(both(g.temperature, main.main_temperature));
     for (std::size_t f = 0; f < g.fields.size(); ++f)

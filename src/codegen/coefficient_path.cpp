@@ -13,6 +13,7 @@ constexpr double result_before = 0.125; // that the driver puts there before the
 
 struct Given {
   double pressure = 0, speed = 0, slip = 0, temperature = 0, flow_stress = 0;
+  double along = 0.6, across = -0.8; // direction of the speed, for solvers that give one
   std::vector<double> fields = {};
 };
 
@@ -32,7 +33,8 @@ public:
     for (std::size_t k = 0; k < routine_.points; ++k) {
       given.push_back(plan(k, i));
       const Given& g = given.back();
-      call.v.insert(call.v.end(), {g.pressure, g.speed, g.slip, g.temperature, g.flow_stress});
+      call.v.insert(call.v.end(),
+                    {g.pressure, g.speed, g.slip, g.temperature, g.flow_stress, g.along, g.across});
       call.fields.insert(call.fields.end(), g.fields.begin(), g.fields.end());
       call.fields.resize(call.fields.size() + g.fields.size());
     }
@@ -61,6 +63,11 @@ private:
     g.flow_stress = path_.held(path_.stress.from_canonical(wanted.flow_stress));
     for (const double field : wanted.fields)
       g.fields.push_back(path_.held(field));
+    if (takes(path_.inputs, std::string(direction_name))) {
+      const double turn = 0.4 + 2.3 * static_cast<double>(i) + static_cast<double>(k);
+      g.along = std::cos(turn);
+      g.across = std::sin(turn);
+    }
     const std::size_t kind = (7 * i + 3 * k) % 29;
     if (kind == 0) g.pressure = 0;
     if (kind == 1) g.pressure = -g.pressure;
@@ -86,11 +93,22 @@ private:
     out.speed = path_.speed.to_canonical(std::abs(g.speed) / factor_);
     out.slip = path_.length.to_canonical(g.slip);
     out.flow_stress = path_.stress.to_canonical(g.flow_stress);
+    out.direction = direction_of(g);
     out.properties = properties_;
     out.fields = g.fields;
     const bool none = routine_.zero_is_no_temperature && g.temperature == 0;
     if (has_temperature_ && !none) out.temperature = path_.celsius.to_canonical(g.temperature);
     return out;
+  }
+
+  double direction_of(const Given& g) const {
+    const double a = g.along * g.speed, b = g.across * g.speed;
+    if (!routine_.surface) return path_.direction(a, b);
+    const auto& [along, across, normal] = *routine_.surface;
+    Axis slip = {};
+    for (std::size_t d = 0; d < slip.size(); ++d)
+      slip[d] = a * along[d] + b * across[d];
+    return path_.direction(slip, normal);
   }
 
   double answer(const Given& g) const {

@@ -48,7 +48,10 @@ DrivenPath::DrivenPath(const Built& built, const ExportRequest& of,
       time(solver_unit("s", of.units)), celsius(solver_unit("degC", of.units)),
       random(options.seed, 1), options_(options), single_(built.variant.eps >= 0x1p-24),
       table_(of.table), ends_(table::all_ends(of.table)), no_memory_(of_routine),
-      call_(Library::address(built.library, "ftincr_")) {}
+      turn_(turn_of(of.table)), call_(Library::address(built.library, "ftincr_")) {
+  for (const SolverInput& input : inputs)
+    if (input.argument.name == direction_name) reference_ = input.reference;
+}
 
 double DrivenPath::held(double value) const {
   return single_ ? static_cast<double>(static_cast<float>(value)) : value;
@@ -159,6 +162,7 @@ double solver_state(const SolverInput& input, const GivenStates& given) {
   if (name == "peak_sigma_n") return given.peak_pressure;
   if (name == "sigma_f_MPa") return given.flow_stress;
   if (name == "psi") return given.expansion;
+  if (name == direction_name) return given.direction ? *given.direction : property_of(input, given);
   if (name == "T_contact_C")
     return given.temperature ? *given.temperature : property_of(input, given);
   throw std::logic_error("no account of " + name);
@@ -181,6 +185,28 @@ double plain_state(const SolverInput& input, const GivenStates& given) {
 }
 
 } // namespace
+
+double DrivenPath::direction(double along, double across) const {
+  double degrees =
+      along == 0 && across == 0 ? 0 : std::atan2(across, along) * 180 / std::numbers::pi;
+  while (degrees < turn_.low)
+    degrees += turn_.period;
+  while (degrees >= turn_.high())
+    degrees -= turn_.period;
+  return degrees;
+}
+
+double DrivenPath::direction(const Axis& slip, const Axis& normal) const {
+  const auto product = [](const Axis& a, const Axis& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  const auto cross = [](const Axis& a, const Axis& b) {
+    return Axis{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  // Who looks along the normal sees it point away: counter-clockwise is negative about it.
+  const Axis on_surface = cross(normal, cross(reference_, normal));
+  return direction(product(on_surface, slip), product(cross(slip, reference_), normal));
+}
 
 double DrivenPath::followed_temperature(const GivenStates& given) const {
   for (const SolverInput& input : inputs)

@@ -48,6 +48,7 @@ struct GivenStates {
   std::span<const double> properties = {}; // of the deck, in its units
   std::vector<double> fields = {};         // at the point, in the solver's units
   const ContactMemory* memory = nullptr;   // null: nothing is kept
+  std::optional<double> direction = {};    // of slip, in degrees; empty: the solver gives none
 };
 
 // Target of the next increment of a point, in canonical units.
@@ -87,6 +88,11 @@ public:
   // that property number `factor_property` then has (0: there is none), else 1.
   double choose_properties(std::vector<double>& properties, std::size_t i,
                            std::size_t factor_property = 0);
+
+  // The direction of a slip as the law takes it, by its definition in codegen/sliding_direction.h:
+  // from components in the surface, or in global axes on a surface of this normal.
+  double direction(double along, double across) const;
+  double direction(const Axis& slip, const Axis& normal) const;
 
   // The law's states, in the order of the table's inputs; the second takes the law itself at the
   // pressure `asked`, while histories follow the one that is given.
@@ -146,6 +152,8 @@ private:
   table::TableFunction table_;
   std::vector<table::AxisEnds> ends_;
   ContactMemory no_memory_;
+  const Turn turn_;
+  Axis reference_ = {1, 0, 0};
   void* call_;
   PathResult result_;
 };

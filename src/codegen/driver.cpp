@@ -44,15 +44,19 @@ public:
             Library::address_or_null(built.library, stem(request) + "cons_"))) {
     for (const SolverInput& input : inputs_)
       fields_ = std::max(fields_, input.field);
+    direction_ = table_row(direction_name).column;
+    turn_ = turn_of(request.table);
     for (const GivenState& state : driver.gives.states)
       table_rows_.push_back(table_row(state.state));
     pressure_ = table_row("sigma_n_MPa").column;
     peak_ = table_row("peak_sigma_n").column;
     temperature_ = table_row("T_contact_C");
+    speed_ = table_row("v_rel_mm_s").column;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       if (is_given(c, "s_mm")) slips_.push_back(columns_[c]);
       // The law's own flow stress, from any source.
       if (inputs_[c].argument.name == "sigma_f_MPa") flow_stress_ = columns_[c];
+      if (columns_[c] == direction_) reference_ = inputs_[c].reference;
     }
   }
 
@@ -62,6 +66,8 @@ public:
     for (std::size_t i = 1; i < slips_.size(); ++i)
       if (slips_[i - 1][row] != slips_[i][row]) return false;
     if (!histories_are_representable(inputs_, columns_, row)) return false;
+    if (direction_ && !turn_.represents(direction_[row], reference_)) return false;
+    if (direction_ && speed_ && speed_[row] == 0) return false; // nothing slips that way
     if (driver_.zero_is_no_temperature && temperature_.column &&
         solver_value(temperature_, row) == 0.0)
       return false;
@@ -90,7 +96,7 @@ public:
 
 private:
   // Values in a row of the solver's table that the law does not take from there.
-  enum class Otherwise { zero, pressure, flow_stress };
+  enum class Otherwise { zero, pressure, flow_stress, speed };
 
   struct TableRow {
     const double* column = nullptr; // canonical; null if the law does not take it from there
@@ -109,6 +115,7 @@ private:
       if (is_given(c, state)) return {columns_[c], inputs_[c].argument.solver};
     if (state == "sigma_n_MPa") return {nullptr, stress_, Otherwise::pressure};
     if (state == "sigma_f_MPa") return {nullptr, stress_, Otherwise::flow_stress};
+    if (state == "v_rel_mm_s" && direction_) return {nullptr, {}, Otherwise::speed};
     return {};
   }
 
@@ -133,6 +140,8 @@ private:
       return state.unit.from_canonical(pressure(row));
     case Otherwise::flow_stress:
       return state.unit.from_canonical(flow_stress(row));
+    case Otherwise::speed:
+      return 1; // any that has a direction
     case Otherwise::zero:
       break;
     }
@@ -176,6 +185,9 @@ private:
   TableRow temperature_;
   // Null if the law does not take them (the first two: from the solver).
   const double *pressure_ = nullptr, *peak_ = nullptr, *flow_stress_ = nullptr;
+  const double *speed_ = nullptr, *direction_ = nullptr;
+  Turn turn_;
+  Axis reference_ = {};
 };
 
 // Groups rows that can share a call, at most `most` each: properties are constants of a call, so

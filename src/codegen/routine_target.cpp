@@ -61,7 +61,9 @@ SourceBundle RoutineTarget::generate(const ExportRequest& request) const {
 std::vector<BuildVariant> RoutineTarget::variants(const ExportRequest& as_given) const {
   const CurvedRequest curved(as_given, gives(as_given));
   const ExportRequest& request = curved.get();
-  TemplateValues values = driver_values(request, checked_inputs(request));
+  const Inputs inputs = checked_inputs(request);
+  TemplateValues values = driver_values(request, inputs);
+  add_direction_of_driver(values, inputs);
   values.text["contact"] = request.law_stem.empty() ? selector_.alone : request.law_name;
   values.offered.insert("contact");
   const std::string text = render_template(template_path("driver.f"), values);

@@ -53,7 +53,8 @@ public:
   Choice(SolverInput& input, const SolverGives& gives, const table::Table& table, FaultList& faults)
       : input_(input), gives_(gives), axis_(table::find_axis(table, input.argument.name)),
         grows_(input.argument.name == "psi" && !gives.area.empty()),
-        smooths_(input.argument.name == "v_rel_mm_s" && gives.smooths_speed), faults_(faults) {
+        smooths_(input.argument.name == "v_rel_mm_s" && gives.smooths_speed),
+        turns_(input.argument.name == direction_name), turn_(turn_of(table)), faults_(faults) {
     const std::string& name = input.argument.name;
     given_ = gives.find(state_of(name));
     const bool kept = is_further_history(name) && !gives.history.empty();
@@ -72,6 +73,8 @@ public:
       input_.source = Source::history;
     } else if (smooths_ && choice.starts_with(smoothed)) {
       read_smoothing(choice.substr(smoothed.size()));
+    } else if (turns_ && gives_.slips_in_space && choice.starts_with(along_slip)) {
+      read_reference(choice.substr(along_slip.size()));
     } else if (own_ == "contact") {
       if (choice != own_)
         fault("the solver gives this state itself",
@@ -109,13 +112,15 @@ public:
         {"field", std::to_string(input_.field)},
         {"number", std::to_string(gives_.before_histories + input_.history)}};
     const std::string property = insert_names(gives_.property.text, numbers);
+    const std::string unknown =
+        turns_ && !given_ ? ", for all slips: their direction is not given" : "";
     switch (input_.source) {
     case Source::property:
-      return property;
+      return property + unknown;
     case Source::field:
-      return insert_names(gives_.field.text, numbers);
+      return insert_names(gives_.field.text, numbers) + unknown;
     case Source::constant:
-      return input_.fallback ? constant_text() : "not known: NaN";
+      return (input_.fallback ? constant_text() : "not known: NaN") + unknown;
     case Source::history:
       if (input_.smoothed_over > 0)
         return fmt::format("{}, smoothed over {} increments by {}", given_->text,
@@ -128,8 +133,9 @@ public:
     case Source::given:
       break;
     }
-    if (given_->without.empty()) return given_->text;
-    return fmt::format("{}; {} where {}", given_->text, property, given_->without);
+    const std::string given = turns_ ? direction_text() : given_->text;
+    if (given_->without.empty()) return given;
+    return fmt::format("{}; {} where {}", given, property, given_->without);
   }
 
 private:
@@ -139,7 +145,35 @@ private:
     if (!gives_.field.text.empty()) all += ", field:N";
     if (!own_.empty()) all += ", " + own_;
     if (grows_) all += fmt::format(", {}", area_ratio);
+    if (turns_ && gives_.slips_in_space) all += fmt::format(", {}X,Y,Z", along_slip);
     return all;
+  }
+
+  std::string direction_text() const {
+    const Axis& to = input_.reference;
+    const std::string text = insert_names(
+        given_->text, {{"reference", fmt::format("{:.6g}, {:.6g}, {:.6g}", to[0], to[1], to[2])}});
+    return fmt::format("{}; from {:g} to {:g}, 0 at rest", text, turn_.low, turn_.high());
+  }
+
+  // Reads a reference direction, "0,1,0", and makes its length 1.
+  void read_reference(std::string_view text) {
+    Axis to = {};
+    bool understood = std::count(text.begin(), text.end(), ',') == 2;
+    std::string_view rest = text;
+    for (double& x : to) {
+      const std::size_t comma = std::min(rest.find(','), rest.size());
+      const auto value = number<double>(trimmed(rest.substr(0, comma)));
+      understood = understood && value;
+      x = value.value_or(0);
+      rest.remove_prefix(std::min(comma + 1, rest.size()));
+    }
+    const double size = std::hypot(to[0], to[1], to[2]);
+    if (!understood || !(size > 0) || !std::isfinite(size))
+      return fault(fmt::format("'{}' is not a direction in the model's axes", text),
+                   fmt::format("{}0,1,0", along_slip));
+    for (std::size_t d = 0; d < to.size(); ++d)
+      input_.reference[d] = to[d] / size;
   }
 
   void read_smoothing(std::string_view text) {
@@ -176,16 +210,19 @@ private:
   // memory.
   static std::string choice_of(const std::string& name) {
     const data::Quantity* known = data::find_quantity(name);
+    if (name == direction_name) return "slip";
     return known ? known->choice : "state";
   }
 
-  static constexpr std::string_view area_ratio = "area_ratio", smoothed = "smoothed:";
+  static constexpr std::string_view area_ratio = "area_ratio",
+                                    smoothed = "smoothed:", along_slip = "slip:";
 
   SolverInput& input_;
   const SolverGives& gives_;
   const table::TableAxis* axis_; // null if the state is not an axis
-  // The state grows by the area of contact; it may be smoothed.
-  bool grows_, smooths_;
+  // The state grows by the area of contact; it may be smoothed; it is the direction of slip.
+  bool grows_, smooths_, turns_;
+  Turn turn_; // of that direction
   FaultList& faults_;
   const GivenState* given_ = nullptr;
   // Word for the value of the solver or the routine's own memory; empty: neither has one.
@@ -273,6 +310,19 @@ bool takes(const std::vector<SolverInput>& inputs, const std::string& state) {
   return std::any_of(inputs.begin(), inputs.end(), [&](const SolverInput& input) {
     return input.source == Source::given && input.given == state;
   });
+}
+
+void add_direction_of_driver(TemplateValues& values, const std::vector<SolverInput>& inputs) {
+  values.flags["directs"] = takes(inputs, std::string(direction_name));
+  values.offered.insert("directs");
+  for (const SolverInput& input : inputs) {
+    if (input.argument.name != direction_name) continue;
+    for (std::size_t d = 0; d < input.reference.size(); ++d) {
+      const std::string name = "reference_" + std::to_string(d + 1);
+      values.text[name] = fortran_number(input.reference[d]);
+      values.offered.insert(name);
+    }
+  }
 }
 
 bool uses(const std::vector<SolverInput>& inputs, Source source) {
@@ -422,6 +472,17 @@ std::string slopes(const std::vector<SolverInput>& inputs, const SolverGives& gi
     all.push_back(std::move(one.out));
   }
   return join(all, "\n");
+}
+
+void add_direction(TemplateValues& values, const ExportRequest& request,
+                   const std::vector<SolverInput>& inputs, const SolverGives& gives) {
+  values.flags["directs"] = takes(inputs, std::string(direction_name));
+  values.text["direction_text"];
+  for (const SolverInput& input : inputs)
+    if (values.flags["directs"] && input.argument.name == direction_name)
+      values.text["direction_text"] =
+          direction_functions(turn_of(request.table),
+                              gives.slips_in_space ? std::optional(input.reference) : std::nullopt);
 }
 
 bool needs_unknown(const std::vector<SolverInput>& inputs, const SolverGives& gives) {

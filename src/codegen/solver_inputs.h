@@ -11,7 +11,9 @@
 #include "codegen/deck.h"
 #include "codegen/entry_arguments.h"
 #include "codegen/exporter.h"
+#include "codegen/sliding_direction.h"
 #include "core/error.h"
+#include "core/template.h"
 
 namespace frictab::codegen {
 
@@ -26,7 +28,8 @@ enum class Source {
 
 // A row of a solver's table. Texts may contain @{index} (of the state, from 1), @{property},
 // @{field} (their numbers), @{fallback} (replacement if nothing gives the state, in Fortran) and
-// @{convert} ("/1.0D6": from the solver's unit of this state to the canonical one).
+// @{convert} ("/1.0D6": from the solver's unit of this state to the canonical one); that of
+// direction_deg in words also @{reference}, its reference direction.
 struct GivenState {
   // Canonical name; for a sliding distance "s_mm", even if the law has another name for it. Empty
   // in the rows of properties, fields and constants.
@@ -64,6 +67,8 @@ struct SolverGives {
   // "area_ratio" in the job. Empty: not given.
   std::string area = {};
   bool smooths_speed = false; // allows v_rel_mm_s = "smoothed:N" in the job
+  // Gives slips in global axes, which allows direction_deg = "slip:X,Y,Z" in the job.
+  bool slips_in_space = false;
 
   const GivenState* find(const std::string& state) const; // null if it does not give the state
 };
@@ -78,6 +83,7 @@ struct SolverInput {
   // Number among histories from 1, if the source is history.
   std::size_t history = 0;
   std::size_t smoothed_over = 0; // number of increments; 0: not smoothed
+  Axis reference = {1, 0, 0};    // of direction_deg, if the solver gives slips in global axes
   // Canonical value: the constant, or the replacement for a missing value.
   std::optional<double> fallback;
   std::string text;    // "property 2", ... in words
@@ -112,6 +118,10 @@ std::size_t property_count(const std::vector<SolverInput>& inputs);
 bool uses(const std::vector<SolverInput>& inputs, Source source);
 bool takes(const std::vector<SolverInput>& inputs, const std::string& state); // from the solver
 
+// Adds what drivers need of the direction of slip: flag directs, and texts reference_1 to
+// reference_3, which a driver of local axes leaves unused.
+void add_direction_of_driver(TemplateValues& values, const std::vector<SolverInput>& inputs);
+
 std::string meaning_and_unit(const SolverInput& input); // "contact temperature, degC"
 
 // Texts of a deck in the properties' places, for the user to replace: "<flow stress of the
@@ -131,6 +141,11 @@ std::string reads(const std::vector<SolverInput>& inputs, const SolverGives& giv
 // Same for GivenState::slope; `names` are further @{names} in it.
 std::string slopes(const std::vector<SolverInput>& inputs, const SolverGives& gives,
                    const std::map<std::string, std::string>& names, std::size_t indent = 0);
+
+// Adds the values with which a routine computes the direction of slip, if the law takes it from the
+// solver: flag directs, text direction_text (fortran::direction_functions).
+void add_direction(TemplateValues& values, const ExportRequest& request,
+                   const std::vector<SolverInput>& inputs, const SolverGives& gives);
 
 // True if reads() of any part calls ftqnan(), for a value without a replacement.
 bool needs_unknown(const std::vector<SolverInput>& inputs, const SolverGives& gives);

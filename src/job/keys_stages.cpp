@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "codegen/exporter.h"
+#include "codegen/sliding_direction.h"
 #include "core/names.h"
 #include "core/text.h"
 #include "job/key_builder.h"
@@ -80,6 +81,7 @@ Problem outside_problem(const std::string&, const KeyValue& value) {
 std::string_view own_source(std::string_view state) {
   if (state == "psi") return "area_ratio";
   if (state == "v_rel_mm_s") return "smoothed:NUMBER";
+  if (state == codegen::direction_name) return "slip:X,Y,Z";
   return state == "sigma_f_MPa" ? "curve:FORMULA" : "";
 }
 
@@ -93,7 +95,8 @@ Problem input_problem(const std::string& name, const KeyValue& value) {
   const std::string_view text = std::get<std::string>(value);
   const std::string_view own = own_source(last_part(name));
   const bool ok = text == "property" || text == "state" || text == "temperature" ||
-                  text == "solver" || text == "contact" || is_own_source(text, own) ||
+                  text == "solver" || text == "contact" || text == "slip" ||
+                  is_own_source(text, own) ||
                   (text.starts_with("constant:") && is_number(text.substr(9), false)) ||
                   (text.starts_with("field:") && is_number(text.substr(6), true));
   if (ok) return {};
@@ -264,7 +267,8 @@ std::vector<KeyRule> export_keys() {
           "unit), \"property\" (constant of the input deck) or \"field:2\" (predefined field); "
           "also for the columns and histories that a traced effect brought in. Explicit solvers: "
           "psi = \"area_ratio\" (area of contact over that at first contact), v_rel_mm_s = "
-          "\"smoothed:20\" (over increments). Routines of solvers without a flow stress: "
+          "\"smoothed:20\" (over increments). Slip vectors in global axes: direction_deg = "
+          "\"slip:0,1,0\" (the direction of 0 degrees). Routines of solvers without a flow stress: "
           "sigma_f_MPa = \"curve:760*(0.002 + strain)**0.21\". zone_factor = \"field:2\" or "
           "\"property\": a factor of friction that differs between zones of the surface",
           "what the target offers", "\"constant:1.0\"") |

@@ -24,6 +24,10 @@ C     The bits of infinity; above them lies NaN.
       integer grows(@{n_histories})
       data grows /@{grows}/
 @end
+@if directs
+      double precision way(3), axis(3), along(3), ftturn
+      external ftturn
+@end
 C
 @{reads_once}
       dtime = @{time_increment}
@@ -109,6 +113,24 @@ C       at once, which spares most points the calls.
           press = pnorm/area
           speed = 0.0D0
           if (dtime .gt. 0.0D0) speed = move/dtime
+@if directs
+C         The slip in global axes: its components are along the first
+C         local axis, and across it and the normal.
+          if (nDir .eq. 3) then
+            do i = 1, 3
+              along(i) = dircosSl(i,k)
+              axis(i) = dircosN(i,k)
+            end do
+            do i = 1, 3
+              j = 1 + mod(i, 3)
+              l = 1 + mod(j, 3)
+              way(i) = axis(j)*along(l) - axis(l)*along(j)
+            end do
+            do i = 1, 3
+              way(i) = dSlipFric(1,k)*along(i) + dSlipFric(2,k)*way(i)
+            end do
+          end if
+@end
 @{reads_now}
 @if has_histories
           call ftpast(hist(4), press, speed, @{temperature_now}@{area_now}, x)
@@ -242,3 +264,4 @@ C           them in 5 and 6: increments are small against their sum.
       end
 C
 @{histories_text}
+@{direction_text}

@@ -186,6 +186,8 @@ private:
     given.work = path_.length.to_canonical(path_.stress.to_canonical(m.work));
     given.peak_pressure = std::max(path_.stress.to_canonical(m.peak), pressure);
     given.temperature = path_.celsius.to_canonical(0.5 * (g.temperatures[0] + g.temperatures[1]));
+    const Vector& way = keeps_ ? trial : g.motion;
+    if (g.directions == 2) given.direction = path_.direction(way[0], way[1]);
     given.properties = std::span(properties_).first(std::min(properties_.size(), critical_ - 1));
     for (std::size_t f = 0; f < g.fields.size(); ++f)
       given.fields.push_back(0.5 * (g.fields[f] + g.main_fields[f]));

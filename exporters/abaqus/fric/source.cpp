@@ -36,7 +36,14 @@ const SolverGives& Fric::gives(const ExportRequest&) const {
                  {.state = "T_contact_C",
                   .text = "mean of TEMP(1), TEMP(2)",
                   .read = "0.5D0*(temp(1) + temp(2))",
-                  .slope = "flimt = dy(@{index})@{to_solver}"}},
+                  .slope = "flimt = dy(@{index})@{to_solver}"},
+                 {.state = std::string(direction_name),
+                  .text = "angle of the slip, in degrees, from local direction 1 towards 2",
+                  .without = "NFDIR = 1",
+                  .read = "ftfold(way(1), way(2))",
+                  .canonical = true,
+                  .exists = "nfdir .eq. 2",
+                  .slope = "if (nfdir .eq. 2) flimd = dy(@{index})@{to_solver}*degree"}},
       .property = {.text = "property @{property}",
                    .read = "props(@{property})",
                    .exists = "nprops .ge. @{property}"},
@@ -76,6 +83,7 @@ SourceBundle Fric::sources(const ExportRequest& request, const Inputs& inputs) c
   values.text["least_slip"] = fortran_number(solver_unit("mm", request.units).from_canonical(1e-6));
   abaqus::add_states(values, state_count(inputs));
   values.text["reads"] = fortran::reads(inputs, gives(request));
+  fortran::add_direction(values, request, inputs, gives(request));
   values.text["slopes"] =
       fortran::slopes(inputs, gives(request), {{"to_solver", values.text.at("to_solver")}});
   return {{"frictab_fric.f", render_template("abaqus/fric/frictab_fric.f", values)}};

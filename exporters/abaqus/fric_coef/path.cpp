@@ -29,6 +29,7 @@ struct Memory {
 
 struct Given {
   double pressure = 0, rate = 0, slip = 0, temperature = 0;
+  double rate_1 = 0, rate_2 = 0; // components of the slip rate
   std::vector<double> fields = {};
 };
 
@@ -46,6 +47,7 @@ public:
     number_ = i + 1;
     path_.choose_properties(properties_, i);
     has_temperature_ = i % 4 != 3;
+    directions_ = i % 5 == 4 ? 1 : 2;
     const std::vector<double> at_start = state_;
     const Memory before = memory_;
     const std::vector<double> slip_before = slip_;
@@ -59,7 +61,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t outputs = 6; // per point, in ftincr
+  static constexpr std::size_t outputs = 8; // per point, in ftincr
 
   void call_once(std::size_t i) {
     time_ = path_.time.from_canonical(path_.time_increment());
@@ -68,11 +70,12 @@ private:
       given.push_back(plan(k, i));
     DrivenPath::Call c;
     c.points = points_;
-    c.par = {time_, 2, double(number_), has_temperature_ ? 1.0 : 0.0, double(state_.size())};
+    c.par = {time_,      2, double(number_), has_temperature_ ? 1.0 : 0.0, double(state_.size()),
+             directions_};
     c.properties = properties_;
     for (std::size_t k = 0; k < points_; ++k) {
       const Given& g = given[k];
-      c.v.insert(c.v.end(), {g.pressure, g.rate, g.slip, g.temperature});
+      c.v.insert(c.v.end(), {g.pressure, g.rate, g.slip, g.temperature, g.rate_1, g.rate_2});
       c.fields.insert(c.fields.end(), g.fields.begin(), g.fields.end());
       c.fields.resize(c.fields.size() + g.fields.size());
       c.st.insert(c.st.end(), state_.begin(), state_.end());
@@ -98,6 +101,9 @@ private:
     if (kind == 0) g.pressure = 0;
     if (kind == 1) g.pressure = -g.pressure;
     if (kind == 2) g.rate = 0;
+    const double turn = 0.4 + 2.3 * double(i) + double(k); // anywhere
+    g.rate_1 = g.rate * std::cos(turn);
+    g.rate_2 = g.rate * std::sin(turn);
     if (kind == 3) g.pressure *= 1e-6; // below the pressure at which the coefficient is held
     if (g.pressure > 0 && path_.is_refused(answer(g).states)) g.pressure = 0;
     if (kind == 4) g.pressure = nan;
@@ -125,6 +131,7 @@ private:
     given.peak_pressure = path_.stress.to_canonical(keeps_ ? std::max(memory_.peak, g.pressure)
                                                            : std::max(0.0, g.pressure));
     if (has_temperature_) given.temperature = path_.celsius.to_canonical(g.temperature);
+    if (newer_ && directions_ == 2) given.direction = path_.direction(g.rate_1, g.rate_2);
     given.properties = properties_;
     given.fields = g.fields;
     given.pressure = path_.stress.to_canonical(g.pressure);
@@ -142,16 +149,16 @@ private:
     const bool known = !std::isnan(g.pressure + g.rate + g.slip);
     const Answer a = known ? answer(g) : Answer{nan, nan};
     path_.compare("fCoef", "1", out[0], a.coefficient);
-    path_.compare("other derivatives", "", out[5], 0);
+    path_.compare("other derivatives", "", out[7], 0);
     if (std::isnan(a.coefficient)) {
-      for (int j = 1; j < 5; ++j)
+      for (int j = 1; j < 7; ++j)
         path_.compare("derivatives where something is not a number", "", out[j], 0);
       return;
     }
     if (g.pressure > 0 || !fortran::refuses(path_.request.table))
       compare_slopes(g, out);
     else
-      for (int j = 1; j < 5; ++j)
+      for (int j = 1; j < 7; ++j)
         path_.compare("derivatives without contact", "", out[j], 0);
     if (keeps_) keep(g, a);
   }
@@ -175,9 +182,25 @@ private:
                         std::max(std::abs(g.pressure), stress));
     path_.compare_slope("fCoefDeriv, temperature", "1/K", out[3], coefficient(&Given::temperature),
                         g.temperature, 100);
-    if (newer_)
-      path_.compare_slope("fCoefDeriv, slip", "1/" + path_.length.name, out[4],
-                          coefficient(&Given::slip), g.slip, std::max(g.slip, length));
+    if (!newer_) return;
+    path_.compare_slope("fCoefDeriv, slip", "1/" + path_.length.name, out[4],
+                        coefficient(&Given::slip), g.slip, std::max(g.slip, length));
+    compare_components(g, out, coefficient);
+  }
+
+  // By the components of the slip rate, which turn its direction.
+  void compare_components(const Given& g, const double* out, const auto& coefficient) {
+    if (!takes(path_.inputs, std::string(direction_name)) || directions_ < 2) {
+      for (int j = 5; j < 7; ++j)
+        path_.compare("derivatives of what the law does not take", "", out[j], 0);
+      return;
+    }
+    if (!(std::abs(g.rate) > 0)) return; // none at rest
+    const std::string unit = "1/(" + path_.speed.name + ")";
+    path_.compare_slope("fCoefDeriv, slip rate 1", unit, out[5], coefficient(&Given::rate_1),
+                        g.rate_1, std::abs(g.rate));
+    path_.compare_slope("fCoefDeriv, slip rate 2", unit, out[6], coefficient(&Given::rate_2),
+                        g.rate_2, std::abs(g.rate));
   }
 
   void keep(const Given& g, const Answer& a) {
@@ -225,6 +248,7 @@ private:
   std::vector<double> state_, slip_, properties_;
   double time_ = 0;
   bool has_temperature_ = true;
+  double directions_ = 2;
   std::size_t number_ = 1;
 };
 

@@ -49,6 +49,14 @@ SolverGives given(bool release_2024) {
                         .text = "state variable 2, with the pressure now",
                         .read = "max(s0(2), p)",
                         .slope = "if (p .gt. s0(2)) dpeak = dy(@{index})"});
+  all.states.push_back({.state = std::string(direction_name),
+                        .text = "angle of the slip rate, slipData(:,2) and (:,3), in degrees, from "
+                                "local direction 1 towards 2",
+                        .without = "there is one direction",
+                        .read = "ftfold(rate1, rate2)",
+                        .canonical = true,
+                        .exists = "iData(i_ifc_nFDir) .ge. 2",
+                        .slope = "if (iData(i_ifc_nFDir) .ge. 2) dmud = dy(@{index})/peval"});
   all.history = "state variable @{number}";
   all.before_histories = history;
   return all;
@@ -103,6 +111,7 @@ SourceBundle FricCoef::sources(const ExportRequest& request, const Inputs& input
   values.text["reads"] = fortran::reads(inputs, gives(request), "", 4);
   values.text["slopes"] = fortran::slopes(inputs, gives(request), {}, 4);
   values.flags["new"] = newer;
+  fortran::add_direction(values, request, inputs, gives(request));
   values.text["arguments"] = without_last_break(arguments(request));
   values.text["most"] = fortran::most_text();
   abaqus::add_states(values, state_count(inputs));

@@ -3,6 +3,9 @@
 #include "codegen/exporter.h"
 #include "codegen/coefficient_path.h"
 
+#include <array>
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -42,8 +45,15 @@ const SolverGives& gives(const ExportRequest&) {
                  {.state = "T_contact_C",
                   .text = "T1L, where it is not 0: a deck without temperatures gives 0",
                   .read = "t1l",
-                  .exists = "warm"}},
-      .constant = fortran::settable_constant};
+                  .exists = "warm"},
+                 {.state = std::string(direction_name),
+                  .text = "angle of the tangential part of AL, in degrees, from the direction "
+                          "(@{reference}) of the model, laid on the surface; counter-clockwise for "
+                          "who looks along the normal XN",
+                  .read = "ftturn(way, xn)",
+                  .canonical = true}},
+      .constant = fortran::settable_constant,
+      .slips_in_space = true};
   return all;
 }
 
@@ -55,6 +65,7 @@ std::string source(const Exporter& self, const ExportRequest& request,
   values.text["most"] = fmt::format("{}", fortran::largest_coefficient);
   fortran::add_coefficient(values, request, inputs, gives(request), Coefficient::coulomb,
                            fortran::quit("stop 1"));
+  fortran::add_direction(values, request, inputs, gives(request));
   return render_template("calculix/usrmu/frictab_usrmu.f", values);
 }
 
@@ -154,9 +165,14 @@ private:
   }
 
   void follow(DrivenPath& path) const override {
-    follow_coefficient(
-        path,
-        {.name = "UM", .zero_is_no_temperature = true, .keeps_result_without_pressure = true});
+    // As templates/calculix/usrmu/driver.f has them.
+    const double s = 1 / std::sqrt(5.0);
+    const Axis along = {s, 2 * s, 0}, across = {-4 * s / 3, 2 * s / 3, 5 * s / 3};
+    const Axis normal = {2.0 / 3, -1.0 / 3, 2.0 / 3};
+    follow_coefficient(path, {.name = "UM",
+                              .zero_is_no_temperature = true,
+                              .keeps_result_without_pressure = true,
+                              .surface = std::array{along, across, normal}});
   }
 };
 

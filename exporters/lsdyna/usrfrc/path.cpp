@@ -17,7 +17,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double force_on_node = 2; // that the driver puts there before the call
 
-using Vector = std::array<double, 3>;
+using Vector = Axis;
 
 double product(const Vector& a, const Vector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -171,6 +171,7 @@ private:
     out.speed = seconds() > 0 ? move / seconds() : 0;
     account_.fill(out, account_.kept(node.kept), node.memory, move, g.area);
     out.properties = call_.properties;
+    out.direction = path_.direction(tangential(g.motion, g.axis), g.axis);
     if (has_temperature_) {
       // Bilinear on the segment, whose corners lie at (-1,-1), (1,-1), (1,1), (-1,1).
       const double segment =

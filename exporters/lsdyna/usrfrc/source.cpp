@@ -41,7 +41,13 @@ const SolverGives& Usrfrc::gives(const ExportRequest&) const {
                           "tseg = h1*temp(ix1(ii)) + h2*temp(ix2(ii)) + h3*temp(ix3(ii)) + "
                           "h4*temp(ix4(ii))\n"
                           "@{x} = 0.5D0*(temp(insv(ii)) + tseg)",
-                  .exists = "itopaz(1) .eq. 999"}},
+                  .exists = "itopaz(1) .eq. 999"},
+                 {.state = std::string(direction_name),
+                  .text = "angle of the tangential part of DX, DY, DZ, in degrees, from the "
+                          "direction (@{reference}) of the model, laid on the surface; "
+                          "counter-clockwise for who looks along the normal RN1, RN2, RN3",
+                  .read = "ftturn(way, rn)",
+                  .canonical = true}},
       .property = {.text = "UA(@{property})",
                    .read = "ua(@{property})",
                    .exists = "ninput .ge. @{property}",
@@ -50,7 +56,8 @@ const SolverGives& Usrfrc::gives(const ExportRequest&) const {
       .history = "UFHIST(@{number})",
       .before_histories = explicit_states,
       .area = "AREAS of the node",
-      .smooths_speed = true};
+      .smooths_speed = true,
+      .slips_in_space = true};
   return all;
 }
 
@@ -85,6 +92,7 @@ SourceBundle Usrfrc::sources(const ExportRequest& request, const Inputs& inputs)
   values.text["arguments"] = render_part("lsdyna/usrfrc/arguments.f", {});
   values.flags["has_ends"] = !frictab::table::all_ends(table).empty();
   add_speed_scale(values, request, inputs);
+  fortran::add_direction(values, request, inputs, gives(request));
   values.flags["uses_temperature"] = takes(inputs, "T_contact_C");
   values.text["reads_once"] = fortran::reads(inputs, gives(request), "once");
   values.text["reads"] = fortran::reads(inputs, gives(request), "", 4);

@@ -24,25 +24,33 @@ Choices choices(const ExportRequest& request) {
 
 namespace {
 
-SolverGives given(bool by_force) {
-  return {.states = {{.state = "sigma_n_MPa",
-                      .text = "|FN|",
-                      .read = by_force ? "1.0D0" : "press",
-                      .canonical = true},
-                     {.state = "v_rel_mm_s", .text = "|VREL|", .read = "speed"},
-                     {.state = "T_contact_C", .text = "TEMP(1)", .read = "temp(1)"},
-                     {.state = "sigma_f_MPa",
-                      .text = "YIEL, flow stress at the point",
-                      .read = "flow",
-                      .canonical = true}},
-          .constant = fortran::settable_constant};
+SolverGives given(bool by_force, bool in_space) {
+  SolverGives all = {.states = {{.state = "sigma_n_MPa",
+                                 .text = "|FN|",
+                                 .read = by_force ? "1.0D0" : "press",
+                                 .canonical = true},
+                                {.state = "v_rel_mm_s", .text = "|VREL|", .read = "speed"},
+                                {.state = "T_contact_C", .text = "TEMP(1)", .read = "temp(1)"},
+                                {.state = "sigma_f_MPa",
+                                 .text = "YIEL, flow stress at the point",
+                                 .read = "flow",
+                                 .canonical = true}},
+                     .constant = fortran::settable_constant};
+  if (in_space)
+    all.states.push_back({.state = std::string(direction_name),
+                          .text = "angle of VREL, in degrees, from its component 1 towards 2",
+                          .read = "ftfold(vrel(1), vrel(2))",
+                          .canonical = true});
+  return all;
 }
 
 } // namespace
 
 const SolverGives& Ufric::gives(const ExportRequest& request) const {
-  static const SolverGives stress = given(false), force = given(true);
-  return choices(request).by_force ? force : stress;
+  static const SolverGives all[2][2] = {{given(false, false), given(false, true)},
+                                        {given(true, false), given(true, true)}};
+  const Choices chosen = choices(request);
+  return all[chosen.by_force][chosen.slip_components == 2];
 }
 
 namespace {
@@ -106,6 +114,7 @@ SourceBundle Ufric::sources(const ExportRequest& request, const Inputs& inputs) 
   values.text["arguments"] = without_last_break(arguments(request));
   values.text["n_slip"] = std::to_string(chosen.slip_components);
   fortran::add_coefficient(values, request, inputs, gives(request), chosen.coefficient, quit());
+  fortran::add_direction(values, request, inputs, gives(request));
   values.flags["coulomb"] = coulomb;
   values.flags["by_force"] = chosen.by_force;
   values.flags["guards_pressure"] = refuses || (chosen.by_force && coulomb);

@@ -1,7 +1,7 @@
 C     Calls FRIC as Abaqus/Standard does: each point in the first
 C     increment of a contact that already slips (see ftdriv in
 C     src/codegen/driver.h). States: 1 pressure, 2 speed, 3 slip,
-C     4 work, 5 peak pressure, 6 temperature.
+C     4 work, 5 peak pressure, 6 temperature, 7 direction of slip.
       subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
       include 'aba_param.inc'
 @include fortran/ftdriv_arguments.f
@@ -40,6 +40,13 @@ C       Every other point slips in two directions.
         along(1) = 1
         if (nfdir .eq. 2) along(1) = 0.6D0
         if (nfdir .eq. 2) along(2) = 0.8D0
+@if directs
+        nfdir = 2
+        along(1) = cos(v(7,k)/57.29577951308232D0)
+        along(2) = sin(v(7,k)/57.29577951308232D0)
+        if (abs(along(1)) .lt. 1.0D-15) along(1) = 0
+        if (abs(along(2)) .lt. 1.0D-15) along(2) = 0
+@end
         ddg = 0
         ddp = 0
         ds = 0

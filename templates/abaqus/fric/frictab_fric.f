@@ -49,6 +49,13 @@ C     and what TAU changes by per change of the limit
 C     What histories add to the derivatives by speed and temperature
       double precision hv, ht
 @end
+@if directs
+C     The direction of slip, its square, the limit's derivative by the
+C     angle (per radian), and the angle's by the motion
+      double precision way(2), way2, flimd, turn(2), degree, ftfold
+      external ftfold
+      parameter (degree = 57.29577951308232D0)
+@end
       parameter (zero = 0.0D0)
 C
       keeps = nstatv .ge. @{depvar}
@@ -164,6 +171,17 @@ C     solver does not turn itself.
         if (.not. bad) ds = max(gtn - gc, zero)
       end if
 C
+@if directs
+C     A point slips along its trial elastic slip; without history, along
+C     the motion.
+      way(1) = dg(1)
+      way(2) = dg(2)
+      if (keeps) then
+        way(1) = gt(1)
+        way(2) = gt(2)
+      end if
+C
+@end
 C     The law's states
 @{reads}
 @if has_histories
@@ -196,6 +214,9 @@ C     The limit and its derivatives
       flimv = zero
       flims = zero
       flimt = zero
+@if directs
+      flimd = zero
+@end
 @{slopes}
 @if has_histories
       hv = zero
@@ -216,6 +237,9 @@ C     The limit and its derivatives
         flimv = flimv*hold
         flims = flims*hold
         flimt = flimt*hold
+@if directs
+        flimd = flimd*hold
+@end
       end if
 @if frozen
 C     The coefficient that the last increment left, where there is one
@@ -225,6 +249,19 @@ C     The coefficient that the last increment left, where there is one
         flimv = zero
         flims = zero
         flimt = zero
+@if directs
+        flimd = zero
+@end
+      end if
+@end
+@if directs
+C     The angle turns with what of the motion is across the slip.
+      turn(1) = zero
+      turn(2) = zero
+      way2 = way(1)*way(1) + way(2)*way(2)
+      if (way2 .gt. zero) then
+        turn(1) = -way(2)/way2
+        turn(2) = way(1)/way2
       end if
 @end
 C
@@ -288,6 +325,9 @@ C     that takes off along TAU counts in stick alone.
           if (slips) unit = unit - w(i)*w(j)
           ddtddg(i,j) = gain*unit + wl(i)*flimv*vrate*e(j)
           if (slips) ddtddg(i,j) = ddtddg(i,j) + w(i)*flims*w(j)
+@if directs
+          ddtddg(i,j) = ddtddg(i,j) + wl(i)*flimd*turn(j)
+@end
         end do
         sed = sed + 0.5D0*tau(i)*s1(4+i)
       end do
@@ -322,4 +362,5 @@ C
 @{states_text}
 C
 @{histories_text}
+@{direction_text}
 @{core}

@@ -1,8 +1,8 @@
 C     Calls FRIC_COEF as Abaqus/Standard does (see ftdriv in
 C     src/codegen/driver.h). States: 1 pressure, 2 slip rate,
 @if new
-C     3 temperature, 4 slip, 5 work, 6 peak pressure. State variables
-C     are there where a call holds one point.
+C     3 temperature, 4 slip, 5 work, 6 peak pressure, 7 direction of
+C     slip. State variables are there where a call holds one point.
 @else
 C     3 temperature.
 @end
@@ -32,6 +32,13 @@ C     3 temperature.
       slip = 0
       slip(:,1) = v(2,:)
       slip(:,4) = v(4,:)
+@if directs
+      do i = 1, n
+        slip(i,2) = v(2,i)*cos(v(7,i)/57.29577951308232D0)
+        slip(i,3) = v(2,i)*sin(v(7,i)/57.29577951308232D0)
+        where (abs(slip(i,2:3)) .lt. v(2,i)*1.0D-15) slip(i,2:3) = 0
+      end do
+@end
 C     iData: step, increment, element, point, state variables, kind
       idata(4) = 7
       idata(5) = 0
@@ -60,9 +67,10 @@ C     iData: step, increment, element, point, state variables, kind
 C
 C     One call of FRIC_COEF (ftincr in src/codegen/driven_path.h).
 C     par: time increment, step, increment, whether there are
-C     temperatures, state variables. v: pressure, slip rate, slip,
-C     temperature. st: of the first point. out: coefficient, derivatives
-C     by slip rate, pressure, temperature and slip, sum of the others.
+C     temperatures, state variables, directions. v: pressure, slip rate,
+C     slip, temperature, components of the slip rate (2). st: of the
+C     first point. out: coefficient, derivatives by slip rate, pressure,
+C     temperature, slip and components (2), sum of the others.
       subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
      &  field, nout, out)
       include 'aba_param.inc'
@@ -93,10 +101,13 @@ C     by slip rate, pressure, temperature and slip, sum of the others.
       idata(3) = 5
       idata(4) = 7
       idata(5) = nint(par(5))
-      idata(6) = 2
+      idata(6) = nint(par(6))
       slip = 1.0D30
       slip(:,1) = v(2,:)
       slip(:,4) = v(3,:)
+@if directs
+      if (idata(6) .eq. 2) slip(:,2:3) = transpose(v(5:6,:))
+@end
       do i = 1, ns
         rdata(7+i) = st(i,1)
       end do
@@ -115,14 +126,16 @@ C     by slip rate, pressure, temperature and slip, sum of the others.
       out(3,:) = deriv(:,2,1)
       out(4,:) = deriv(:,3,1)
       out(5,:) = deriv(:,6,1)
+      out(6,:) = deriv(:,4,1)
+      out(7,:) = deriv(:,5,1)
       do k = 1, n
-        out(6,k) = sum(abs(deriv(k,4:5,1))) + sum(abs(deriv(k,7:20,1)))
+        out(8,k) = sum(abs(deriv(k,7:20,1)))
       end do
 @else
       out(1,:) = coef
       out(2,:) = deriv(:,1)
       out(3,:) = deriv(:,2)
       out(4,:) = deriv(:,3)
-      out(5:6,:) = 0
+      out(5:8,:) = 0
 @end
       end

@@ -51,6 +51,15 @@ C     What histories add to the derivatives by speed and temperature
       double precision hv, ht, dtime
       parameter (i_rfc_DTimCur = 3)
 @end
+@if directs
+C     Components of the slip rate, its square, the derivatives by the
+C     angle and, per radian, by the components
+      double precision rate1, rate2, square, dmud, ftfold, degree
+      external ftfold
+      parameter (i_ifc_nFDir = 6, i_SD_SlipRate1 = 2,
+     * i_SD_SlipRate2 = 3, i_fDer_SlipRate1 = 4, i_fDer_SlipRate2 = 5)
+      parameter (degree = 57.29577951308232D0)
+@end
       parameter (zero = 0.0D0)
 C
 @{reads_once}
@@ -68,6 +77,14 @@ C     The state variables lie in rData; they are those of one point.
 @if new
         rate = slipData(k,i_SD_SlipRateMag)
         s = slipData(k,i_SD_SlipEq)
+@if directs
+        rate1 = zero
+        rate2 = zero
+        if (iData(i_ifc_nFDir) .ge. 2) then
+          rate1 = slipData(k,i_SD_SlipRate1)
+          rate2 = slipData(k,i_SD_SlipRate2)
+        end if
+@end
         do j = 1, 20
           fCoefDeriv(k,j,1) = zero
         end do
@@ -84,6 +101,10 @@ C       than 1D30 is as good as infinite.
         peval = @{pmin}
         if (ftnan(p)) y = p
         if (ftnan(rate)) y = rate
+@if directs
+        if (ftnan(rate1)) y = rate1
+        if (ftnan(rate2)) y = rate2
+@end
 @if has_histories
         dtime = rData(i_rfc_DTimCur)
         if (ftnan(dtime)) y = dtime
@@ -131,6 +152,9 @@ C           A point that does not press cannot stop the analysis.
         dmut = zero
         dmus = zero
         dpeak = zero
+@if directs
+        dmud = zero
+@end
         amu = y
         if (.not. ftnan(y)) then
           amu = y/peval
@@ -153,6 +177,9 @@ C           A point that does not press cannot stop the analysis.
             dmup = zero
             dmut = zero
             dmus = zero
+@if directs
+            dmud = zero
+@end
           end if
 @if new
           if (keeps) then
@@ -175,6 +202,9 @@ C           The coefficient that the last increment left
               dmup = zero
               dmut = zero
               dmus = zero
+@if directs
+              dmud = zero
+@end
             end if
 @end
             if (p .gt. zero)
@@ -194,6 +224,15 @@ C           The coefficient that the last increment left
         fCoefDeriv(k,i_fDer_Pressure,1) = dmup
         fCoefDeriv(k,i_fDer_Temperature,1) = dmut
         fCoefDeriv(k,i_fDer_SlipEq,1) = dmus
+@if directs
+C       The angle turns with what of the slip rate is across it.
+        square = zero
+        if (.not. ftnan(y)) square = rate1*rate1 + rate2*rate2
+        if (square .gt. zero) then
+          fCoefDeriv(k,i_fDer_SlipRate1,1) = -dmud*degree*rate2/square
+          fCoefDeriv(k,i_fDer_SlipRate2,1) = dmud*degree*rate1/square
+        end if
+@end
 @else
         fCoef(k) = amu
         fCoefDeriv(k,1) = dmuv
@@ -210,5 +249,6 @@ C
 C
 @{histories_text}
 @end
+@{direction_text}
 @end
 @{core}

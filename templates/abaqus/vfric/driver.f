@@ -1,10 +1,14 @@
 C     Calls VFRIC as Abaqus/Explicit does, with a block of contact
 C     points (see ftdriv in src/codegen/driver.h). States: 1 pressure,
-C     2 speed, 3 slip, 4 work, 5 peak pressure, 6 temperature.
+C     2 speed, 3 slip, 4 work, 5 peak pressure, 6 temperature,
+C     7 direction of slip.
       subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
       include 'vaba_param.inc'
 @include fortran/ftdriv_arguments.f
       real*8 a
+@if directs
+      real*8 way(3), axis(3)
+@end
 C     Powers of two, as areas: dividing by them changes no bits.
       parameter (dtime = 2.0**(-30))
       character*80 cin, csec, cmain
@@ -41,6 +45,11 @@ C       Nodes backwards, and not from the first
         area(node) = real(a, kind(area))
         fnorm(k) = real(v(1,k)*a, kind(fnorm))
         slip(1,k) = real(v(2,k)*dtime, kind(slip))
+@if directs
+        call ftway(v(7,k), way, axis)
+        dsl(:,k) = real(way, kind(dsl))
+        dn(:,k) = real(axis, kind(dn))
+@end
 C       Far more than friction holds, along and against the motion
         stick(k) = 1.0E30*(1 - 2*mod(k, 2))
         tsec(k) = real(v(6,k), kind(tsec))
@@ -71,13 +80,17 @@ C       sums lies behind them.
       end do
       end
 C
+@if directs
+@include fortran/direction_vectors.f
+@end
 @include abaqus/put_state.f
 C     One increment of VFRIC (ftincr in src/codegen/driven_path.h).
 C     par: time increment, whether there are temperatures, values of
 C     the main surface (0, 1 or n), step, increment, directions of
 C     friction, directions, surface nodes. v: normal force, area, stick
-C     force, motion (3), force before (3), temperatures (2), node. out:
-C     force (2), values of other nodes that were changed.
+C     force, motion (3), force before (3), temperatures (2), node, first
+C     axis (3), normal (3). out: force (2), values of other nodes that
+C     were changed.
       subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
      &  field, nout, out)
       include 'vaba_param.inc'
@@ -124,6 +137,10 @@ C     What no law asks for, and state variables of other nodes
         do i = 1, ndir
           slip(i,k) = real(v(3+i,k), kind(slip))
           prev(i,k) = real(v(6+i,k), kind(prev))
+@if directs
+          dsl(i,k) = real(v(12+i,k), kind(dsl))
+          dn(i,k) = real(v(15+i,k), kind(dn))
+@end
         end do
         tsec(k) = real(v(10,k), kind(tsec))
         tmain(k) = real(v(11,k), kind(tmain))

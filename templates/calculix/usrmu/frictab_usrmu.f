@@ -23,6 +23,10 @@ C
       double precision dtime
       common /fttime/ dtime
 @{common}
+@if directs
+      double precision way(3), ftturn
+      external ftturn
+@end
       logical ftnan, warm
       external ftnan
 @if refuses
@@ -42,6 +46,9 @@ C     NaN first: nothing below compares with one.
       slide = 0.0D0
       do i = 1, 3
         speed = speed + (al(i) - val*xn(i))**2
+@if directs
+        way(i) = al(i) - val*xn(i)
+@end
         slide = slide + t(i)*t(i)
       end do
       speed = sqrt(speed)
@@ -75,5 +82,6 @@ C     thread says the same number.
       end
 C
 @{constants}
+@{direction_text}
 @{coefficient}
 @{core}

@@ -1,12 +1,15 @@
 C     Calls USRFRC as LS-DYNA does, for a block of contact nodes (see
 C     ftdriv in src/codegen/driver.h). States: 1 pressure, 2 speed,
-C     3 slip, 4 work, 5 peak pressure, 6 temperature. Default real and
-C     integer are the solver's, as the routine's.
+C     3 slip, 4 work, 5 peak pressure, 6 temperature, 7 direction of
+C     slip. Default real and integer are the solver's, as the routine's.
       subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
       implicit none
 @include fortran/ftdriv_arguments.f
 C     Powers of two: dividing by them changes no bits.
       real*8 step, a
+@if directs
+      real*8 way(3), axis(3)
+@end
       parameter (step = 2.0D0**(-30))
       integer insv(n), lsv(n), ix(n,4), iisv5(n), iseg(n), ilbsv(n)
       integer npc(1), lcfst(1), lcfdt(1), isurf(5*n,1), nhv, i, k, j
@@ -61,12 +64,21 @@ C       that force is large, so that sliding is what happens.
         d(k,2) = real(v(2,k)*step, kind(d))
         d(k,3) = 3
         fdat(3,k) = 2.0**60
+@if directs
+C       The force before is along the reference direction.
+        call ftway(0.0D0, way, axis)
+        fdat(3:5,k) = real(way*2.0D0**60, kind(fdat))
+        call ftway(v(7,k), way, axis)
+        d(k,:) = real(v(2,k)*step*way, kind(d))
+        rn(k,:) = real(axis, kind(rn))
+@end
         do i = 0, 4
           temp(i*n+k) = real(v(6,k), kind(temp))
         end do
 C       What was slipped before this cycle
         ufhist(:,j) = 0
-        ufhist(1,j) = real(v(3,k), kind(ufhist)) - abs(d(k,2))
+        ufhist(1,j) = real(v(3,k), kind(ufhist))
+     &    - real(v(2,k)*step, kind(ufhist))
         ufhist(2,j) = real(v(4,k), kind(ufhist))
         ufhist(3,j) = real(v(5,k), kind(ufhist))
 @if has_area
@@ -88,9 +100,16 @@ C       What was slipped before this cycle
      &  none, isurf, nhv, ufhist, 1, ufeps, real(1, kind(d)))
       do k = 1, n
         tau(k) = f(k,1)/2.0D0**(mod(k - 1, 4) - 2)
+@if directs
+        call ftway(0.0D0, way, axis)
+        tau(k) = sum(f(k,:)*way)/2.0D0**(mod(k - 1, 4) - 2)
+@end
       end do
       end
 C
+@if directs
+@include fortran/direction_vectors.f
+@end
 C     One cycle of USRFRC (ftincr in src/codegen/driven_path.h).
 C     par: 1 over the time increment, whether there are temperatures,
 C     scale of the stiffness, segments, nodes. v: normal force, area,

@@ -54,6 +54,11 @@ C     Slip and work before this cycle; a sum as UFHIST holds it
 @if has_histories
       double precision past(@{n_histories}), next(@{n_histories}), dtime
 @end
+@if directs
+C     Tangential part of the relative displacement
+      double precision way(3), ftturn
+      external ftturn
+@end
       integer i, ii, j, kk
 C
 @{reads_once}
@@ -87,6 +92,9 @@ C       that would hold the node; magnitude of the force before.
           fprev = fprev + f(i)*f(i)
           f(i) = f(i) + stiff*d(i)
           slip = slip + (d(i) - proj*rn(i))**2
+@if directs
+          way(i) = d(i) - proj*rn(i)
+@end
         end do
         slip = sqrt(slip)
         fprev = sqrt(fprev)
@@ -249,4 +257,5 @@ C     A pressed node without area ends the analysis.
       end
 C
 @{histories_text}
+@{direction_text}
 @{core}

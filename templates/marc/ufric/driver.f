@@ -1,6 +1,6 @@
 C     Calls UFRIC as Marc does, once per contact point (see ftdriv in
 C     src/codegen/driver.h). States: 1 normal stress, 2 speed,
-C     3 temperature, 4 flow stress.
+C     3 temperature, 4 flow stress, 5 direction of slip.
       subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
       implicit none
 @include fortran/ftdriv_arguments.f
@@ -17,6 +17,11 @@ C     3 temperature, 4 flow stress.
       do k = 1, n
         vrel(1) = v(2,k)
         vrel(2) = 0.0D0
+@if directs
+        vrel(1) = v(2,k)*cos(v(5,k)/57.29577951308232D0)
+        vrel(2) = v(2,k)*sin(v(5,k)/57.29577951308232D0)
+        where (abs(vrel) .lt. v(2,k)*1.0D-15) vrel = 0.0D0
+@end
         temp(1) = v(3,k)
         temp(2) = 0.0D0
         tau(k) = 777.0D0
@@ -27,7 +32,7 @@ C     3 temperature, 4 flow stress.
 C
 C     UFRIC at each point (ftincr in src/codegen/driven_path.h).
 C     v: normal stress, speed, slip (not given), temperature, flow
-C     stress.
+C     stress, direction of the speed (2).
       subroutine ftincr(n, npar, par, nv, v, ns, st, np, prop, nf,
      &  field, nout, out)
       implicit none
@@ -44,8 +49,8 @@ C     stress.
       nsurf = @{contact}
       do k = 1, n
 @if in_space
-        vrel(1) = 0.6D0*v(2,k)
-        vrel(2) = -0.8D0*v(2,k)
+        vrel(1) = v(6,k)*v(2,k)
+        vrel(2) = v(7,k)*v(2,k)
 @else
         vrel(1) = v(2,k)
         vrel(2) = 1.0D30

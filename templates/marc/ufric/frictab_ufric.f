@@ -16,6 +16,10 @@ C
       external ftcoef
       integer i
 @{common}
+@if directs
+      double precision ftfold
+      external ftfold
+@end
 @if guards_pressure
       logical ftnan
       external ftnan
@@ -60,5 +64,6 @@ C     Without pressure there is nothing to look up.
       end
 C
 @{constants}
+@{direction_text}
 @{coefficient}
 @{core}
