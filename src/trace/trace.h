@@ -55,6 +55,9 @@ struct EffectCurve {
 };
 
 // Tests to run next, which would settle an open question.
+// Design::like of tests that only have to be like each other.
+inline constexpr const char* alike = "each other, run in this order";
+
 struct Design {
   std::vector<std::string> columns;            // columns that the tests vary
   std::vector<std::vector<std::string>> tests; // one value per column; empty: no test settles it
@@ -187,8 +190,8 @@ struct Trace : BeforeAndAfter {
   std::string model;          // the law that was traced
   std::string extended_model; // name of the law with effects; empty: none was added
   // The law that ranked first and was traced as well, and its errors on the same unseen tests, with
-  // effects of its own and before: this law predicts them better, or is simpler and no worse by more
-  // than one standard error. Empty: this one ranked first.
+  // effects of its own and before: this law predicts them better, or is simpler and no worse by
+  // more than one standard error. Empty: this one ranked first.
   std::string chosen_over;
   double chosen_over_MPa = 0, chosen_over_before_MPa = 0;
   Verdict verdict = Verdict::nothing_found;

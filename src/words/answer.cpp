@@ -101,7 +101,7 @@ Text take_text(const Answers& answers) {
   else
     text += fmt::format(", the simplest law that is not clearly worse than {}, the best", best_law);
   text += others_text(calibration) + many_numbers(fit, calibration);
-  return answers.cautions.empty() ? text : text + "; check (1) under next first";
+  return answers.cautions.empty() ? text : text + "; provisional: check (1) under next first";
 }
 
 // "7.3 % of the mean stress"; empty: not known.
@@ -261,6 +261,16 @@ std::string necessary_command(const Answers& answers) {
              : fmt::format("frictab run {} --set table.model=recommended", shell_word(answers.job));
 }
 
+// Drift of the tables and routines, which may be of another law than the one to take.
+Text files_text(const Answers& answers) {
+  const Text drift = drift_in_short(*answers.verification);
+  if (drift.empty() || necessary_command(answers).empty()) return drift;
+  std::vector<std::string> laws;
+  for (const table::Table& table : answers.tables)
+    if (std::ranges::find(laws, table.model) == laws.end()) laws.push_back(table.model);
+  return Text(fmt::format("of {}, not of the law to take (see next); ", join(laws, ", "))) + drift;
+}
+
 Next next_of(const Answers& answers) {
   constexpr std::size_t shown = 2; // of each kind: the line stays a line
   Next next;
@@ -317,7 +327,7 @@ Section in_short(const Answers& answers) {
   for (const trace::Trace& trace : answers.traces)
     add("effects", effects_text(trace, answers));
   if (is_calibrated(answers)) add("tested", valid_text(answers));
-  if (answers.verification) add("FE files", drift_in_short(*answers.verification));
+  if (answers.verification) add("FE files", files_text(answers));
   add("next", next_text(answers));
   section.add(std::move(list));
   return section;

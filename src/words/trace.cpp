@@ -261,8 +261,10 @@ std::string suspect(const Trace& t) {
   });
   if (lead == t.leads.end()) return "";
   const std::string product = effect_in_product(lead_name(*lead), "changes with");
-  return fmt::format("suspected, not proven: {} ({})", product.empty() ? lead_name(*lead) : product,
-                     p_clause(lead->p_value));
+  const std::string size =
+      lead->share != 0 ? fmt::format(", about {:.2g} %", 100 * std::abs(lead->share)) : "";
+  return fmt::format("suspected, not proven: {} ({}{})",
+                     product.empty() ? lead_name(*lead) : product, p_clause(lead->p_value), size);
 }
 
 // Findings that are not confirmed, or that nothing was found; with the remaining structure.
@@ -427,7 +429,7 @@ std::string tests_in_short(const trace::Design& d) {
   for (std::size_t t = 2; t < d.tests.size(); ++t)
     in_turn = in_turn && d.tests[t] == d.tests[t - 2];
   if (in_turn)
-    return fmt::format("{} tests {} and {} in turn", d.tests.size(), settings(0), settings(1));
+    return fmt::format("{} tests in turn {} and {}", d.tests.size(), settings(0), settings(1));
   std::vector<std::string> groups;
   std::size_t t = 0;
   for (const std::size_t alike : runs_of(d.tests)) {
@@ -450,8 +452,8 @@ std::string design_in_short(const trace::Design& d) {
       "{:.0f} % chance of a clear answer, if it is as large as it looks", 100 * d.probability);
   if (d.tests_needed > static_cast<double>(d.tests.size()))
     chance += fmt::format("; about {:.0f} such tests give 80 %", d.tests_needed);
-  return fmt::format("run {}, otherwise like {}, {} ({})", tests_in_short(d), d.like,
-                     question_of(d), chance);
+  return fmt::format("run {}, otherwise {}, {} ({})", tests_in_short(d),
+                     d.like == trace::alike ? "equal" : "like " + d.like, question_of(d), chance);
 }
 
 bool gain_is_certain(const Trace& t) {

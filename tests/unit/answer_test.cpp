@@ -129,6 +129,26 @@ TEST(FirstBox, PutsTestsThatWouldProbablySettleNothingLast) {
                         "(2) repeat any"));
 }
 
+TEST(FirstBox, GivesTheSizeOfASuspectAndTestsInTurn) {
+  Box box;
+  trace::Trace& t = box.traces.emplace_back();
+  t.model = "coulomb";
+  t.verdict = trace::Verdict::nothing_found;
+  t.least_p_value = 0.001;
+  trace::Lead lead;
+  lead.name = "oil";
+  lead.columns = {"oil"};
+  lead.p_value = 0.03;
+  lead.share = -0.14;
+  lead.design = design_of("oil", 0.9, 2);
+  lead.design.tests = {{"A"}, {"B"}, {"A"}, {"B"}};
+  lead.design.like = trace::alike;
+  t.leads = {lead};
+  EXPECT_THAT(box.text(), HasSubstr("suspected, not proven: oil (p = 0.030, about 14 %)"));
+  EXPECT_THAT(box.text(), HasSubstr("run 4 tests in turn with oil = A and with oil = B, otherwise "
+                                    "equal, to see whether oil has an effect"));
+}
+
 TEST(FirstBox, NamesAnEffectWhoseGainIsNotCertain) {
   Box box;
   trace::Trace& t = box.traces.emplace_back();
