@@ -89,8 +89,10 @@ void add_values_above(io::CsvTable& raw, const Reading& options, FaultList& faul
     for (const io::CsvAbove& line : raw.above)
       known.push_back(line.name);
     faults.add({raw.file, raw.header_line, 0},
-               fmt::format("no line above the rows gives '{}' (data.above)", name),
-               known.empty() ? "there are no such lines" : suggest(name, known));
+               raw.header_line > 0
+                   ? fmt::format("no line above the rows gives '{}' (data.above)", name)
+                   : fmt::format("no value of the whole file is called '{}' (data.above)", name),
+               known.empty() ? "there are no such lines or values" : suggest(name, known));
   }
 }
 

@@ -70,16 +70,21 @@ std::vector<std::string> files_in(const std::string& folder, const std::string& 
 
 // ---- rules ----
 
-bool fits(const FileRule& rule, const std::string& file) {
+// `sheet`: of a workbook, by its name or as "tests.xlsx/T01"; empty: the file as a whole.
+bool fits(const FileRule& rule, const std::string& file, const std::string& sheet = "") {
   const bool with_folder = rule.match.find('/') != std::string::npos;
-  const std::string name = with_folder ? file : fs::path(file).filename().string();
-  return os::is_like(name, rule.match);
+  const std::string own = fs::path(file).filename().string();
+  if (os::is_like(with_folder ? file : own, rule.match)) return true;
+  if (sheet.empty()) return false;
+  if (!with_folder) return os::is_like(sheet, rule.match);
+  return os::is_like(file + "/" + sheet, rule.match) || os::is_like(own + "/" + sheet, rule.match);
 }
 
 // Index of the first matching rule; number of rules if none matches.
-std::size_t rule_of(const std::string& file, const DataOptions& options) {
+std::size_t rule_of(const std::string& file, const DataOptions& options,
+                    const std::string& sheet = "") {
   std::size_t i = 0;
-  while (i < options.files.size() && !fits(options.files[i], file))
+  while (i < options.files.size() && !fits(options.files[i], file, sheet))
     ++i;
   return i;
 }
@@ -317,17 +322,89 @@ std::vector<std::string> find_files(const std::vector<std::string>& named, const
   return out;
 }
 
+namespace {
+
+bool is_absent(const fs::path& path) {
+  std::error_code error;
+  return fs::status(path, error).type() == fs::file_type::not_found;
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (const std::string name = entry.path().filename().string(); !is_by_product(name))
+      names.push_back(name);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// The name with its first part that is not there replaced by the nearest one in its folder.
+std::string hint_for(const std::string& name, const std::string& base) {
+  constexpr std::size_t most = 6;
+  const fs::path here = base.empty() ? fs::path(".") : fs::path(base);
+  const fs::path whole(name);
+  fs::path found;
+  fs::path::iterator part = whole.begin();
+  for (; part != whole.end() && !is_absent(here / found / *part); ++part)
+    found /= *part;
+  if (part == whole.end()) return "";
+  std::vector<std::string> names = names_in(here / found);
+  const std::string near = nearest_name(part->string(), names);
+  fs::path meant = found / near;
+  for (++part; part != whole.end(); ++part)
+    meant /= *part;
+  if (!near.empty() && !is_absent(here / meant))
+    return fmt::format("did you mean '{}'?", meant.string());
+  const std::string folder = found.empty() ? "the folder of the job" : "'" + found.string() + "'";
+  if (names.empty()) return folder + " holds no file";
+  const std::size_t more = names.size() - std::min(names.size(), most);
+  names.resize(names.size() - more);
+  return fmt::format("{} holds {}{}", folder, join(names, ", "), and_more(more, "name"));
+}
+
+} // namespace
+
+void check_is_there(const std::string& key, const std::string& name, const std::string& base,
+                    const Place& place, FaultList& faults) {
+  const bool in_job = place.line > 0;
+  try {
+    for (const std::string& file : find_files({name}, base, place))
+      if (is_absent(inside(base, file)))
+        faults.add(in_job ? place : Place{name, 0, 0},
+                   in_job ? fmt::format("{}: no such file: '{}'", key, name)
+                          : fmt::format("no such file ({})", key),
+                   hint_for(name, base));
+  } catch (const InputError& error) {
+    faults.add(error);
+  }
+}
+
 std::filesystem::path path_of(const FilePlan& plan) {
   return inside(plan.options.base, plan.file);
 }
 
 namespace {
 
-// Replaces the plan of a workbook by those of its sheets.
-void add_sheets(FilePlans& plans, const FilePlan& book) {
-  const SheetChoice choice = choose_sheets(path_of(book).string(), book.file, book.options);
+// The options for a file, or a sheet of it, by its rule.
+Reading options_of(const Reading& plain, std::size_t rule, const DataOptions& all) {
+  Reading own = plain;
+  if (rule < all.files.size()) apply(all.files[rule], own);
+  return own;
+}
+
+// Adds a plan for each sheet of a workbook that is read. `rules`: of each plan.
+void add_sheets(FilePlans& plans, const FilePlan& book, const Reading& plain,
+                const DataOptions& all, std::vector<std::size_t>& rules) {
+  const auto of_sheet = [&](const std::string& sheet) -> DataOptions {
+    return options_of(plain, rule_of(book.file, all, sheet), all);
+  };
+  const SheetChoice choice =
+      choose_sheets(path_of(book).string(), book.file, book.options, of_sheet);
   for (const std::string& sheet : choice.read) {
+    rules.push_back(rule_of(book.file, all, sheet));
     plans.files.push_back(book);
+    plans.files.back().options = options_of(plain, rules.back(), all);
     plans.files.back().options.sheets = {sheet};
     if (!choice.alone) plans.files.back().name = book.file + "/" + sheet;
   }
@@ -347,14 +424,14 @@ FilePlans plan_files(const std::vector<std::string>& files, const Reading& optio
   one.files.clear();
   std::vector<std::size_t> rules; // of each plan
   for (const std::string& file : files) {
-    FilePlan plan{file, file, "", one};
     const std::size_t rule = rule_of(file, options);
-    if (rule < options.files.size()) apply(options.files[rule], plan.options);
-    if (io::looks_like_workbook(path_of(plan)))
-      add_sheets(plans, plan);
-    else
-      plans.files.push_back(std::move(plan));
-    rules.resize(plans.files.size(), rule);
+    FilePlan plan{file, file, "", options_of(one, rule, options)};
+    if (io::looks_like_workbook(path_of(plan))) {
+      add_sheets(plans, plan, one, options, rules);
+      continue;
+    }
+    plans.files.push_back(std::move(plan));
+    rules.push_back(rule);
   }
   set_labels(plans.files);
   for (std::size_t r = 0; r < options.files.size(); ++r) {
@@ -386,18 +463,48 @@ void take_dialect_of_tests(DataOptions& options) {
   apply_dialect(*rule, options);
 }
 
+namespace {
+
+struct SheetName {
+  std::string file, sheet;
+};
+
+// All sheets of the workbooks among the files.
+std::vector<SheetName> sheets_of(const std::vector<std::string>& files,
+                                 const DataOptions& options) {
+  std::vector<SheetName> all;
+  for (const std::string& file : files)
+    if (const fs::path path = inside(options.base, file); io::looks_like_workbook(path))
+      for (const io::Workbook::Entry& one : io::Workbook(path, file).sheets())
+        all.push_back({file, one.name});
+  return all;
+}
+
+} // namespace
+
 void check_rules(const std::vector<std::string>& files, const DataOptions& options) {
   FaultList faults;
   for (std::size_t r = 0; r < options.files.size(); ++r) {
     if (&options.files[r] == rule_of_tests(options)) continue;
     const auto is_its = [&](const std::string& file) { return rule_of(file, options) == r; };
     if (std::any_of(files.begin(), files.end(), is_its)) continue;
+    const std::vector<SheetName> sheets = sheets_of(files, options);
+    if (std::any_of(sheets.begin(), sheets.end(), [&](const SheetName& one) {
+          return rule_of(one.file, options, one.sheet) == r;
+        }))
+      continue;
     const auto would = [&](const std::string& file) { return fits(options.files[r], file); };
-    const bool late = std::any_of(files.begin(), files.end(), would);
+    const bool late = std::any_of(files.begin(), files.end(), would) ||
+                      std::any_of(sheets.begin(), sheets.end(), [&](const SheetName& one) {
+                        return fits(options.files[r], one.file, one.sheet);
+                      });
+    std::vector<std::string> known = files;
+    for (const SheetName& one : sheets)
+      known.push_back(one.file + "/" + one.sheet);
     faults.add(options.files[r].place,
                fmt::format("no file is read by match = '{}'", options.files[r].match),
                late ? "an earlier rule matches all of them: the first one counts"
-                    : "the files: " + join(files, ", "));
+                    : "the files: " + join(known, ", "));
   }
   faults.throw_if_any();
 }

@@ -16,6 +16,12 @@ namespace frictab::data {
 std::vector<std::string> find_files(const std::vector<std::string>& named, const std::string& base,
                                     const Place& place);
 
+// Adds a fault at `place`, or at the name where that is of no job file, for a file that is not
+// there, with the nearest name in its folder, and for a glob or folder that holds no file. `key`:
+// that of the job.
+void check_is_there(const std::string& key, const std::string& name, const std::string& base,
+                    const Place& place, FaultList& faults);
+
 // One file, or one sheet of a workbook, and how it is read.
 struct FilePlan {
   std::string file;  // as named

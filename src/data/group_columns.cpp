@@ -93,6 +93,7 @@ io::CsvTable GroupColumns::next(std::uint64_t bytes) {
   io::CsvTable piece = std::move(table_);
   table_ = {};
   if (file_) piece.form = "HDF5";
+  piece.above = plan_.above;
   table_.file = piece.file;
   for (const io::CsvColumn& one : piece.columns)
     table_.columns.push_back({one.name, one.unit, {}, {}});

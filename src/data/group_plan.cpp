@@ -30,6 +30,7 @@ public:
     if (options.experiment.empty()) names_.insert("experiment");
     names_.insert(experiment_column_of(options));
     names_.insert(origin_column);
+    names_.insert(options.above.begin(), options.above.end());
     if (options.bystanders) names_.insert(options.bystanders->begin(), options.bystanders->end());
     for (const DropRule& rule : options.drop)
       names_.insert(rule.column);
@@ -204,6 +205,7 @@ public:
     else
       take_root(std::move(root), plan);
     refuse_without_rows(plan);
+    plan.above = std::move(above_);
     if (!left_.empty())
       plan.notes.push_back(in_.format + " content that is not read: " + left_.text());
     return plan;
@@ -329,6 +331,12 @@ private:
     return all;
   }
 
+  static std::string text_of(const SingleValue& one) {
+    if (const auto* text = std::get_if<std::string>(&one.value)) return *text;
+    const std::string number = shortest(std::get<double>(one.value));
+    return one.unit.empty() ? number : number + " " + one.unit;
+  }
+
   // Requested single values that are not `taken` from elsewhere; reports the others.
   std::vector<SingleValue> singles_of_root(const GroupRows& root,
                                            const std::set<std::string>& taken) {
@@ -338,8 +346,10 @@ private:
         left_.add("", one.name, fmt::format("{}, in addition to columns of that name", what));
       else if (asked_.has(one.name))
         all.push_back(one);
-      else
+      else {
         left_.add("", one.name, what);
+        above_.push_back({one.name, text_of(one)});
+      }
     };
     for (const SingleValue& one : values_of(in_.root))
       if (one.name != "source" ||
@@ -394,6 +404,7 @@ private:
   AskedFor asked_;
   FaultList& faults_;
   LeftOut left_;
+  std::vector<io::CsvAbove> above_;
 };
 
 } // namespace

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "data/options.h"
 #include "io/column_groups.h"
+#include "io/csv.h"
 
 namespace frictab::data {
 
@@ -29,6 +30,9 @@ struct GroupPlan {
   bool per_test = false; // true: each group is a test; false: all columns are in the root group
   std::vector<GroupRows> groups;  // sorted by name; only the root unless per_test
   std::vector<std::string> notes; // parts that are not read
+  // Values of the whole file that are not columns, as lines above the rows of a text
+  // (data/above.h).
+  std::vector<io::CsvAbove> above;
 };
 
 // Path of a member, from a group or the root group: "".

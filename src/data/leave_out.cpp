@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/computed.h"
 #include "data/plausibility.h"
 #include "data/quantity.h"
 #include "data/signs.h"
@@ -111,6 +112,26 @@ void check_texts_to_drop(std::span<const Dataset* const> parts, const DataOption
       faults.add(rule.place, fmt::format("data.drop: no row has '{}' in {}", text, rule.column),
                  known.empty() ? "leave the text out" : suggest(text, known));
     }
+}
+
+void check_filled_columns(std::span<const Dataset* const> parts, const DataOptions& options,
+                          FaultList& faults) {
+  std::vector<std::string> known = {std::string(names_of_tests), experiment_column_of(options)};
+  for (const Dataset* part : parts)
+    for (const Column& column : part->columns)
+      known.push_back(column.name);
+  for (const auto& [canonical, source] : options.columns)
+    known.insert(known.end(), source.names.begin(), source.names.end());
+  const std::set<std::string> in_formulas = names_in_formulas(options);
+  for (const std::string& name : options.fill_down) {
+    const std::string bare = io::read_header_name(name).name;
+    if (std::none_of(known.begin(), known.end(),
+                     [&](const std::string& one) { return one == name || one == bare; }) &&
+        !is_named_by(in_formulas, name) && !is_named_by(in_formulas, bare))
+      faults.add(options.fill_down_place,
+                 fmt::format("data.fill_down: the data have no column '{}'", name),
+                 suggest(name, known));
+  }
 }
 
 namespace {

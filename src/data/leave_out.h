@@ -15,6 +15,10 @@ void drop_rows(Part& part, const Reading& options);
 void check_texts_to_drop(std::span<const Dataset* const> parts, const DataOptions& options,
                          FaultList& faults);
 
+// Adds a fault for each column of data.fill_down that the campaign does not have.
+void check_filled_columns(std::span<const Dataset* const> parts, const DataOptions& options,
+                          FaultList& faults);
+
 // Leaves out rows with an empty cell if the job asks for it; the first one alone those that the
 // file itself holds, before anything is computed from neighbouring rows.
 void drop_empty_rows(Part& part, const Reading& options);

@@ -53,6 +53,8 @@ public:
       bare_names_[headers_.back().name].push_back(headers_.size());
     }
     out_.notes = raw.notes;
+    for (const io::CsvCount& one : raw.counts)
+      note_counted(one.before, one.after, one.count, true);
     for (CsvColumn& column : raw_.columns)
       blank_missing(column);
     for (const auto& [name, numbers] : whole_names_)
@@ -624,8 +626,9 @@ private:
       make_categorical(column, raw);
       if (missing > 0)
         report_empty_cells(name, missing,
-                           is_filled_once ? ": a level of their own; of merged cells? Fill them in"
-                                          : ": a level of their own");
+                           is_filled_once
+                               ? ": a level of their own; of merged cells? data.fill_down"
+                               : ": a level of their own");
       out_.columns.push_back(std::move(column));
       return;
     }

@@ -110,6 +110,7 @@ struct DataOptions {
   std::size_t header_rows = 1; // lines of names
   SegmentRules segments;
   std::vector<std::string> missing_values; // texts and numbers that stand for no value
+  std::vector<std::string> fill_down;      // columns whose empty cells have the value above
   std::vector<std::string> sheets;         // of a workbook, names with *; empty: those of tests
   std::vector<DropRule> drop;
   std::map<std::string, ColumnSource> columns; // by canonical name
@@ -133,7 +134,7 @@ struct DataOptions {
   std::vector<FileRule> files;
   std::string tests;       // a file with one row per experiment
   std::string tests_sheet; // if that file is a workbook
-  Place tests_place;
+  Place tests_place, fill_down_place;
   JoinOptions join;
   std::vector<std::string> above; // conditions above the rows to keep (data/above.h)
   // A regular expression for columns that are one test each (data/wide.h).

@@ -88,6 +88,7 @@ io::CsvFormat csv_format(const std::string& path, const DataOptions& options) {
   format.may_lack_header = !options.header && takes_by_number_alone(options);
   format.header_rows = options.header_rows;
   format.segments = segments_of(options.segments);
+  format.fill_down = options.fill_down;
   format.text_columns = {"experiment"};
   if (const auto named_so = options.columns.find("experiment"); named_so != options.columns.end()) {
     format.text_columns = named_so->second.names;

@@ -29,6 +29,7 @@ public:
 
   void add(io::CsvTable&& more, FaultList& faults) {
     if (more.rows() == 0) {
+      pending_.counts.insert(pending_.counts.end(), more.counts.begin(), more.counts.end());
       pending_.notes.insert(pending_.notes.end(), more.notes.begin(), more.notes.end());
       return;
     }
@@ -57,6 +58,7 @@ public:
         parts.push_back(std::move(pending_));
       else
         parts.push_back(io::rows_of(pending_, from, to));
+      pending_.counts.clear(); // of the first part only
       from = to;
     }
     if (from > 0) forget(from, at_end);

@@ -39,8 +39,9 @@ bool is_friction(const DataOptions& options, const std::string& column) {
   return false;
 }
 
-SheetLook look_at(const io::Workbook& book, const std::string& sheet, const std::string& named,
-                  const DataOptions& options, const io::CsvFormat& format) {
+SheetLook look_at(const io::Workbook& book, const std::string& sheet, const std::string& path,
+                  const std::string& named, const DataOptions& options) {
+  const io::CsvFormat format = csv_format(path, options);
   SheetLook look;
   look.name = sheet;
   const io::Sheet cells = book.read(sheet);
@@ -64,13 +65,12 @@ SheetLook look_at(const io::Workbook& book, const std::string& sheet, const std:
 
 // All visible sheets but `without`.
 std::vector<SheetLook> look_at_all(const io::Workbook& book, const std::string& path,
-                                   const std::string& named, const DataOptions& options,
+                                   const std::string& named, const OptionsOfSheet& of_sheet,
                                    const std::string& without = "") {
-  const io::CsvFormat format = csv_format(path, options);
   std::vector<SheetLook> looks;
   for (const io::Workbook::Entry& one : book.sheets())
     if (!one.hidden && one.name != without)
-      looks.push_back(look_at(book, one.name, named, options, format));
+      looks.push_back(look_at(book, one.name, path, named, of_sheet(one.name)));
   return looks;
 }
 
@@ -178,11 +178,11 @@ void take_cell_units(io::CsvTable& table, const io::Sheet& sheet, FaultList& fau
 }
 
 SheetChoice choose_sheets(const std::string& path, const std::string& named,
-                          const DataOptions& options) {
+                          const DataOptions& options, const OptionsOfSheet& of_sheet) {
   const io::Workbook book = opened(path, named);
   const std::string tests =
       options.tests == named ? sheet_of_tests(path, named, options) : std::string();
-  const std::vector<SheetLook> looks = look_at_all(book, path, named, options, tests);
+  const std::vector<SheetLook> looks = look_at_all(book, path, named, of_sheet, tests);
   SheetChoice choice;
   choice.alone = looks.size() <= 1 && tests.empty();
   if (!tests.empty()) choice.passed.push_back(fmt::format("'{}' (data.tests)", tests));
@@ -206,7 +206,8 @@ std::string sheet_of_tests(const std::string& path, const std::string& named,
                                                : mapped->second.names;
   const io::Workbook book = opened(path, named);
   if (!options.tests_sheet.empty()) return options.tests_sheet;
-  std::vector<SheetLook> looks = look_at_all(book, path, named, options);
+  std::vector<SheetLook> looks =
+      look_at_all(book, path, named, [&](const std::string&) { return options; });
   if (looks.size() == 1) return looks.front().name;
   std::erase_if(looks, [&](const SheetLook& look) {
     return std::none_of(columns.begin(), columns.end(),

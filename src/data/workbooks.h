@@ -1,6 +1,7 @@
 // Workbooks as data files: the sheets that hold tests, and a sheet as columns.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,11 @@ struct SheetChoice {
 
 // The sheets that DataOptions::sheets selects: those named; of "*" all visible ones with columns of
 // the job; of none those with the job's column of friction or, where no sheet has it, those with
-// the most columns of the job. Throws InputError for names that are not there.
+// the most columns of the job. `of_sheet`: the options by which a sheet is read. Throws InputError
+// for names that are not there.
+using OptionsOfSheet = std::function<DataOptions(const std::string& sheet)>;
 SheetChoice choose_sheets(const std::string& path, const std::string& named,
-                          const DataOptions& options);
+                          const DataOptions& options, const OptionsOfSheet& of_sheet);
 
 // The same for a table of tests: one sheet, the named one or the one with the most columns of the
 // job among those with the column that names tests. Throws InputError if two have equally many.

@@ -75,6 +75,20 @@ std::vector<std::string> names_in(const io::CsvColumn& column) {
   return names;
 }
 
+// Number of empty cells, where the first one is filled and at least a third is empty: a table that
+// was merged in an office, and not one with a few lost values.
+std::size_t cells_of_merged(const io::CsvColumn& column) {
+  constexpr std::size_t least = 2, share = 3;
+  std::size_t empty = 0;
+  for (const io::CsvColumn::Text& cell : column.texts) {
+    if (cell.row == 0 && cell.text.empty()) return 0;
+    empty += cell.text.empty();
+  }
+  return empty >= least && share * empty >= column.numbers.size() && empty < column.numbers.size()
+             ? empty
+             : 0;
+}
+
 // The duration of each stop or stroke often falls from row to row, as clocks do not.
 void reject_durations(std::vector<Column>& columns, const io::CsvTable& table) {
   Column* const clock = find_column(columns, "time_s");
@@ -202,6 +216,7 @@ std::vector<Column> guess_columns(const io::CsvTable& table) {
     column.text = !is_number_column(raw);
     column.clock = column.text && is_clock_column(raw);
     column.first_values = first_values(raw);
+    column.empty_below = cells_of_merged(raw);
     if (column.text || (is_named_as_id(column) && are_whole(raw.numbers)))
       column.names = names_in(raw);
     columns.push_back(std::move(column));

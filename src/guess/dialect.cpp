@@ -7,7 +7,6 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/units.h"
 #include "guess/columns.h"
 #include "io/number.h"
 
@@ -52,8 +51,7 @@ double worth(const io::CsvTable& table, std::size_t faults, const io::CsvFormat&
     if (named && is_number_column(column)) sum += rows - 2 * texts;
     if (column.unit.empty()) continue;
     ++unit_cells;
-    const std::string unit = io::without_brackets(column.unit);
-    units += !io::read_number(unit, '.', ignored) && convert(unit, unit).has_value();
+    units += io::is_unit_cell(column.unit);
   }
   if (!format.units_row) return sum;
   if (2 * units < std::max<std::size_t>(unit_cells, 1) || are_numbered(below_no_name)) return -1;

@@ -25,6 +25,7 @@ struct Column {
   double least = 0;            // of its numbers
   bool as_small = false;       // numbers between 0.01 and 1, as coefficients of friction are
   std::string first_values;    // "812.3, 813.1, 815"
+  std::size_t empty_below = 0; // empty cells below filled ones, where these may have been merged
   // The cells of a column that may name tests, as texts, if all of them differ.
   std::vector<std::string> names;
   std::vector<std::string> tests; // in rows with several tests: their names, the first ones

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <ranges>
+#include <set>
 
 #include <fmt/format.h>
 #include <iconv.h>
@@ -61,7 +63,7 @@ public:
 
   bool at_end() const { return at_ >= text_.size(); }
   bool at_quote() const { return !at_end() && text_[at_] == '"'; }
-  bool separates_by(char sign) const { return delimiter_ == sign; }
+  char delimiter() const { return delimiter_; }
   std::size_t line() const { return line_; }
   std::size_t column() const { return at_ - line_start_ + 1; }
   std::size_t position() const { return at_; }
@@ -392,10 +394,22 @@ std::string text_of_line(std::string_view line, const CsvFormat& format) {
   return join(read_names(cells), ",");
 }
 
+// True if at least half of the cells of a line are numbers.
+bool holds_numbers(std::string_view line, char delimiter, const CsvFormat& format) {
+  Scanner scanner(line, delimiter);
+  const std::vector<std::string> cells = read_names(scanner);
+  double ignored = 0;
+  const auto numbers = std::count_if(cells.begin(), cells.end(), [&](const std::string& cell) {
+    return parse_number(cell, format, ignored);
+  });
+  return numbers > 0 && 2 * static_cast<std::size_t>(numbers) >= cells.size();
+}
+
 // The runs of rows that the job's patterns cut out of the lines.
 class Segments {
 public:
-  explicit Segments(const CsvFormat& format) : format_(format), rules_(format.segments.get()) {}
+  Segments(const CsvFormat& format, char delimiter)
+      : format_(format), rules_(format.segments.get()), delimiter_(delimiter) {}
 
   // True for a line that begins or ends a run, or stands between two of them. A run takes the place
   // of those before the first row.
@@ -411,21 +425,24 @@ public:
       inside_ = false;
       return true;
     }
-    outside_ += !inside_;
-    return !inside_;
+    if (inside_) return false;
+    ++outside_;
+    rows_outside_ += holds_numbers(line, delimiter_, format_);
+    return true;
   }
 
   // The last run that begins in the preamble holds the first rows.
   void look_at_preamble(std::string_view text) {
     for (Scanner lines(text, '\n'); rules_ && !lines.at_end();)
       passes(lines.take_line(), false);
-    outside_ = 0;
+    outside_ = rows_outside_ = 0;
   }
 
   bool are_cut() const { return rules_; }
   std::size_t number() const { return groups_.size() - 1; } // of the current run, from 0
   std::size_t count() const { return groups_.size(); }
   std::size_t outside() const { return outside_; }
+  std::size_t rows_outside() const { return rows_outside_; }
 
   // Adds the named groups as columns.
   void add_columns(CsvTable& table, const CsvFormat& format) const {
@@ -445,9 +462,10 @@ public:
 private:
   const CsvFormat& format_;
   const CsvSegments* rules_;
+  char delimiter_;
   std::vector<std::map<std::string, std::string>> groups_; // of each run
   bool inside_ = false;
-  std::size_t outside_ = 0;
+  std::size_t outside_ = 0, rows_outside_ = 0;
 };
 
 // Takes the remarks out of the ragged lines of a list of tests: lines of one text, and all lines
@@ -467,7 +485,7 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
   std::size_t again = 0, in_front = 0, delimiters_alone = 0, remarks = 0, of_lists = 0;
   // ragged lines just before a repeated header are not faults
   std::vector<RaggedLine> ragged, since_row;
-  Segments segments(format);
+  Segments segments(format, scanner.delimiter());
   segments.look_at_preamble(preamble);
   const auto tell = [&] {
     ragged.insert(ragged.end(), since_row.begin(), since_row.end());
@@ -515,6 +533,7 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
                        table.passed_over.below_units,
                        segments.count(),
                        segments.outside(),
+                       segments.rows_outside(),
                        remarks,
                        of_lists};
   if (scanner.unclosed_line() > 0)
@@ -522,22 +541,21 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
                "a quotation mark opens here and is never closed");
 }
 
+std::vector<CsvCount> counts_of(const CsvPassedOver& lines) {
+  std::vector<CsvCount> counts = {
+      {"the header line comes again ", " times", lines.headers},
+      {"", " lines in front of a repeated header are not rows", lines.in_front},
+      {"", " lines hold delimiters alone: they are not rows", lines.delimiters_alone},
+      {"lines of words below the units, not read: ", "", lines.below_units},
+      {"runs of rows between lines of data.segments: ", "", lines.segments},
+      {"lines outside these runs, not read: ", "", lines.outside_segments},
+      {"lines outside these runs that hold numbers, as rows do: ", "", lines.rows_outside}};
+  std::erase_if(counts, [](const CsvCount& one) { return one.count == 0; });
+  return counts;
+}
+
 std::vector<std::string> notes_of(const CsvPassedOver& lines) {
   std::vector<std::string> notes;
-  if (lines.headers > 0)
-    notes.push_back(fmt::format("the header line comes again {} times", lines.headers));
-  if (lines.in_front > 0)
-    notes.push_back(
-        fmt::format("{} lines in front of a repeated header are not rows", lines.in_front));
-  if (lines.delimiters_alone > 0)
-    notes.push_back(
-        fmt::format("{} lines hold delimiters alone: they are not rows", lines.delimiters_alone));
-  if (lines.below_units > 0)
-    notes.push_back(lines.below_units == 1
-                        ? "a line below the units is not a row: words where numbers follow"
-                        : fmt::format("{} lines below the units are not rows: words where numbers "
-                                      "follow",
-                                      lines.below_units));
   if (lines.remarks > 0)
     notes.push_back(
         fmt::format("{} below the last row {} not read: one text alone",
@@ -547,11 +565,48 @@ std::vector<std::string> notes_of(const CsvPassedOver& lines) {
     notes.push_back(fmt::format("remarks between or below its rows: {} not read",
                                 lines.of_lists == 1 ? "a line is"
                                                     : fmt::format("{} lines are", lines.of_lists)));
-  if (lines.segments > 0)
-    notes.push_back(
-        fmt::format("a file with {} segments of rows: {} lines outside them are not read",
-                    lines.segments, lines.outside_segments));
   return notes;
+}
+
+bool is_called(const CsvColumn& column, const std::string& name) {
+  return column.name == name || read_header_name(column.name).name == name;
+}
+
+// Gives empty cells below a filled one its value, and returns their number.
+std::size_t fill_column(CsvColumn& column) {
+  CsvTexts texts;
+  std::size_t filled = 0, text = 0;
+  std::optional<std::string> above; // the last text; none: a number
+  bool is_below = false;
+  double number = no_value;
+  for (std::size_t row = 0; row < column.numbers.size(); ++row) {
+    const bool is_text = text < column.texts.size() && column.texts[text].row == row;
+    if (!is_text) {
+      number = column.numbers[row];
+      above.reset();
+    } else if (const CsvTexts::Text cell = column.texts[text++]; !cell.text.empty() || !is_below) {
+      texts.push_back(cell);
+      above = cell.text;
+      is_below = is_below || !cell.text.empty();
+      continue;
+    } else {
+      ++filled;
+      if (above) texts.push_back({row, *above, cell.column});
+      if (!above) column.numbers[row] = number;
+    }
+    is_below = true;
+  }
+  column.texts = std::move(texts);
+  return filled;
+}
+
+void fill_down(CsvTable& table, const CsvFormat& format) {
+  for (const std::string& name : format.fill_down)
+    for (CsvColumn& column : table.columns)
+      if (is_called(column, name))
+        if (const std::size_t cells = fill_column(column); cells > 0)
+          table.counts.push_back(
+              {name + ": empty cells with the value above (data.fill_down): ", "", cells});
 }
 
 // Joins the names of two lines: "Kraft" over "Soll" is "Kraft Soll"; a name that stands in both, as
@@ -583,7 +638,7 @@ bool rows_have_names(Scanner below, std::size_t columns) {
     const bool quoted = below.at_quote();
     const std::vector<std::string> cells = read_names(below);
     if (cells.size() != columns + 1 || cells.back().empty() ||
-        (!quoted && (below.separates_by(',') || cells.front() != std::to_string(row + 1))))
+        (!quoted && (below.delimiter() == ',' || cells.front() != std::to_string(row + 1))))
       return false;
   }
   return row > 0;
@@ -640,6 +695,12 @@ void read_units(CsvTable& table, Scanner& scanner, std::string_view text, const 
     table.columns[i].unit = to_utf8(units[i]);
 }
 
+bool is_lost_value(const std::string& cell) {
+  const std::string word = lower_case(cell);
+  return word == "nan" || word == "na" || word == "n/a" || word == "#n/a" || word == "null" ||
+         word == "n.a.";
+}
+
 // True for a word in front of a line whose first column holds numbers in the next two lines, as the
 // zero values of the channels are written: "Nullwert; 0,0; 1,2".
 bool begins_with_word(const CsvTable& table, const std::string& first, Scanner below,
@@ -647,43 +708,90 @@ bool begins_with_word(const CsvTable& table, const std::string& first, Scanner b
   if (first.empty() || text_columns(table, format).front() ||
       !std::isalpha(static_cast<unsigned char>(first[0])))
     return false;
-  const std::string word = lower_case(first);
-  if (word == "nan" || word == "na" || word == "n/a" || word == "null")
-    return false; // a lost value
+  if (is_lost_value(first)) return false;
   double ignored = 0;
   for (int line = 0; line < 2; ++line)
     if (below.at_end() || !parse_number(read_names(below).front(), format, ignored)) return false;
   return true;
 }
 
+bool has_letter(std::string_view text) {
+  return std::any_of(text.begin(), text.end(),
+                     [](unsigned char c) { return std::isalpha(c) || c >= 0x80; });
+}
+
+// The cells of a line below the units.
+struct LineOfWords {
+  std::vector<std::string> cells;
+  std::vector<char> is_number;
+  bool has_number = false, has_units = false; // these in most of its filled cells
+
+  LineOfWords(Scanner& scanner, const CsvFormat& format) : cells(read_names(scanner)) {
+    constexpr std::size_t many = 3; // cells of one text alone, as T1: the name of a test
+    double ignored = 0;
+    std::set<std::string> different;
+    std::size_t units = 0, filled = 0;
+    for (const std::string& cell : cells) {
+      is_number.push_back(parse_number(cell, format, ignored));
+      has_number = has_number || is_number.back();
+      filled += !cell.empty();
+      if (is_unit_cell(cell)) ++units, different.insert(cell);
+    }
+    has_units = 2 * units > filled && (different.size() > 1 || units < many);
+  }
+};
+
+// True if some cell is a word above the numbers of the next two lines that have any, and none is a
+// mark for a lost value: a comment, and not a row.
+bool are_words_above_numbers(const LineOfWords& line, Scanner below, std::string_view text,
+                             const CsvFormat& format) {
+  constexpr int most = 6;
+  std::vector<std::size_t> numbers(line.cells.size());
+  std::size_t rows = 0;
+  for (int ahead = 0; ahead < most && rows < 2 && !below.at_end(); ++ahead) {
+    const bool blank = is_blank(text, below.position());
+    const LineOfWords next(below, format);
+    if (blank || !next.has_number) continue;
+    ++rows;
+    for (std::size_t c = 0; c < std::min(numbers.size(), next.cells.size()); ++c)
+      numbers[c] += next.is_number[c] != 0;
+  }
+  bool has_word = false;
+  for (std::size_t c = 0; rows > 0 && c < line.cells.size(); ++c) {
+    if (is_lost_value(line.cells[c])) return false;
+    has_word = has_word || (numbers[c] == rows && has_letter(line.cells[c]));
+  }
+  return has_word;
+}
+
 // Skips lines between the units and the first row that hold no units, and no numbers or a word
-// before them, as the name of each channel's amplifier. A line that begins a segment stays.
-void skip_texts_below_units(CsvTable& table, Scanner& scanner, std::string_view text,
+// before them: the name of each channel's amplifier, the comments of Origin. A line that begins a
+// segment stays.
+void skip_words_below_units(CsvTable& table, Scanner& scanner, std::string_view text,
                             const CsvFormat& format) {
   constexpr std::size_t most = 4;
   Scanner ahead = scanner;
-  for (std::size_t lines = 0; lines <= most && !ahead.at_end(); ++lines) {
+  for (std::size_t lines = 0; lines <= most && !ahead.at_end();) {
     const Scanner here = ahead;
-    const std::string_view line = line_at(text, ahead.position());
-    const std::vector<std::string> cells = read_names(ahead);
-    double ignored = 0;
-    const bool has_number = std::any_of(cells.begin(), cells.end(), [&](const std::string& cell) {
-      return parse_number(cell, format, ignored);
-    });
-    const bool has_unit = std::any_of(cells.begin(), cells.end(), [&](const std::string& cell) {
-      return !parse_number(cell, format, ignored) &&
-             convert(without_brackets(cell), without_brackets(cell));
-    });
-    const bool begins_segment =
-        format.segments && format.segments->begins.search(text_of_line(line, format));
-    const bool is_row =
-        has_number && (has_unit || !begins_with_word(table, cells.front(), ahead, format));
-    if (begins_segment || is_row) {
-      table.passed_over.below_units = lines;
-      scanner = here;
-      return;
+    if (is_blank(text, ahead.position())) {
+      ahead.take_line();
+      continue;
     }
-    if (!has_number && (has_unit || std::count(cells.begin(), cells.end(), "") > 0)) return;
+    const std::string_view one = line_at(text, ahead.position());
+    const LineOfWords line(ahead, format);
+    const bool begins_segment =
+        format.segments && format.segments->begins.search(text_of_line(one, format));
+    const bool is_passed =
+        !begins_segment && !line.has_units &&
+        (line.has_number ? begins_with_word(table, line.cells.front(), ahead, format)
+                         : are_words_above_numbers(line, ahead, text, format));
+    if (is_passed) {
+      ++lines;
+      continue;
+    }
+    table.passed_over.below_units = lines;
+    if (lines > 0) scanner = here;
+    return;
   }
 }
 
@@ -706,11 +814,6 @@ std::string_view bare(std::string_view part, std::string_view around = " \t\r\"'
   const std::size_t begin = part.find_first_not_of(around);
   if (begin == part.npos) return {};
   return part.substr(begin, part.find_last_not_of(around) + 1 - begin);
-}
-
-bool has_letter(std::string_view text) {
-  return std::any_of(text.begin(), text.end(),
-                     [](unsigned char c) { return std::isalpha(c) || c >= 0x80; });
 }
 
 // A name and a value, without the quotes of cells and the sign of a comment; nullopt where one of
@@ -887,7 +990,7 @@ Head read_head(CsvTable& table, std::string_view text, const CsvFormat& format, 
   }
   if (format.units_row && !scanner.at_end()) {
     read_units(table, scanner, text, format, faults);
-    skip_texts_below_units(table, scanner, text, format);
+    skip_words_below_units(table, scanner, text, format);
   }
   head.end = scanner.position();
   head.end_line = scanner.line();
@@ -946,6 +1049,8 @@ CsvTable parse_csv(std::string_view text, const std::string& file, const CsvForm
   Scanner scanner(rows, head.delimiter, head.end_line);
   read_rows(table, scanner, rows, head.header, text.substr(0, head.begin), format, faults);
   table.notes = notes_of(table.passed_over);
+  table.counts = counts_of(table.passed_over);
+  fill_down(table, format);
   if (table.rows() == 0 && faults.empty())
     throw InputError({file, table.header_line, 0}, "there are no rows below the header");
   return table;
@@ -1055,6 +1160,8 @@ CsvPieces::CsvPieces(std::unique_ptr<std::istream> in, const std::string& named,
     d.whole_because = "skip_footer counts from its end";
   else if (format.segments)
     d.whole_because = "it is cut into segments";
+  else if (!format.fill_down.empty())
+    d.whole_because = "fill_down takes values from the rows above";
   else if (*d.in && d.rest.find('\n') == std::string::npos)
     d.whole_because = "its lines end with CR alone";
   if (!d.whole_because.empty()) return;
@@ -1099,7 +1206,7 @@ std::vector<CsvTable> CsvPieces::next(FaultList& faults) {
     for (const Fault& fault : told[i].all())
       faults.add(fault.place, fault.what, fault.hint);
   }
-  if (!tables.empty() && d.ended) tables.back().notes = notes_of(d.passed_over);
+  if (!tables.empty() && d.ended) tables.back().counts = counts_of(d.passed_over);
   if (d.ended && !d.rows && faults.empty())
     throw InputError({d.header.file, d.header.header_line, 0},
                      "there are no rows below the header");
@@ -1132,6 +1239,7 @@ void append(CsvTable& to, CsvTable&& more) {
   to.interval.insert(to.interval.end(), more.interval.begin(), more.interval.end());
   for (std::size_t c = more.columns.size(); c < to.columns.size(); ++c)
     pad(to.columns[c], to.rows());
+  to.counts.insert(to.counts.end(), more.counts.begin(), more.counts.end());
   to.notes.insert(to.notes.end(), more.notes.begin(), more.notes.end());
 }
 
@@ -1141,6 +1249,7 @@ CsvTable rows_of(const CsvTable& table, std::size_t first, std::size_t end) {
   part.form = table.form;
   part.header_line = table.header_line;
   part.units_line = table.units_line;
+  part.counts = table.counts;
   part.notes = table.notes;
   part.above = table.above;
   const auto cut = [&](const auto& from, auto& to) {
@@ -1201,6 +1310,18 @@ std::string without_brackets(std::string unit) {
       std::string("])").find(unit.back()) != std::string::npos)
     return unit.substr(1, unit.size() - 2);
   return unit;
+}
+
+bool is_unit_cell(const std::string& cell) {
+  const std::string unit = without_brackets(cell);
+  const std::size_t digits = unit.find_first_of("0123456789");
+  const bool is_numbered =
+      digits != unit.npos && digits > 0 &&
+      unit.find_first_not_of("0123456789", digits) == unit.npos &&
+      (unit.size() > digits + 1 || unit[digits] > '4'); // no power: T01, T17, S5
+  double ignored = 0;
+  return !unit.empty() && !is_numbered && !read_number(unit, '.', ignored) &&
+         convert(unit, unit).has_value();
 }
 
 std::vector<std::string> cells_of_line(std::string_view line, const CsvFormat& format) {

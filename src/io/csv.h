@@ -39,6 +39,8 @@ struct CsvFormat {
       false; // the text of a sheet, in which rows lack the cells that are empty at their end
   bool list = false; // a row per test: texts between and below its rows are remarks
   std::shared_ptr<const CsvSegments> segments; // none: all lines below the header may be rows
+  // Columns, with or without their unit, whose empty cells have the value of the cell above.
+  std::vector<std::string> fill_down;
   // Columns whose cells stay text even if they are numbers ("007"): by name, or by number from 1.
   std::vector<std::string> text_columns;
   std::size_t text_number = 0;
@@ -110,8 +112,15 @@ struct CsvPassedOver {
   std::size_t delimiters_alone = 0;
   std::size_t below_units = 0; // lines of words between the units and the first row
   std::size_t segments = 0, outside_segments = 0; // runs, and lines outside them
+  std::size_t rows_outside = 0;                   // of the latter, those that hold numbers as rows
   std::size_t remarks = 0;                        // lines of one text below the last row of a sheet
   std::size_t of_lists = 0;                       // lines of a list that are not rows
+};
+
+// A note with a count that files add up: "the header line comes again 3 times".
+struct CsvCount {
+  std::string before, after; // the text around the count
+  std::size_t count = 0;
 };
 
 // A line above the header that gives a condition: "Normal load: 5 N", "Probe;C45".
@@ -130,7 +139,7 @@ struct CsvTable {
   std::vector<std::size_t> line;     // physical line of each row
   std::vector<std::size_t> interval; // number of repeated header lines, or of runs, before each row
   CsvPassedOver passed_over;
-  // Skipped lines in words: "the header line comes again 3 times"
+  std::vector<CsvCount> counts; // lines that are not rows, and cells that are filled
   std::vector<std::string> notes;
   std::size_t rows() const { return line.size(); }
 };
@@ -188,6 +197,8 @@ HeaderName split_header_name(const std::string& text);
 
 // Strips the brackets of a units row: "[kN]" and "(kN)" give kN.
 std::string without_brackets(std::string unit);
+// True for a cell of a units row: a known unit, and not the name of a test, as the tesla of T17.
+bool is_unit_cell(const std::string& cell);
 
 // The cells of one line, trimmed, in UTF-8; the delimiter is found in it if the format has none.
 std::vector<std::string> cells_of_line(std::string_view line, const CsvFormat& format);

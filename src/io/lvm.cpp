@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -45,6 +46,29 @@ struct Segment {
   Cells names;                // of its columns
   Tags tags;
 };
+
+// Tags that say how the file is written, or hold a value per channel.
+bool is_of_format(const std::string& tag) {
+  static const std::set<std::string> known = {"LabVIEW Measurement",
+                                              "Writer_Version",
+                                              "Reader_Version",
+                                              "Separator",
+                                              "Decimal_Separator",
+                                              "Multi_Headings",
+                                              "X_Columns",
+                                              "Time_Pref",
+                                              "Time",
+                                              "Channels",
+                                              "Samples",
+                                              "X_Dimension",
+                                              "X0",
+                                              "Delta_X",
+                                              "Y_Unit_Label",
+                                              "Y_Dimension",
+                                              "X_Unit_Label",
+                                              "***End_of_Header***"};
+  return known.count(tag) > 0;
+}
 
 bool is_x(const std::string& name) {
   return name == "X_Value";
@@ -147,8 +171,11 @@ private:
     format_.wanted.clear();
     format_.also_wanted = {};
     data_ = end + 1;
-    for (std::size_t i = 0; i < data_; ++i)
+    for (std::size_t i = 0; i < data_; ++i) {
+      const Cells cells = cells_of(lines_[i], format_.delimiter);
+      if (!cells.empty()) of_file_[cells.front()] = {cells.begin() + 1, cells.end()};
       lines_[i] = {};
+    }
   }
 
   // True for a line that can belong to a segment's header: a tag, then its values.
@@ -252,8 +279,36 @@ private:
     fill_x(table);
     number_x(table);
     note_samples(table);
+    add_conditions(table);
     if (special_ > 0)
       table.notes.push_back(fmt::format("{} blocks ***Start_Special*** are not read", special_));
+  }
+
+  // Operator, description, test name and the like, as lines above the rows.
+  void add_conditions(CsvTable& table) const {
+    const auto add = [&](const Tags& tags) {
+      for (const auto& [tag, cells] : tags) {
+        std::set<std::string> values(cells.begin(), cells.end());
+        values.erase("");
+        if (!is_of_format(tag) && !values.empty())
+          table.above.push_back({tag, join(std::vector(values.begin(), values.end()), "; ")});
+      }
+    };
+    Tags same = segments_.front().tags;
+    std::vector<std::string> different;
+    for (const Segment& segment : segments_)
+      std::erase_if(same, [&](const auto& one) {
+        const auto other = segment.tags.find(one.first);
+        const bool differs = other == segment.tags.end() || other->second != one.second;
+        if (differs && !is_of_format(one.first) && one.first != "Date")
+          different.push_back(one.first);
+        return differs || of_file_.count(one.first) > 0;
+      });
+    add(of_file_);
+    add(same);
+    if (!different.empty())
+      table.notes.push_back("differs between the segments and is not read: " +
+                            join(different, ", "));
   }
 
   void set_units(CsvTable& table) const {
@@ -363,6 +418,7 @@ private:
   FaultList& faults_;
   std::vector<std::string_view> lines_; // of text_; header lines become empty
   std::size_t data_ = 0;                // first line after the file's header
+  Tags of_file_;                        // of the file's header
   std::vector<Segment> segments_;
   std::vector<std::size_t> short_rows_; // lines without a comment
   std::size_t special_ = 0;             // blocks

@@ -61,9 +61,11 @@ public:
   }
 
   bool take(ColumnGroups& all, std::string& fault) {
-    std::uint64_t groups = 0;
-    if (!text(fault) || !text(all.format) || !text(all.form) || !take(all.root) || !count(groups))
-      return false;
+    std::uint64_t groups = 0, notes = 0;
+    if (!text(fault) || !text(all.format) || !text(all.form) || !count(notes)) return false;
+    for (std::uint64_t i = 0; i < notes; ++i)
+      if (!text(all.notes.emplace_back())) return false;
+    if (!take(all.root) || !count(groups)) return false;
     for (std::uint64_t i = 0; i < groups; ++i)
       if (!take(all.groups.emplace_back())) return false;
     return true;
@@ -165,6 +167,9 @@ void put_groups(const ColumnGroups& all, const std::string& fault, os::ByteSink&
   out.text(fault);
   out.text(all.format);
   out.text(all.form);
+  out.number(all.notes.size());
+  for (const std::string& note : all.notes)
+    out.text(note);
   mat::put(out, all.root);
   out.number(all.groups.size());
   for (const ColumnGroup& group : all.groups)

@@ -141,6 +141,7 @@ private:
 
   void add_structs(const matvar_t& variable, std::size_t count, int depth, MatValue& out) {
     out.kind = Kind::structs;
+    out.in_order = true;
     auto* const whole = const_cast<matvar_t*>(&variable); // the library's interface
     const unsigned fields = Mat_VarGetNumberOfFields(whole);
     char* const* const names = Mat_VarGetStructFieldnames(&variable);

@@ -93,6 +93,7 @@ public:
     all_.form = "a MATLAB file has one variable per column (n x 1 or 1 x n), or one struct of them "
                 "per test";
     all_.one_group_is_file = true;
+    all_.notes = take_names_and_units(variables);
     for (MatValue& variable : variables)
       if (holds_structs(variable))
         add_structs(variable.name, variable, 0);
@@ -153,7 +154,7 @@ private:
     if (value.numbers.empty()) {
       to.members.push_back(other_member(name, "no value"));
     } else if (rows == 1 || columns == 1) {
-      to.members.push_back(number_member(name, "", std::move(value.numbers)));
+      to.members.push_back(number_member(name, value.unit, std::move(value.numbers)));
     } else if (value.dims.size() > 2 || columns > most_matrix_columns) {
       to.members.push_back(
           other_member(name, fmt::format("{} values", fmt::join(value.dims, " x "))));

@@ -13,7 +13,7 @@ namespace frictab::io {
 
 struct MatValue {
   enum class Kind { numbers, texts, structs, cells, other };
-  std::string name;
+  std::string name, unit;
   Kind kind = Kind::other;
   std::vector<std::size_t> dims;  // as MATLAB counts them: rows first
   std::vector<double> numbers;    // column by column
@@ -21,7 +21,8 @@ struct MatValue {
   std::vector<MatValue> elements; // of a cell
   // The fields of a struct array with their names, element by element.
   std::vector<std::vector<MatValue>> structs;
-  std::string other; // "a sparse matrix"
+  bool in_order = false; // the fields are in the order of the struct, and not sorted by name
+  std::string other;     // "a sparse matrix"
 };
 
 // Deeper nesting is not read.
@@ -50,3 +51,12 @@ std::vector<MatValue> read_mat73(const std::filesystem::path& file); // version 
 ColumnGroups mat_groups(std::vector<MatValue>&& variables);
 
 } // namespace frictab::io
+
+namespace frictab::io::mat {
+
+// Gives columns the names and units that the file holds as values of their own: a struct, a list or
+// texts of units, a list of the names of a matrix's columns, a struct per channel. What is used is
+// removed; returns notes.
+std::vector<std::string> take_names_and_units(std::vector<MatValue>& variables);
+
+} // namespace frictab::io::mat

@@ -197,6 +197,7 @@ void check_beside(JobReader& reader) {
     reader.fault(data.join.place, "data.join has no files", "files = \"fe/*.csv\" says which");
   data.wide_place = reader.place_of("data.wide.columns");
   data.tests_place = reader.place_of("data.tests");
+  data.fill_down_place = reader.place_of("data.fill_down");
   check_segments(reader, "data", data.segments);
   if (data.wide.empty()) return;
   check_pattern(reader, data.wide, data.wide_place, "data.wide.columns");

@@ -302,6 +302,7 @@ private:
     out_.text += dialect_lines(most_);
     ask_for_groups();
     add_missing();
+    add_fill_down();
     if (!above_.empty())
       out_.text += line("above = " + toml_list({above_.begin(), above_.end()}),
                         "lines above the rows that differ between the files");
@@ -354,6 +355,33 @@ private:
     out_.text += line("missing_values = " + toml_list({markers.begin(), markers.end()}),
                       "far from all other numbers: taken for no value");
     out_.text += line("missing = \"drop\"", "leaves out rows in which a law lacks a value");
+  }
+
+  // Cells that may have been merged: of a row per test, texts of other rows, names of tests.
+  void add_fill_down() {
+    std::vector<std::string> names, counts;
+    const auto look_at = [&](const guess::File& file, bool all) {
+      for (const guess::Column& column : file.columns)
+        if (column.empty_below > 0 && (all || column.text) && column.canonical != "experiment" &&
+            std::ranges::find(names, column.name) == names.end()) {
+          names.push_back(column.name);
+          counts.push_back(
+              fmt::format("{} ({} of {})", shown(column.name), column.empty_below, file.row_count));
+        }
+    };
+    const guess::Column* const tests = most_.find("experiment");
+    if (tests && tests->empty_below > 0)
+      out_.text += line("fill_down = " + toml_list({tests->name}),
+                        "only the first row of each test has its name");
+    look_at(most_, most_.rows);
+    if (campaign_.tests) look_at(*campaign_.tests, true);
+    if (names.empty()) return;
+    if (tests && tests->empty_below > 0) names.insert(names.begin(), tests->name);
+    ask(fmt::format("Have empty cells the value above, as merged cells leave them? They are empty "
+                    "in {}. This line {}.",
+                    join(counts, ", "),
+                    tests && tests->empty_below > 0 ? "replaces the one above" : "fills them"),
+        "# fill_down = " + toml_list(names) + "\n");
   }
 
   // A table with one row per test.

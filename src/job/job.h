@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "calibrate/options.h"
@@ -35,6 +36,8 @@ struct Job {
   // recognizes results of a different job. Without table.model, which also selects among tables
   // that exist already.
   std::map<std::string, std::string> sections;
+  // Places of the files that keys name, by key and name.
+  std::map<std::pair<std::string, std::string>, Place> file_places;
 
   // Arguments for another command, as advice repeats them: "job.toml -o loose".
   std::string arguments() const { return shell_word(file) + command_line_options; }

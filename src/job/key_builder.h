@@ -190,6 +190,12 @@ inline KeyRule operator|(KeyRule rule, const Allowed& allowed) {
   rule.allowed = allowed;
   return rule;
 }
+struct NamesFiles {};
+inline constexpr NamesFiles names_files;
+inline KeyRule operator|(KeyRule rule, NamesFiles) {
+  rule.names_files = true;
+  return rule;
+}
 inline KeyRule operator|(KeyRule rule, Problem (*problem)(const std::string&, const KeyValue&)) {
   rule.problem = problem;
   return rule;

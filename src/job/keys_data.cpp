@@ -100,15 +100,18 @@ std::vector<KeyRule> file_keys() {
       data("training", &DataOptions::training,
            "CSV or HDF5 file, a folder, names with * (\"tests/*.csv\"), or a list of these; they "
            "are joined; relative to the job file",
-           "an error: the one key a job needs", "\"training.csv\""),
+           "an error: the one key a job needs", "\"training.csv\"") |
+          names_files,
       data("validation", &DataOptions::validation,
            "file or files to validate on, as data.training, never used to calibrate",
-           "see data.holdout", "\"validation.csv\""),
+           "see data.holdout", "\"validation.csv\"") |
+          names_files,
       data("oracle", &DataOptions::oracle,
            "SYNTHETIC data only: file or files with experiment, row and tau_oracle_MPa as `frictab "
            "twin --oracle` writes them; the noise floor is then known exactly. Never used to "
            "calibrate",
-           "the noise floor is estimated", "\"validation_oracle.csv\""),
+           "the noise floor is estimated", "\"validation_oracle.csv\"") |
+          names_files,
       data("holdout", &DataOptions::holdout,
            "share of the EXPERIMENTS that is held out where data.validation is absent",
            "below 30 experiments each is left out in turn, of more 0.25 are held out; one is "
@@ -129,7 +132,8 @@ std::vector<KeyRule> file_keys() {
       data("tests", &DataOptions::tests,
            "a file with one row per experiment (humidity, batch, tool) and a column experiment: "
            "its columns are joined by name, also that of a file",
-           "none", "\"tests.csv\""),
+           "none", "\"tests.csv\"") |
+          names_files,
       data("tests_sheet", &DataOptions::tests_sheet,
            "the sheet of data.tests, if that is a workbook", "the one with the column experiment",
            "\"Plan\""),
@@ -159,6 +163,10 @@ std::vector<KeyRule> file_keys() {
       data("missing_values", &DataOptions::missing_values,
            "cells that stand for no value: texts, or numbers as texts",
            "empty cells, NaN, NA, n/a, #N/A and null", "[\"OVER\", \"-9999\"]"),
+      data("fill_down", &DataOptions::fill_down,
+           "columns of a table whose empty cells have the value of the last filled cell above, as "
+           "cells that were merged leave them; the cells are counted",
+           "empty cells have no value", "[\"Oil\", \"Batch\"]"),
       data("missing", &DataOptions::missing,
            "an empty cell of a quantity: an error, or its row is left out and counted") |
           Allowed{"", words_of<data::Missing>},
@@ -294,8 +302,8 @@ std::vector<KeyRule> match_key() {
   return {KeysOf("data.files.*", file_rule)(
       "match", &FileRule::match,
       "which files, with * for any letters: by the file's name, or by the whole name where this "
-      "one holds a /; the first rule that matches a file counts; the own name of "
-      "data.tests: its dialect",
+      "one holds a /; a sheet of a workbook also by its own name, or as \"tests.xlsx/T01\"; the "
+      "first rule that matches a file counts; the own name of data.tests: its dialect",
       "an error", "\"pin_*.csv\"")};
 }
 
@@ -308,7 +316,8 @@ std::vector<KeyRule> join_keys() {
   return {
       join("files", &data::JoinOptions::files,
            "files, folders or names with *, as data.training; a test is known by its name", "none",
-           "\"fe/*.csv\""),
+           "\"fe/*.csv\"") |
+          names_files,
       join("by", &data::JoinOptions::by,
            "the clock that both have; between the rows of these files values are linear, beyond "
            "their ends a row is left out and counted") |

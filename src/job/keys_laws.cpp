@@ -70,7 +70,8 @@ std::vector<KeyRule> law_keys() {
       law("table", &LawText::table,
           "instead of a formula: a file, relative to the job, with a column per axis, one of mu or "
           "tau_R_MPa, and a row per node in any order (CSV, workbook, HDF5), or one of tables/*.h5",
-          "a formula says it", "\"mu_of_p_v.csv\""),
+          "a formula says it", "\"mu_of_p_v.csv\"") |
+          names_files,
       law("interpolation", &LawText::interpolation,
           "between the nodes of `table`; beyond its axes the law is held at their ends",
           "an error, where there is a table", "\"linear\"") |

@@ -37,11 +37,13 @@ std::vector<KeyRule> own_keys() {
           "contact", &ProcessOptions::contact,
           "contact states of a simulation of yours, one row per increment and facet or node that "
           "touches: files, folders or names with *; `frictab explain process` has the columns",
-          "no process", "\"contact.csv\""),
+          "no process", "\"contact.csv\"") |
+          names_files,
       process("tool", &ProcessOptions::tool,
               "force and speed of the tool over time: time_s, force_kN, speed_mm_s, and where "
               "known stroke_mm and friction_J, the solver's own friction work",
-              "friction work instead of the force", "\"tool.csv\""),
+              "friction work instead of the force", "\"tool.csv\"") |
+          names_files,
       process("used", &ProcessOptions::used,
               "law that the simulation had: a calibrated one, or coulomb:MU, shear:M",
               "the shear stress tau_R_MPa of the contact file", "\"coulomb:0.08\""),
@@ -60,7 +62,8 @@ std::vector<KeyRule> own_keys() {
       process("flow_curve", &ProcessOptions::flow_curve,
               "a file of plastic_strain and sigma_f_MPa: gives the flow stress of contact files "
               "with plastic_strain; linear, held at its ends",
-              "sigma_f_MPa of the contact file", "\"flow_curve.csv\""),
+              "sigma_f_MPa of the contact file", "\"flow_curve.csv\"") |
+          names_files,
       process("tests", &ProcessOptions::tests, "number of tests to propose") | at_least(1, 20),
       process("repeats", &ProcessOptions::repeats,
               "how many of the proposed tests are run twice, to know the scatter") |
@@ -71,7 +74,8 @@ std::vector<KeyRule> own_keys() {
       process("add", &ProcessOptions::add,
               "files of further tests, read as data.training: says what the laws say of the "
               "process with them and without",
-              "none", "\"new_tests.csv\""),
+              "none", "\"new_tests.csv\"") |
+          names_files,
       key(
           "process.constants.*",
           [](Job & job, const std::string& name) -> auto& { return job.process.constants[name]; },

@@ -133,7 +133,8 @@ std::vector<KeyRule> model_keys() {
           Allowed{"friction law", laws_or_all, false, false, true},
       models("files", &ModelOptions::files,
              "files of laws that jobs share: each of their tables is a law, as [models.NAME] is",
-             "none", "\"laws/*.toml\""),
+             "none", "\"laws/*.toml\"") |
+          names_files,
       models("shear_yield", &ModelOptions::shear_yield,
              "shear yield stress k: mises = sigma_f/sqrt(3), tresca = sigma_f/2, flow_stress = "
              "sigma_f (conventions differ between papers)") |

@@ -6,6 +6,7 @@
 
 #include "core/hash.h"
 #include "core/text.h"
+#include "data/file_list.h"
 #include "job/reader.h"
 #include "job/table_law.h"
 
@@ -78,7 +79,11 @@ bool check_table_keys(JobReader& reader, const models::LawText& text) {
 void add_table(JobReader& reader, const models::LawText& text, FaultList& faults) {
   const Place place = reader.place_of("models." + text.name + ".table");
   const auto base = std::filesystem::path(reader.job.file).parent_path();
-  const auto table = read_law_table(text, (base / text.table).string(), place, faults);
+  const std::size_t before = faults.size();
+  data::check_is_there("models." + text.name + ".table", text.table, base.string(), place, faults);
+  const auto table = faults.size() > before
+                         ? std::nullopt
+                         : read_law_table(text, (base / text.table).string(), place, faults);
   models::Law law;
   law.name = text.name; // keeps other checks from reporting that the law does not exist
   if (table) {

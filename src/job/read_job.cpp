@@ -153,7 +153,12 @@ std::vector<TomlNode> read_law_files(JobReader& reader, TomlNode& root) {
   only.job.file = reader.job.file;
   read_value(only, *find_key("models.files"), "models.files", "", *named);
   const std::string base = std::filesystem::path(reader.job.file).parent_path().string();
+  FaultList missing;
+  for (const std::string& name : only.job.models.files)
+    data::check_is_there("models.files", name, base,
+                         only.job.file_places.at({"models.files", name}), missing);
   try {
+    missing.throw_if_any();
     for (const std::string& name : data::find_files(only.job.models.files, base, named->place)) {
       const std::string path = (std::filesystem::path(base) / name).string();
       TomlNode laws = parse_toml(io::read_text_file(path, path, {.bytes = largest_law_file}), path);

@@ -222,6 +222,15 @@ struct ValueReader {
 
 } // namespace
 
+namespace {
+
+void remember_files(Job& job, const std::string& path, const TomlNode& node) {
+  for (const TomlNode& item : node.type == Type::array ? node.items : std::vector{node})
+    job.file_places[{path, item.text}] = item.place;
+}
+
+} // namespace
+
 void read_value(JobReader& reader, const KeyRule& rule, const std::string& path,
                 const std::string& name, const TomlNode& node) {
   reader.places[path] = node.place;
@@ -234,6 +243,7 @@ void read_value(JobReader& reader, const KeyRule& rule, const std::string& path,
       return;
     }
   }
+  if (rule.names_files) remember_files(reader.job, path, node);
   rule.store(reader.job, name, std::move(*value));
 }
 

@@ -59,6 +59,7 @@ struct KeyRule {
   std::string example; // TOML value, for a key without a plain default
   ValueBounds bounds;
   Allowed allowed;
+  bool names_files = false; // its texts are files, folders or globs
   std::function<void(Job&, const std::string& name, KeyValue)> store;
   std::function<std::string(const Job&)> show; // the job's value as TOML, "" where not set
   // Finds a problem of a value that passed all checks above; `what` continues "path ...".

@@ -27,6 +27,7 @@
 #include "data/roles.h"
 #include "data/signs.h"
 #include "effects/extended_law.h"
+#include "job/named_files.h"
 
 namespace frictab::run {
 
@@ -94,6 +95,8 @@ void find_roles(std::span<data::Dataset* const> parts, const data::DataOptions& 
   FaultList faults;
   data::check_texts_to_drop(std::vector<const data::Dataset*>(parts.begin(), parts.end()), options,
                             faults);
+  data::check_filled_columns(std::vector<const data::Dataset*>(parts.begin(), parts.end()), options,
+                             faults);
   data::find_roles(parts, options, faults);
   faults.throw_if_any();
 }
@@ -246,6 +249,7 @@ JobData load_job_data(const job::Job& job) {
 }
 
 JobData load_job_data(const job::Job& job, FaultList& implausible) {
+  job::check_data_files(job);
   check_files(job.data);
   data::ReadRequest options = job.data;
   options.needed = [names = columns_of_laws(job.models)](const std::string& column) {

@@ -10,6 +10,7 @@
 #include "core/large_work.h"
 #include "core/progress.h"
 #include "data/dataset.h"
+#include "job/named_files.h"
 #include "run/stage_functions.h"
 
 namespace frictab::run {
@@ -182,6 +183,7 @@ void run_stage(Run& run, std::string_view name) {
 }
 
 void run_all(Run& run) {
+  job::check_process_files(run.job); // before the stages that take long
   // Stages that the checkpoint covers load its results instead of computing them.
   run.workspace.resume();
   for (const Stage& stage : all_stages())

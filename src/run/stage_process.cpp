@@ -7,6 +7,7 @@
 #include "data/append.h"
 #include "data/load.h"
 #include "data/load_condensed.h"
+#include "job/named_files.h"
 #include "process/process_json.h"
 #include "report/process_page.h"
 #include "run/stage_functions.h"
@@ -50,6 +51,7 @@ std::vector<std::string> lines_of(const process::Process& found) {
 void judge_process(Run& run) {
   // Without [process] in the job, results of `frictab process JOB CONTACT` stay.
   if (run.job.process.contact.empty()) return;
+  job::check_process_files(run.job);
   run.workspace.remove_earlier("process_plan.csv"); // not written where no tests can be proposed
   const JobData& data = *run.data;
   const Dataset all = all_tests(data);

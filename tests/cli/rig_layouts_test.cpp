@@ -163,15 +163,41 @@ TEST_F(RigLayouts, LinesOfTextsBelowTheUnitsArePassedAndCounted) {
                          HasSubstr("\nsigma_n_MPa = \"p\" ")));
   const CommandResult read = test::run_frictab({"data", "job/job.toml"}, directory.path());
   EXPECT_EQ(read.exit_code, 0) << read.err;
-  EXPECT_THAT(
-      read.out,
-      AllOf(HasSubstr("read: a line below the units is not a row: words where numbers follow\n"),
-            HasSubstr("  12  ")));
-  // Units twice, or a cell without text, may mean something else.
-  for (const char* const between : {"s\tMPa\t1\n", "A\t\tB\n"}) {
-    directory.write("a.asc", text(between));
-    EXPECT_EQ(test::run_frictab({"data", "job/job.toml"}, directory.path()).exit_code, 2);
-  }
+  EXPECT_THAT(read.out, AllOf(HasSubstr("read: lines of words below the units, not read: 1\n"),
+                              HasSubstr("  12  ")));
+  // Comments are not given for each column.
+  directory.write("a.asc", text("A\t\tB\n"));
+  EXPECT_THAT(test::run_frictab({"data", "job/job.toml"}, directory.path()).out,
+              HasSubstr("read: lines of words below the units, not read: 1\n"));
+  // Units twice may mean something else.
+  directory.write("a.asc", text("s\tMPa\t1\n"));
+  EXPECT_EQ(test::run_frictab({"data", "job/job.toml"}, directory.path()).exit_code, 2);
+}
+
+TEST_F(RigLayouts, AFileThatIsNotThereIsReportedAtTheLineOfTheJob) {
+  directory.write("t.csv", "experiment,sigma_n_MPa,tau_R_MPa\nA,100,10\nA,101,11\n");
+  directory.write("plan.csv", "experiment,oil\nA,dry\n");
+  const auto refusal = [&](const std::string& keys) {
+    directory.write("job.toml", "schema = \"frictab/job/1\"\n[data]\n" + keys);
+    const CommandResult result = test::run_frictab({"data", "job.toml"}, directory.path());
+    EXPECT_EQ(result.exit_code, 2) << keys;
+    return result.err;
+  };
+  EXPECT_THAT(refusal("training = \"t.csv\"\ntests = \"plann.csv\"\n"),
+              AllOf(HasSubstr("job.toml:4:9: error: data.tests: no such file: 'plann.csv'"),
+                    HasSubstr("did you mean 'plan.csv'?")));
+  EXPECT_THAT(refusal("training = [\"t.csv\", \"tt.csv\"]\n"),
+              HasSubstr("job.toml:3:22: error: data.training: no such file: 'tt.csv'"));
+}
+
+TEST_F(RigLayouts, CellsThatMayBeMergedAreAQuestionOfInit) {
+  std::string text = "Test;Oil;Stress [MPa];Friction [MPa]\n";
+  for (int test = 0; test < 4; ++test)
+    for (int row = 0; row < 5; ++row)
+      text += fmt::format("T{};{};{};{:.1f}\n", test, row == 0 ? (test % 2 ? "PAO" : "dry") : "",
+                          100 + row, 10 + test + 0.1 * row);
+  directory.write("a.csv", text);
+  EXPECT_THAT(guessed("a.csv"), HasSubstr("# fill_down = [\"Oil\"]"));
 }
 
 // What init proposes for one file is read as it is.

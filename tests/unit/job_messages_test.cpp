@@ -48,8 +48,8 @@ TEST(JobMessages, NameTheNearestKnownKey) {
       "job.toml:3:1: error: unknown key 'zzzzzzzz' in [data]\n"
       "  hint: known: drop, columns, constants, roles, files, wide, segments, join, training, "
       "validation, oracle, holdout, delimiter, decimal, thousands, sheet, tests, tests_sheet, "
-      "skip_rows, skip_footer, units_row, header, header_rows, missing_values, missing, rows, "
-      "force_zero, allow_implausible, experiment, recording, condense, above, bystanders");
+      "skip_rows, skip_footer, units_row, header, header_rows, missing_values, fill_down, missing, "
+      "rows, force_zero, allow_implausible, experiment, recording, condense, above, bystanders");
 }
 
 TEST(JobMessages, NameTheRuleOfSomeFiles) {

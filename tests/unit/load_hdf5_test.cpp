@@ -68,6 +68,16 @@ protected:
   }
 };
 
+TEST_F(LoadHdf5, AttributesOfTheFileAreConditionsThatAboveKeeps) {
+  write("rows(f)\nf.attrs['Oil'] = 'PAO 4'");
+  EXPECT_EQ(read_hdf5().find("Oil"), nullptr);
+  options.above = {"Oil"};
+  ASSERT_NE(read_hdf5().find("Oil"), nullptr);
+  EXPECT_THAT(read_hdf5().find("Oil")->levels, ElementsAre("PAO 4"));
+  options.above = {"Oli"};
+  EXPECT_THAT(hdf5_fault(), HasSubstr("no value of the whole file is called 'Oli' (data.above)"));
+}
+
 TEST_F(LoadHdf5, ColumnsOfTwoAxesAreReadAsMatlabWritesThem) {
   write("rows(f)");
   const Dataset flat = read_hdf5();

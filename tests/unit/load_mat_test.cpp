@@ -116,6 +116,27 @@ TEST_F(LoadMat, TextsScalarsLogicalAndMatricesAreRead) {
   EXPECT_EQ(read_mat().values("coil(:,2)")[1], 3);
 }
 
+TEST_F(LoadMat, UnitsThatTheFileHoldsAreThoseOfItsColumns) {
+  const std::string change = "c = columns(); c['tau_R_MPa'] *= 1000\n";
+  const std::string units = "dict(time_s='s', sigma_n_MPa='MPa', tau_R_MPa='kPa', "
+                            "v_rel_mm_s='mm/s')";
+  for (const std::string& how :
+       {"save(units=" + units + ", **c)", "v73(units=" + units + ", **c)",
+        "save(rig=dict(c, units=" + units + "))", std::string("save(tau_R_MPa_unit='kPa', **c)")}) {
+    write(change + how);
+    EXPECT_DOUBLE_EQ(read_mat().values("tau_R_MPa")[19], 90) << how;
+  }
+  write(change + "save(**c)");
+  EXPECT_THAT(mat_fault(), HasSubstr("tau_R")) << "not guessed";
+}
+
+TEST_F(LoadMat, NamesOfAMatrixAreThoseOfItsColumns) {
+  write("c = columns()\nsave(data=numpy.column_stack(list(c.values())), "
+        "names=numpy.array(list(c), dtype=object))");
+  EXPECT_DOUBLE_EQ(read_mat().values("sigma_n_MPa")[19], 900);
+  EXPECT_THAT(read_mat().notes, Contains("columns of 'data' have the names in 'names'"));
+}
+
 TEST_F(LoadMat, WhatIsNotReadIsNamedWithAWayOut) {
   write("save(**columns(), z=numpy.arange(20)*1j, cube=numpy.zeros((2, 3, 4)))");
   EXPECT_THAT(read_mat().notes,

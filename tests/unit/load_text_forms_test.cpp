@@ -108,8 +108,10 @@ TEST_F(LoadTextForms, SegmentsAreIntervalsWithTheirGroups) {
   EXPECT_THAT(column(data, "tau_R_MPa"), ElementsAre(10, 11, 12, 13));
   EXPECT_THAT(column(data, "step"), ElementsAre(1, 1, 2, 2));
   EXPECT_THAT(data.find("oil")->levels, ElementsAre("dry", "oil"));
-  EXPECT_THAT(data.notes, testing::Contains(
-                              "a file with 2 segments of rows: 2 lines outside them are not read"));
+  EXPECT_THAT(data.notes,
+              testing::IsSupersetOf({"runs of rows between lines of data.segments: 2",
+                                     "lines outside these runs, not read: 2",
+                                     "lines outside these runs that hold numbers, as rows do: 1"}));
 }
 
 TEST_F(LoadTextForms, SegmentThatBeginsAboveTheHeaderHoldsTheFirstRows) {
@@ -126,6 +128,22 @@ TEST_F(LoadTextForms, ASegmentThatNeverBeginsLeavesNoRows) {
   EXPECT_THAT(fault("sigma_n_MPa;tau_R_MPa\n100;10\n"), HasSubstr("no rows"));
 }
 
+// ---- merged cells ----
+
+TEST_F(LoadTextForms, EmptyCellsBelowAFilledOneHaveItsValueWhereTheJobSaysSo) {
+  const std::string text =
+      "Oil;sigma_n_MPa;tau_R_MPa;t / degC\nA;100;10;20\n;101;11;\nB;102;12;30\n"
+      ";103;13;\n";
+  options.fill_down = {"Oil", "t"};
+  const Dataset data = read(text);
+  EXPECT_THAT(data.find("Oil")->levels, ElementsAre("A", "B"));
+  EXPECT_THAT(column(data, "t"), ElementsAre(20, 20, 30, 30));
+  EXPECT_THAT(data.notes,
+              testing::Contains("Oil: empty cells with the value above (data.fill_down): 2"));
+  options.fill_down = {};
+  EXPECT_EQ(read(text).find("Oil")->levels.size(), 3u) << "never without the key";
+}
+
 // ---- marks for no value ----
 
 TEST_F(LoadTextForms, ASegmentThatBeginsBelowTheUnitsHoldsItsRows) {
@@ -134,8 +152,8 @@ TEST_F(LoadTextForms, ASegmentThatBeginsBelowTheUnitsHoldsItsRows) {
   const Dataset data =
       read("sigma_n_MPa,tau_R_MPa\nMPa,MPa\n1 Green\n100,10\n2 Fade\n101,11\n102,12\n");
   EXPECT_THAT(column(data, "tau_R_MPa"), ElementsAre(10, 11, 12));
-  EXPECT_THAT(data.notes, testing::Contains(
-                              "a file with 2 segments of rows: 0 lines outside them are not read"));
+  EXPECT_THAT(data.notes, testing::Contains("runs of rows between lines of data.segments: 2"));
+  EXPECT_THAT(data.notes, testing::Not(testing::Contains(HasSubstr("outside these runs"))));
 }
 
 TEST_F(LoadTextForms, ZeroValuesBelowTheUnitsAreNoRow) {
@@ -143,8 +161,7 @@ TEST_F(LoadTextForms, ZeroValuesBelowTheUnitsAreNoRow) {
   const Dataset data = read("time_s;sigma_n_MPa;tau_R_MPa\ns;MPa;MPa\nSR=50 Hz;CH 1;CH 2\n"
                             "Nullwert;0.0;-12.3\n0;100;10\n1;101;11\n");
   EXPECT_THAT(column(data, "tau_R_MPa"), ElementsAre(10, 11));
-  EXPECT_THAT(data.notes, testing::Contains("2 lines below the units are not rows: words where "
-                                            "numbers follow"));
+  EXPECT_THAT(data.notes, testing::Contains("lines of words below the units, not read: 2"));
   EXPECT_THAT(fault("time_s;sigma_n_MPa;tau_R_MPa\ns;MPa;MPa\nNaN;100;10\n1;101;11\n2;102;12\n"),
               HasSubstr("NaN"))
       << "a lost value is reported";

@@ -70,6 +70,21 @@ TEST_F(LoadWorkbook, RulesChooseSheetsOfTheirFiles) {
               ElementsAre("A1", "a/A2", "b/A2"));
 }
 
+TEST_F(LoadWorkbook, RulesMatchSheetsByTheirNames) {
+  book("a.xlsx", {{"dry 1", rows_of(10)}, {"oil 1", rows_of(20)}});
+  data::FileRule rule;
+  rule.labels = {{"film", "oil"}};
+  for (const char* const match : {"oil*", "a.xlsx/oil*"}) {
+    rule.match = match;
+    data::FileRule other = rule;
+    other.match = "*";
+    other.labels = {{"film", "none"}};
+    options.files = {rule, other};
+    const Dataset data = read_book();
+    EXPECT_THAT(data.find("film")->levels, testing::UnorderedElementsAre("none", "oil")) << match;
+  }
+}
+
 TEST_F(LoadWorkbook, NamesOfSheetsGiveConditions) {
   book("a.xlsx", {{"v5_1", rows_of(10)}, {"v50_1", rows_of(20)}});
   data::FileRule rule;

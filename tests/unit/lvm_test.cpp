@@ -166,6 +166,13 @@ TEST_F(Lvm, EveryTruncationAndDamageGivesAFaultOrATable) {
   }
 }
 
+TEST_F(Lvm, TagsOfTheHeaderThatDescribeTheTestAreConditions) {
+  const io::CsvTable table = parse(lines(header() + segment("0|10|5\n0.5|11|6\n")));
+  ASSERT_EQ(table.above.size(), 1u);
+  EXPECT_EQ(table.above[0].name, "Operator");
+  EXPECT_EQ(table.above[0].value, "lab");
+}
+
 class LoadLvm : public test::LoadCase {};
 
 TEST_F(LoadLvm, AJobNeedsNoDialectAndTheExtensionDoesNotMatter) {
