@@ -122,11 +122,14 @@ void check_filled_columns(std::span<const Dataset* const> parts, const DataOptio
       known.push_back(column.name);
   for (const auto& [canonical, source] : options.columns)
     known.insert(known.end(), source.names.begin(), source.names.end());
+  std::erase(known, "");
   const std::set<std::string> in_formulas = names_in_formulas(options);
   for (const std::string& name : options.fill_down) {
     const std::string bare = io::read_header_name(name).name;
     if (std::none_of(known.begin(), known.end(),
-                     [&](const std::string& one) { return one == name || one == bare; }) &&
+                     [&](const std::string& one) {
+                       return one == name || one == bare || io::read_header_name(one).name == name;
+                     }) &&
         !is_named_by(in_formulas, name) && !is_named_by(in_formulas, bare))
       faults.add(options.fill_down_place,
                  fmt::format("data.fill_down: the data have no column '{}'", name),

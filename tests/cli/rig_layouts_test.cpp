@@ -178,16 +178,16 @@ TEST_F(RigLayouts, AFileThatIsNotThereIsReportedAtTheLineOfTheJob) {
   directory.write("t.csv", "experiment,sigma_n_MPa,tau_R_MPa\nA,100,10\nA,101,11\n");
   directory.write("plan.csv", "experiment,oil\nA,dry\n");
   const auto refusal = [&](const std::string& keys) {
-    directory.write("job.toml", "schema = \"frictab/job/1\"\n[data]\n" + keys);
+    directory.write("job.toml", "[data]\n" + keys);
     const CommandResult result = test::run_frictab({"data", "job.toml"}, directory.path());
     EXPECT_EQ(result.exit_code, 2) << keys;
     return result.err;
   };
   EXPECT_THAT(refusal("training = \"t.csv\"\ntests = \"plann.csv\"\n"),
-              AllOf(HasSubstr("job.toml:4:9: error: data.tests: no such file: 'plann.csv'"),
+              AllOf(HasSubstr("job.toml:3:9: error: data.tests: no such file: 'plann.csv'"),
                     HasSubstr("did you mean 'plan.csv'?")));
   EXPECT_THAT(refusal("training = [\"t.csv\", \"tt.csv\"]\n"),
-              HasSubstr("job.toml:3:22: error: data.training: no such file: 'tt.csv'"));
+              HasSubstr("job.toml:2:22: error: data.training: no such file: 'tt.csv'"));
 }
 
 TEST_F(RigLayouts, CellsThatMayBeMergedAreAQuestionOfInit) {
@@ -197,7 +197,7 @@ TEST_F(RigLayouts, CellsThatMayBeMergedAreAQuestionOfInit) {
       text += fmt::format("T{};{};{};{:.1f}\n", test, row == 0 ? (test % 2 ? "PAO" : "dry") : "",
                           100 + row, 10 + test + 0.1 * row);
   directory.write("a.csv", text);
-  EXPECT_THAT(guessed("a.csv"), HasSubstr("# fill_down = [\"Oil\"]"));
+  EXPECT_THAT(guessed("a.csv"), HasSubstr("# fill_down = \"Oil\"\n"));
 }
 
 // What init proposes for one file is read as it is.

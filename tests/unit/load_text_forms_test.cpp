@@ -137,7 +137,7 @@ TEST_F(LoadTextForms, EmptyCellsBelowAFilledOneHaveItsValueWhereTheJobSaysSo) {
   options.fill_down = {"Oil", "t"};
   const Dataset data = read(text);
   EXPECT_THAT(data.find("Oil")->levels, ElementsAre("A", "B"));
-  EXPECT_THAT(column(data, "t"), ElementsAre(20, 20, 30, 30));
+  EXPECT_THAT(column(data, "t / degC"), ElementsAre(20, 20, 30, 30));
   EXPECT_THAT(data.notes,
               testing::Contains("Oil: empty cells with the value above (data.fill_down): 2"));
   options.fill_down = {};
