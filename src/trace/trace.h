@@ -56,7 +56,7 @@ struct EffectCurve {
 
 // Tests to run next, which would settle an open question.
 // Design::like of tests that only have to be like each other.
-inline constexpr const char* alike = "each other, run in this order";
+inline constexpr const char* like_each_other = "each other, run in this order";
 
 struct Design {
   std::vector<std::string> columns;            // columns that the tests vary

@@ -142,7 +142,7 @@ TEST(FirstBox, GivesTheSizeOfASuspectAndTestsInTurn) {
   lead.share = -0.14;
   lead.design = design_of("oil", 0.9, 2);
   lead.design.tests = {{"A"}, {"B"}, {"A"}, {"B"}};
-  lead.design.like = trace::alike;
+  lead.design.like = trace::like_each_other;
   t.leads = {lead};
   EXPECT_THAT(box.text(), HasSubstr("suspected, not proven: oil (p = 0.030, about 14 %)"));
   EXPECT_THAT(box.text(), HasSubstr("run 4 tests in turn with oil = A and with oil = B, otherwise "

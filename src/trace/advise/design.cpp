@@ -375,7 +375,7 @@ Design design_in_turn(const Search& search, const Cause& cause, const std::strin
   for (std::size_t i = 0; i < tests; ++i)
     design.tests.push_back({setting.text[i % 2 == 0 ? ends.low : ends.high]});
   design.columns = {setting.column};
-  design.like = alike;
+  design.like = like_each_other;
   design.settles = {cause_name(cause, search.candidates())};
   if (!other.empty()) design.settles.push_back(other);
   design.probability = probability(tests);
