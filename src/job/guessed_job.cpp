@@ -360,13 +360,16 @@ private:
   // Cells that may have been merged: of a row per test, texts of other rows, names of tests.
   void add_fill_down() {
     std::vector<std::string> names, counts;
+    const auto is_remark = [](const guess::Column& column) {
+      return data::has_word(data::words_of_name(column.name),
+                            {"comment", "remark", "note", "bemerkung", "kommentar"});
+    };
     const auto look_at = [&](const guess::File& file, bool all) {
       for (const guess::Column& column : file.columns)
         if (column.empty_below > 0 && (all || column.text) && column.canonical != "experiment" &&
-            std::ranges::find(names, column.name) == names.end()) {
+            !is_remark(column) && std::ranges::find(names, column.name) == names.end()) {
           names.push_back(column.name);
-          counts.push_back(
-              fmt::format("{} ({} of {})", shown(column.name), column.empty_below, file.row_count));
+          counts.push_back(fmt::format("{} ({} cells)", shown(column.name), column.empty_below));
         }
     };
     const guess::Column* const tests = most_.find("experiment");
