@@ -135,6 +135,7 @@ private:
       const bool closes = lines_[i].starts_with(end_of_special);
       if (lines_[i].starts_with(start_of_special)) opened = i;
       if (!opened) continue;
+      if (i != *opened && !closes) special_lines_.push_back(lines_[i]);
       lines_[i] = {};
       if (closes) opened.reset(), ++special_;
     }
@@ -281,7 +282,9 @@ private:
     note_samples(table);
     add_conditions(table);
     if (special_ > 0)
-      table.notes.push_back(fmt::format("{} blocks ***Start_Special*** are not read", special_));
+      table.notes.push_back(fmt::format("{} blocks ***Start_Special***: only lines of a name and a "
+                                        "value are read",
+                                        special_));
   }
 
   // Operator, description, test name and the like, as lines above the rows.
@@ -306,6 +309,13 @@ private:
       });
     add(of_file_);
     add(same);
+    for (const std::string_view line : special_lines_) {
+      Cells cells = cells_of(line, format_.delimiter);
+      std::erase(cells, "");
+      if (cells.size() == 2 && !is_of_format(cells.front()) &&
+          std::ranges::find(table.above, cells.front(), &CsvAbove::name) == table.above.end())
+        table.above.push_back({cells.front(), cells.back()});
+    }
     if (!different.empty())
       table.notes.push_back("differs between the segments and is not read: " +
                             join(different, ", "));
@@ -420,8 +430,9 @@ private:
   std::size_t data_ = 0;                // first line after the file's header
   Tags of_file_;                        // of the file's header
   std::vector<Segment> segments_;
-  std::vector<std::size_t> short_rows_; // lines without a comment
-  std::size_t special_ = 0;             // blocks
+  std::vector<std::size_t> short_rows_;         // lines without a comment
+  std::vector<std::string_view> special_lines_; // of text_, inside such blocks
+  std::size_t special_ = 0;                     // blocks
 };
 
 } // namespace

@@ -304,8 +304,8 @@ inline constexpr double small_share_of_spread = 0.2;
 // The scatter agrees with repeated tests if it is at most this multiple of their repeatability: few
 // repeats determine it poorly, so that a significance test alone would nearly always agree.
 inline constexpr double repeatability_slack = 1.2;
-// Scatter of repeated tests above which they are no repeats: between laboratories, on their own
-// specimens of one material, the coefficient scatters by 18 % (ASTM G99, recalled).
+// Scatter of repeated tests above which they differ in something else: between laboratories, on
+// their own specimens of one material, the coefficient scatters by 18 % (ASTM G99, recalled).
 inline constexpr double largest_repeatability = 0.2;
 // Least share of the degrees of freedom that the parameters leave in a bound of the noise, and
 // degrees of freedom of repeats from which on they give a repeatability.

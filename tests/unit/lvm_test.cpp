@@ -140,7 +140,9 @@ TEST_F(Lvm, SpecialBlocksAndMissingSamplesAreNoted) {
       header() + "***Start_Special***\nanything|1\n***End_Special***\n" + segment("0|10|5\n")));
   EXPECT_THAT(table.columns[1].numbers, ElementsAre(10));
   EXPECT_THAT(table.notes, Contains("segment 1 has 1 rows, its header counts 2 samples"));
-  EXPECT_THAT(table.notes, Contains("1 blocks ***Start_Special*** are not read"));
+  EXPECT_NE(std::ranges::find(table.above, "anything", &io::CsvAbove::name), table.above.end());
+  EXPECT_THAT(table.notes,
+              Contains("1 blocks ***Start_Special***: only lines of a name and a value are read"));
 }
 
 TEST_F(Lvm, DamageIsReportedWithItsLine) {
