@@ -453,7 +453,8 @@ std::string design_in_short(const trace::Design& d) {
   if (d.tests_needed > static_cast<double>(d.tests.size()))
     chance += fmt::format("; about {:.0f} such tests give 80 %", d.tests_needed);
   return fmt::format("run {}, otherwise {}, {} ({})", tests_in_short(d),
-                     d.like == trace::like_each_other ? "equal" : "like " + d.like, question_of(d), chance);
+                     d.like == trace::like_each_other ? "equal" : "like " + d.like, question_of(d),
+                     chance);
 }
 
 bool gain_is_certain(const Trace& t) {
