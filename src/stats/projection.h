@@ -16,8 +16,8 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
 // Appends the columns of `more` to `to`.
 void append_columns(Eigen::MatrixXd& to, const Eigen::MatrixXd& more);
 
-// Returns the products of each column of `a` with each of `b`; those of the first column of `a` come
-// first.
+// Returns the products of each column of `a` with each of `b`; those of the first column of `a`
+// come first.
 Eigen::MatrixXd products(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 // Root mean square over rows of the length of a row.

@@ -112,9 +112,9 @@ bool are_crossed(const Candidates& candidates, const Cause& texts,
                  std::span<const std::size_t> first);
 
 std::string cause_name(const Cause& cause, const Candidates& candidates);
-// Complexity of a cause: 0 for a recorded column, 1 for the time or a history that every routine with
-// state variables can follow, 2 for one that it can follow for this law, 3 for a derived quantity that no
-// routine follows; 2 more for every column after the first.
+// Complexity of a cause: 0 for a recorded column, 1 for the time or a history that every routine
+// with state variables can follow, 2 for one that it can follow for this law, 3 for a derived
+// quantity that no routine follows; 2 more for every column after the first.
 int complexity(const Cause& cause, const Candidates& candidates);
 bool constant_in_experiments(const Cause& cause, const Candidates& candidates);
 
