@@ -286,14 +286,14 @@ std::string structure_text(const Trace& t) {
   if (t.validation_shift.found)
     return fmt::format("the validation tests lie {:+.2g} % off the training tests",
                        100 * t.validation_shift.share);
-  if (t.repeatability && t.scatter_between > *t.repeatability)
-    return fmt::format("single tests lie typically {:.2g} % off the law, repeats {:.2g} %: cause "
-                       "unknown",
-                       100 * t.scatter_between, 100 * *t.repeatability);
   if (trace::repeats_differ(t))
     return fmt::format("repeated tests scatter by {:.2g} %, more than any rig: something that no "
                        "column records differs between them",
                        100 * *t.repeatability);
+  if (t.repeatability && t.scatter_between > *t.repeatability)
+    return fmt::format("single tests lie typically {:.2g} % off the law, repeats {:.2g} %: cause "
+                       "unknown",
+                       100 * t.scatter_between, 100 * *t.repeatability);
   return "unexplained structure";
 }
 
