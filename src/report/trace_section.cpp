@@ -179,8 +179,9 @@ std::string effect_plots(const ReportInput& input, const trace::Trace& trace,
   Values x = values_of(input_of_effect);
   if (effect.placed.form->texts == 2) {
     const effects::EffectInput& second = effect.placed.inputs[1];
+    const Values y = values_of(second);
     for (std::size_t i = 0; i < x.size(); ++i)
-      pairs.push_back(static_cast<double>(second.levels.size()) * x[i] + values_of(second)[i]);
+      pairs.push_back(static_cast<double>(second.levels.size()) * x[i] + y[i]);
     x = pairs;
   }
   const std::vector<double> r0 = residuals_of(input, *own), r1 = residuals_of(input, *extended);

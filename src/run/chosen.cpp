@@ -87,7 +87,9 @@ std::vector<const ModelFit*> simpler_laws(const calibrate::Calibration& calibrat
     const std::string& name = fit->model.law->name;
     return name == r.law || std::ranges::find(r.as_good, name) != r.as_good.end();
   };
-  const auto numbers = [](const ModelFit* fit) { return fit->model.law->parameters.size(); };
+  const auto numbers = [&](const ModelFit* fit) {
+    return calibrate::numbers_of(*fit, calibration.fits);
+  };
   Fits as_good;
   std::ranges::copy_if(simpler, std::back_inserter(as_good), is_as_good);
   if (!as_good.empty()) add_once(laws, **std::ranges::min_element(as_good, {}, numbers));

@@ -37,14 +37,19 @@ constexpr std::size_t pairs_named = 3; // pairs of texts that were not searched
 // Notes pairs of texts of which too few tests have some pairs of levels.
 void note_pairs_not_searched(const Search& search, std::vector<std::string>& notes) {
   const Candidates& candidates = search.candidates();
+  std::vector<std::size_t> texts;
+  for (std::size_t c = 0; c < candidates.columns.size(); ++c)
+    if (!candidates.columns[c].levels.empty() && candidates.columns[c].between) texts.push_back(c);
   std::vector<std::string> pairs;
-  for (const Cause& cause : all_causes(candidates))
-    if (candidates.texts_of(cause) == 2 && !are_crossed(candidates, cause, search.first()))
-      pairs.push_back(cause_name(cause, candidates));
-  if (pairs.size() > pairs_named) pairs = {pairs.begin(), pairs.begin() + pairs_named};
-  if (!pairs.empty())
-    notes.push_back(fmt::format("{}, as not every pair of levels has {} tests{}", join(pairs, ", "),
-                                tuning::fewest_tests_of_pair, not_searched));
+  for (std::size_t a = 0; a < texts.size(); ++a)
+    for (std::size_t b = a + 1; b < texts.size(); ++b)
+      if (const Cause pair{{texts[a], texts[b]}}; !are_crossed(candidates, pair, search.first()))
+        pairs.push_back(cause_name(pair, candidates));
+  if (pairs.empty()) return;
+  const std::size_t more = pairs.size() - std::min(pairs.size(), pairs_named);
+  pairs.resize(pairs.size() - more);
+  notes.push_back(fmt::format("{}{}, as not every pair of levels has {} tests{}", join(pairs, ", "),
+                              and_more(more, "pair"), tuning::fewest_tests_of_pair, not_searched));
 }
 
 // Lists what was tried, and what would have been seen.

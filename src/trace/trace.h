@@ -54,10 +54,10 @@ struct EffectCurve {
   std::vector<double> point_x, point_factor; // partial residuals of blocks, binned per experiment
 };
 
-// Tests to run next, which would settle an open question.
 // Design::like of tests that only have to be like each other.
 inline constexpr const char* like_each_other = "each other, run in this order";
 
+// Tests to run next, which would settle an open question.
 struct Design {
   std::vector<std::string> columns;            // columns that the tests vary
   std::vector<std::vector<std::string>> tests; // one value per column; empty: no test settles it

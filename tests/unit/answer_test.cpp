@@ -44,6 +44,14 @@ trace::Design design_of(const std::string& cause, double probability, double nee
   return {{"oil"}, {{"A"}, {"A"}}, "E3", {cause}, probability, needed};
 }
 
+trace::Trace& nothing_found(Box& box) {
+  trace::Trace& t = box.traces.emplace_back();
+  t.model = "coulomb";
+  t.verdict = trace::Verdict::nothing_found;
+  t.least_p_value = 0.001;
+  return t;
+}
+
 } // namespace
 
 TEST(FirstBox, NamesTheLawAndThoseThatMayBeAsGood) {
@@ -103,10 +111,7 @@ TEST(FirstBox, HasTheLevelsOfATextInput) {
 
 TEST(FirstBox, PutsTestsThatWouldProbablySettleNothingLast) {
   Box box;
-  trace::Trace& t = box.traces.emplace_back();
-  t.model = "coulomb";
-  t.verdict = trace::Verdict::nothing_found;
-  t.least_p_value = 0.001;
+  trace::Trace& t = nothing_found(box);
   trace::Lead lead;
   lead.name = "oil x psi";
   lead.columns = {"oil", "psi"};
@@ -131,10 +136,7 @@ TEST(FirstBox, PutsTestsThatWouldProbablySettleNothingLast) {
 
 TEST(FirstBox, GivesTheSizeOfASuspectAndTestsInTurn) {
   Box box;
-  trace::Trace& t = box.traces.emplace_back();
-  t.model = "coulomb";
-  t.verdict = trace::Verdict::nothing_found;
-  t.least_p_value = 0.001;
+  trace::Trace& t = nothing_found(box);
   trace::Lead lead;
   lead.name = "oil";
   lead.columns = {"oil"};

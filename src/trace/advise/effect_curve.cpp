@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/columns.h"
 #include "effects/extended_law.h"
@@ -21,8 +22,8 @@ std::vector<double> plot_positions(const effects::PlacedEffect& effect) {
   std::vector<double> x;
   const effects::EffectInput& input = effect.inputs[0];
   if (effect.form->texts > 0) {
-    for (std::size_t level = 0; level < effects::level_names(effect).size(); ++level)
-      x.push_back(static_cast<double>(level));
+    x.resize(effects::level_names(effect).size());
+    std::iota(x.begin(), x.end(), 0.0);
     return x;
   }
   for (std::size_t i = 0; i < curve_points; ++i)

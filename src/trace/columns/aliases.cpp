@@ -69,14 +69,13 @@ std::vector<State> states_of(const Dataset& data, const models::Model& model) {
   std::vector<State> states;
   for (const Column& column : data.columns) {
     const std::string& name = column.name;
-    const data::Quantity* quantity = data::find_quantity(name);
     const bool in_law = contains(inputs, name);
     // The flow stress follows from the material.
-    if (!quantity || !quantity->state || name == "s_mm" || (name == "sigma_f_MPa" && !in_law))
-      continue;
+    if (!names_state(name) || (name == "sigma_f_MPa" && !in_law)) continue;
     State state{name, test_means(data, column.values), {}, in_law};
     if (!differs_between_tests(data, state)) continue;
-    const bool log = quantity->log_axis && *std::ranges::min_element(state.means) > 0;
+    const bool log =
+        data::find_quantity(name)->log_axis && *std::ranges::min_element(state.means) > 0;
     for (const double mean : state.means)
       state.at.push_back(log ? std::log(mean) : mean);
     states.push_back(std::move(state));
@@ -213,11 +212,12 @@ std::vector<Alias> find_aliases(const Dataset& training, const models::Model& mo
   const std::size_t tests = training.experiments.size();
   if (tests < tuning::fewest_tests_for_aliases) return aliases;
   const std::vector<State> states = states_of(training, model);
+  const data::Units units = data::units_of(training);
   for (const Column& column : training.columns) {
     if (!may_act(column, options)) continue;
     const std::vector<double> setting = setting_of(column, training);
     if (setting.empty()) continue;
-    if (names_recordings(column, setting, data::units_of(training)))
+    if (names_recordings(column, setting, units))
       aliases.push_back(
           {column.name, "the recording", 1,
            fmt::format("{} cannot be distinguished from the recording: each of its "

@@ -140,7 +140,7 @@ public:
     // States first: of two columns that are the same, the state is the cause.
     for (const bool states : {true, false})
       for (const Column& column : training_.columns)
-        if (is_state(column.name) == states && allowed(column)) add_recorded(column);
+        if (names_state(column.name) == states && allowed(column)) add_recorded(column);
     for (const data::DerivedQuantity& quantity : data::derived_quantities())
       if (possible(quantity)) add_derived(quantity);
     return std::move(found_);
@@ -302,7 +302,7 @@ private:
   std::string state_of_intervals(const Column& interval) const {
     const std::vector<std::size_t> recording = data::units_of(training_).of;
     for (const Column& column : training_.columns) {
-      if (!is_state(column.name) || is_constant(column.values)) continue;
+      if (!names_state(column.name) || is_constant(column.values)) continue;
       std::vector<double> change = test_means(training_, column.values);
       const bool ratios = *std::ranges::min_element(change) > 0;
       std::map<std::size_t, double> reference; // of each recording, its first interval
@@ -325,11 +325,6 @@ private:
       if (all > 0 && left < (1 - tuning::aliased_share_of_variance) * all) return column.name;
     }
     return "";
-  }
-
-  static bool is_state(const std::string& name) {
-    const data::Quantity* known = data::find_quantity(name);
-    return known && known->state && name != "s_mm";
   }
 
   // Notes why a column is not searched.
@@ -602,9 +597,13 @@ std::vector<Cause> all_causes(const Candidates& candidates) {
   return all;
 }
 
+bool names_state(const std::string& name) {
+  const data::Quantity* known = data::find_quantity(name);
+  return known && known->state && name != "s_mm";
+}
+
 bool is_state(const CandidateColumn& column) {
-  const data::Quantity* known = data::find_quantity(column.name);
-  return (column.in_law || (known && known->state)) && column.name != "s_mm" &&
+  return (column.in_law || names_state(column.name)) && column.name != "s_mm" &&
          column.name != "time_s";
 }
 

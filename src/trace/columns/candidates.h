@@ -90,6 +90,8 @@ double usual_range(std::span<const double> values, const data::Dataset& data);
 // Whether any test has different values.
 bool varies_within(std::span<const double> values, const data::Dataset& data);
 
+// Whether a column has the name of a state that a rig sets: not of a distance.
+bool names_state(const std::string& name);
 // Whether a column is a state that a rig sets and a law may depend on: not time or distance.
 bool is_state(const CandidateColumn& column);
 // Returns the test means of the states that differ between tests, each scaled to mean 0 and

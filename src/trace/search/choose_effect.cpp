@@ -260,8 +260,8 @@ void keep_promising(double share, std::size_t index, std::vector<Start>& starts,
 
 // Puts the best factor first unless an addition to tau_R is not only likelier but errs less too:
 // the likelihood counts relative deviations, and two tests at a low pressure that a drift has
-// raised can decide it. Measured: otherwise a factor of 1.22 became "+14 to +43 MPa" in 7 of 9
-// campaigns of a drifting rig, in 3 of them with a false effect of the pressure.
+// raised can decide it. Measured: otherwise a factor of 1.22 became "+11 to +23 MPa" in 6 of 9
+// campaigns of a drifting rig, and in a seventh a pressure without an effect got "+43 MPa".
 void prefer_factor(const Search& search, std::size_t index, std::vector<Rival>& rivals) {
   const auto is_added = [&](const Rival& rival) {
     return rival.effects[index].acts_on == effects::ActsOn::tau;
